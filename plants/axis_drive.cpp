@@ -247,6 +247,11 @@ void AxisDrive::offer_events(std::vector<EventType>& types) {
                    {{"torque", "N m"}, {"closed", ""}},
                    "a contactor between a shared drive and its motors has opened (closed 0) or closed (1) "
                    "while the drive was on: it burns, or the motor jumps; torque that it has interrupted"});
+  types.push_back({"pulled_out",
+                   {{"speed", "rpm"}, {"slip", "rpm"}},
+                   "the motor has lost its load: on the mains beyond its pull-out torque, on an inverter at "
+                   "the torque limit, it does not come nearer to the speed of its field for half a second, "
+                   "or the load drives it away from there; speed of the motor and slip then"});
   PowerStage::offer_events(types);
 }
 

@@ -1,5 +1,7 @@
 #include "plants/contactor_drive.hpp"
 
+#include <cmath>
+
 namespace drycut::plants {
 
 ContactorDrive::ContactorDrive(const ContactorData& data, const InductionMotorData& motor)
@@ -31,6 +33,8 @@ void ContactorDrive::drive(Shaft& rotor, double h) {
     last_ = {torque_, loss, 0, true};
   }
   rotor.add_torque(torque_);
+  const bool beyond = !phase_lost_ && std::abs(slip_) > winding.pullout_slip();
+  if (pullout_.update(beyond, field_, rotor.speed, h)) power_.pulled_out(rotor.speed, slip_);
 }
 
 void ContactorDrive::offer_faults(std::vector<Fault>& faults) {

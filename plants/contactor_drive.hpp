@@ -3,6 +3,7 @@
 
 #include "plants/delayed_contact.hpp"
 #include "plants/induction_motor.hpp"
+#include "plants/pullout_watch.hpp"
 #include "plants/world.hpp"
 
 namespace drycut::plants {
@@ -68,6 +69,7 @@ class ContactorDrive {
   double slip_ = 0;
   double torque_ = 0;
   bool phase_lost_ = false;
+  PulloutWatch pullout_;
 };
 
 }  // namespace drycut::plants

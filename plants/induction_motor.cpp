@@ -53,7 +53,8 @@ DriveRatings ratings(const InductionMotorData& data, double peak) {
           .peak_torque = peak,
           .torque_at_max_speed = peak,
           .rated_speed = winding.rated_speed,
-          .max_speed = data.max_speed};
+          .max_speed = data.max_speed,
+          .works_at_limit = true};
 }
 
 Parameters winding_parameters(WindingData& data, std::string_view source) {

@@ -30,6 +30,7 @@ Inverter::Inverter(const InverterData& data, const InductionMotorData& motor)
       limit_slip_(winding_.slip(data.torque_limit)) {}
 
 void Inverter::ramp(double target, double h) {
+  target_ = target;
   if (field_ * target < 0) {  // a reversal goes down to 0 first and takes its second ramp from there
     const double to_zero = std::abs(field_) / rated_field_ * data_.deceleration;
     if (to_zero > h) {
@@ -113,6 +114,7 @@ void Inverter::drive(Shaft& rotor, double h, const Feed& feed) {
   }
   last_.motor = feed.motor;
   rotor.add_torque(torque_);
+  if (pullout_.update(limited_, target_, rotor.speed, h)) power_.pulled_out(rotor.speed, slip_);
 }
 
 void Inverter::offer_faults(std::vector<Fault>& faults) {

@@ -4,6 +4,7 @@
 
 #include "plants/delayed_contact.hpp"
 #include "plants/induction_motor.hpp"
+#include "plants/pullout_watch.hpp"
 #include "plants/world.hpp"
 
 namespace drycut::plants {
@@ -88,6 +89,8 @@ class Inverter {
   double slip_ = 0;
   double torque_ = 0;
   double limit_slip_;
+  double target_ = 0;  // speed of the field at the end of the ramp
+  PulloutWatch pullout_;
   bool limited_ = false;
   bool live_ = false;
   bool trip_ = false;

@@ -43,6 +43,17 @@ double DriveRatings::peak(double speed) const {
   return std::max(0.0, torque_at_max_speed * (1 - overspeed));
 }
 
+DriveTotals DriveTotals::combined(const DriveTotals& other, double sign) const {
+  DriveTotals sum = *this;
+  for (double DriveTotals::*const one :
+       {&DriveTotals::time, &DriveTotals::work, &DriveTotals::copper, &DriveTotals::rotor_loss,
+        &DriveTotals::from_mains, &DriveTotals::in_resistor, &DriveTotals::torque_squared,
+        &DriveTotals::current_squared, &DriveTotals::fed_squared, &DriveTotals::travel,
+        &DriveTotals::saturated})
+    sum.*one += sign * other.*one;
+  return sum;
+}
+
 PowerStage::PowerStage(const MotorCurrent& current, const MotorHeatData& heat, const DriveRatings& ratings,
                        const std::optional<AmplifierData>& amplifier, const std::optional<SupplyData>& link)
     : ratings_(ratings),
@@ -149,6 +160,11 @@ void PowerStage::settle(double h) {
 void PowerStage::trip(std::string_view event, std::vector<Event::Value> values) {
   tripped_ = true;
   events_.push_back({event, 1, std::move(values)});
+}
+
+void PowerStage::pulled_out(double speed, double slip) {
+  events_.push_back(
+      {"pulled_out", 1, {{"speed", speed * units::rpm, "rpm"}, {"slip", slip * units::rpm, "rpm"}}});
 }
 
 void PowerStage::watch(bool energised) {

@@ -47,6 +47,9 @@ struct DriveRatings {
   double torque_at_max_speed = 0;  ///< largest there, falling linearly from rated speed [N m]
   double rated_speed = 0;          ///< [rad/s]
   double max_speed = 0;            ///< [rad/s]; no driving torque is left 5 % above
+  /// The torque limit acts in normal work: an inverter's ramp waits at it, a motor on the mains passes its
+  /// pull-out torque whenever it starts.
+  bool works_at_limit = false;
 
   [[nodiscard]] double continuous(double speed) const;  ///< torque for ever: S1 [N m]
   [[nodiscard]] double peak(double speed) const;        ///< largest driving torque [N m]
@@ -65,6 +68,12 @@ struct DriveTotals {
   double fed_squared = 0;      ///< integral, of the amplifier: of all motors that it feeds by turns [A2 s]
   double travel = 0;           ///< integral of the speed's size [rad]
   double saturated = 0;        ///< time in which the torque limit acted [s]
+
+  [[nodiscard]] DriveTotals operator+(const DriveTotals& more) const { return combined(more, 1); }
+  [[nodiscard]] DriveTotals operator-(const DriveTotals& less) const { return combined(less, -1); }
+
+ private:
+  [[nodiscard]] DriveTotals combined(const DriveTotals& other, double sign) const;
 };
 
 /// The largest of a drive since they were forgotten last.
@@ -127,6 +136,8 @@ class PowerStage {
   void reset() { tripped_ = false; }
   /// Switched off by what another motor on it has told.
   void switch_off() { tripped_ = true; }
+  /// Its motor has lost its load (PulloutWatch), with such a speed and slip [rad/s].
+  void pulled_out(double speed, double slip);
   /// It never trips from now on: for who measures a loop for longer than a drive would bear.
   void disarm() { armed_ = false; }
   /// Share of its speeds that the link's voltage leaves to the motor, at most 1.

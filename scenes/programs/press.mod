@@ -43,6 +43,10 @@ gaQuota[5] = 16000
 gaQuota[6] = 35000
 
 WHILE (gbTour LT slTours)
+    IF gbTour
+        tmRest = slPause
+        WAIT tmRest
+    ENDIF
     gbTour = gbTour + 1
     FOR (gbPlace = 1, gbPlace LE cPlaces, 1)
         WAIT ifStart              ; switched off, the ram rests after the placement that runs

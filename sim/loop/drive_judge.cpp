@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
+#include "base/text.hpp"
 #include "base/units.hpp"
 
 namespace drycut::sim::loop {
@@ -20,7 +22,8 @@ constexpr std::size_t fewest_in_a_row = 3;  // that are judged where the order c
 constexpr std::size_t most_points = 20000;
 constexpr double good = 0.9;             // of a rating; above, a figure warns
 constexpr double most_saturated = 0.01;  // of the time of cycles
-constexpr double unsteady = 0.2;         // a cycle that differs by more from the one before does not count
+constexpr double alike = 0.01;           // rms torques of a steady cycle and the one before
+constexpr double turning = 1e-3;         // of the rated speed: slower a motor stands
 constexpr double percent = 100;
 
 // The share of the speed at which a figure would be at 90 % of its rating. `constant`: the share of the
@@ -45,7 +48,22 @@ double advised_for(const DriveFigure& figure, double constant) {
   return 1;
 }
 
-constexpr std::array<std::string_view, 3> trip_events = {"overload", "bus_overvoltage", "bus_undervoltage"};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> trip_events = {
+    {{"overload", "tripped by overload"},
+     {"bus_overvoltage", "tripped by overvoltage"},
+     {"bus_undervoltage", "tripped by undervoltage"},
+     {"pulled_out", "pulled out"}}};
+
+double rms_torque(const plants::DriveTotals& stretch) {
+  return std::sqrt(stretch.torque_squared / stretch.time);
+}
+
+bool is_alike(double rms, double before) { return std::abs(rms - before) <= alike * before; }
+
+template <typename Row>
+plants::DriveTotals sum_of(Row from, Row until) {
+  return std::accumulate(from, until, plants::DriveTotals{});
+}
 
 }  // namespace
 
@@ -68,94 +86,113 @@ const DriveFigure& DriveVerdict::tightest() const {
 
 DriveJudge::DriveJudge(const scenario::Scenario& scenario, const std::vector<NamedPlant>& plants)
     : judged_(scenario.drives.judge), cycle_(scenario.drives.cycle) {
-  next_ = cycle_;
   for (const auto& [name, plant] : plants)
-    for (const auto& drive : plant->drives()) {
-      drives_.push_back({name, drive.name, drive.stage, drive.load_inertia, drive.alike});
-      if (cycle_ > 0) begin_cycles(drives_.back());
-    }
+    for (const auto& drive : plant->drives())
+      drives_.push_back(
+          {name, drive.name, drive.stage, drive.load_inertia, drive.alike, DriveCycles(seconds(cycle_))});
 }
 
-void DriveJudge::begin_cycles(Drive& drive) {
-  drive.begun = true;
-  drive.ends = {drive.stage->totals()};
-  drive.stage->forget_peaks();
+void DriveJudge::AtLimit::add(const AtLimit& more) {
+  if (times == 0) first = more.first;
+  times += more.times;
+  seconds += more.seconds;
 }
 
-void DriveJudge::end_cycle(Drive& drive, bool any) {
-  const auto& now = drive.stage->totals();
-  const auto& last = drive.ends.back();
-  const double cycle = now.time - last.time;
-  if (cycle <= 0) return;
-  const double before = std::exchange(drive.last, cycle);
-  if (!any && std::abs(cycle - before) > unsteady * before) {
-    if (drive.ends.size() > fewest_in_a_row && drive.ends.size() <= cycles_in_a_row)
-      judge(drive, drive.ends.front(), last);
-    drive.ends = {now};
+void DriveJudge::end_cycle(Drive& drive, DriveCycles::Ended ended) {
+  if (ended == DriveCycles::Ended::nothing) return;
+  const auto at_limit = std::exchange(drive.in_cycle, {});
+  if (ended == DriveCycles::Ended::does_not_count) {
+    drive.elsewhere.add(at_limit);
+    if (drive.row.size() >= fewest_in_a_row && drive.row.size() < cycles_in_a_row) judge_row(drive);
+    drive.row.clear();
     return;
   }
-  drive.cycle_points.add((now.travel - last.travel) / cycle,
-                         std::sqrt((now.torque_squared - last.torque_squared) / cycle));
-  ++drive.cycles;
-  drive.worst.saturated_once = std::max(drive.worst.saturated_once, (now.saturated - last.saturated) / cycle);
-  drive.energy += now.from_mains - last.from_mains;
-  drive.ends.push_back(now);
-  if (drive.ends.size() > cycles_in_a_row + 1) drive.ends.pop_front();
-  if (drive.ends.size() > cycles_in_a_row) judge(drive, drive.ends.front(), now);
+  const auto& cycle = drive.cycles.last();
+  const double rms = rms_torque(cycle);
+  if (!drive.row.empty() && is_alike(rms, rms_torque(drive.row.back()))) drive.steady = cycle;
+  drive.cycle_points.add(cycle.travel / cycle.time, rms);
+  ++drive.counted;
+  drive.energy += cycle.from_mains;
+  drive.worst.saturated_once = std::max(drive.worst.saturated_once, cycle.saturated / cycle.time);
+  drive.row.push_back(cycle);
+  if (drive.row.size() > cycles_in_a_row) drive.row.pop_front();
+  if (drive.row.size() < cycles_in_a_row) return;
+  judge_row(drive);
+  const auto middle = drive.row.begin() + cycles_in_a_row / 2;
+  drive.even = drive.even || is_alike(rms_torque(sum_of(middle, drive.row.end())),
+                                      rms_torque(sum_of(drive.row.begin(), middle)));
 }
 
-void DriveJudge::judge(Drive& drive, const plants::DriveTotals& from, const plants::DriveTotals& until) {
-  auto& worst = drive.worst;
-  drive.judged = true;
-  const double time = until.time - from.time;
-  const double torque = std::sqrt((until.torque_squared - from.torque_squared) / time);
-  const double speed = (until.travel - from.travel) / time;
-  const double share = torque / drive.stage->ratings().continuous(speed);
-  if (share >= worst.share) {
-    worst.torque = torque;
-    worst.speed = speed;
-    worst.share = share;
+void DriveJudge::judge_row(Drive& drive) {
+  drive.judged = std::max(drive.judged, drive.row.size());
+  drive.worst.take(sum_of(drive.row.begin(), drive.row.end()), drive.stage->ratings());
+}
+
+// What was not judged in a row of ten. Returns of which window the means are; "" = of no cycles.
+std::string DriveJudge::judge_rest(Drive& drive) {
+  const auto& ratings = drive.stage->ratings();
+  if (drive.judged == 0 && !drive.steady && drive.row.empty()) {
+    if (const auto run = drive.stage->totals() - drive.cycles.before_motion(); run.time > 0)
+      drive.worst.take(run, ratings);
+    return "";
+  }
+  if (drive.judged < cycles_in_a_row && drive.steady) drive.worst.take(*drive.steady, ratings);
+  if (drive.judged > 0) return fmt::format("worst {} cycles in a row", drive.judged);
+  if (drive.steady) return "steady cycle";
+  judge_row(drive);
+  return drive.row.size() == 1 ? "the one cycle" : fmt::format("mean of {} cycles", drive.row.size());
+}
+
+void DriveJudge::Worst::take(const plants::DriveTotals& stretch, const plants::DriveRatings& ratings) {
+  const double rms = rms_torque(stretch);
+  const double mean_speed = stretch.travel / stretch.time;
+  if (const double of_all = rms / ratings.continuous(mean_speed); of_all >= share) {
+    torque = rms;
+    speed = mean_speed;
+    share = of_all;
     // What accelerates and brakes again does no work over a cycle.
-    const double travel = until.travel - from.travel;
-    const double friction = travel > 0 ? (until.work - from.work) / travel : 0;
-    worst.constant = torque > 0 ? std::min(1.0, friction * friction / (torque * torque)) : 0;
+    const double friction = stretch.travel > 0 ? stretch.work / stretch.travel : 0;
+    constant = rms > 0 ? std::min(1.0, friction * friction / (rms * rms)) : 0;
   }
-  const double current_squared = (until.current_squared - from.current_squared) / time;
-  if (current_squared >= worst.current_squared) {
-    worst.current_squared = current_squared;
-    worst.rotor_loss = (until.rotor_loss - from.rotor_loss) / time;
+  if (const double squared = stretch.current_squared / stretch.time; squared >= current_squared) {
+    current_squared = squared;
+    rotor_loss = stretch.rotor_loss / stretch.time;
   }
-  worst.fed_squared = std::max(worst.fed_squared, (until.fed_squared - from.fed_squared) / time);
-  worst.resistor = std::max(worst.resistor, (until.in_resistor - from.in_resistor) / time);
-  worst.saturated = std::max(worst.saturated, (until.saturated - from.saturated) / time);
+  fed_squared = std::max(fed_squared, stretch.fed_squared / stretch.time);
+  resistor = std::max(resistor, stretch.in_resistor / stretch.time);
+  saturated = std::max(saturated, stretch.saturated / stretch.time);
 }
 
-void DriveJudge::sample(Time now) {
-  const bool over = cycle_ > 0 && now >= next_;
-  while (cycle_ > 0 && now >= next_) next_ += cycle_;
+void DriveJudge::sample(Time /*now*/) {
   for (auto& drive : drives_) {
-    if (over) end_cycle(drive, true);
-    drive.points.add(drive.stage->speed(), drive.stage->torque());
+    const auto& stage = *drive.stage;
+    const bool turns = std::abs(stage.speed()) > turning * stage.ratings().rated_speed;
+    end_cycle(drive, drive.cycles.sample(stage.totals(), turns));
+    drive.points.add(stage.speed(), stage.torque());
   }
 }
 
 void DriveJudge::happened(const RecordedEvent& event) {
   for (auto& drive : drives_) {
     if (drive.plant != event.source) continue;
-    if (std::find(trip_events.begin(), trip_events.end(), event.event) != trip_events.end())
-      drive.trips.push_back(fmt::format("{} at {:.3f} s", event.event, event.at_seconds()));
-    if (cycle_ > 0 || event.event != "cut") continue;
-    if (drive.begun)
-      end_cycle(drive, false);
-    else
-      begin_cycles(drive);
+    for (const auto& [name, words] : trip_events)
+      if (event.event == name)
+        drive.trips.push_back(fmt::format("{} at {:.3f} s", words, event.at_seconds()));
+    const auto* begin = event.find("begin");
+    const auto* end = event.find("end");
+    if (event.event == "saturated" && begin != nullptr && end != nullptr)
+      (drive.cycles.running() ? drive.in_cycle : drive.elsewhere)
+          .add({1, end->number - begin->number, begin->number});
+    if (event.event != "cut") continue;
+    if (cycle_ == 0 && !drive.cycles.running()) drive.stage->forget_peaks();
+    end_cycle(drive, drive.cycles.cut(drive.stage->totals()));
   }
 }
 
 double DriveJudge::cycle_of(const std::string& plant, Time now) const {
   if (cycle_ > 0) return seconds(cycle_);
   for (const auto& drive : drives_)
-    if (drive.plant == plant && drive.last > 0) return drive.last;
+    if (drive.plant == plant && drive.cycles.last().time > 0) return drive.cycles.last().time;
   return seconds(now);
 }
 
@@ -164,14 +201,15 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
   DriveVerdict verdict;
   verdict.drive = drive.plant + "." + drive.name;
   verdict.ratings = stage.ratings();
-  const bool whole = drive.cycles == 0;
-  if (whole && stage.totals().time > 0)
-    judge(drive, {}, stage.totals());
-  else if (!drive.judged && drive.ends.size() > 1)
-    judge(drive, drive.ends.front(), drive.ends.back());  // fewer than ten are judged as they are
-  verdict.cycles = whole        ? "the whole run: no cycle from cut to cut, none named (drives.cycle)"
-                   : cycle_ > 0 ? fmt::format("{} cycles of {} s", drive.cycles, seconds_text(cycle_))
-                                : fmt::format("{} cycles from cut to cut", drive.cycles);
+  auto means = judge_rest(drive);
+  const bool whole = means.empty();
+  if (whole) means = "from the first motion on";
+  const std::string peaks_from =
+      cycle_ == 0 && drive.cycles.running() ? "from the first cut on" : "whole run";
+  verdict.cycles = whole ? "the whole run: no cycle from cut to cut, none named (drives.cycle)"
+                   : cycle_ > 0
+                       ? fmt::format("{} of {} s", counted(drive.counted, "cycle"), seconds_text(cycle_))
+                       : fmt::format("{} from cut to cut", counted(drive.counted, "cycle"));
   verdict.alike = drive.alike;
   if (drive.alike > 1) verdict.cycles += fmt::format(", each of {} drives", drive.alike);
   const auto& worst = drive.worst;
@@ -179,50 +217,89 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
   const auto& ratings = verdict.ratings;
   using Goes = DriveFigure::Goes;
   const auto add = [&](std::string name, double value, double rating, std::string unit, Goes goes,
-                       bool judged = true) {
+                       bool judged, const std::string& window) {
     const double share = rating > 0 ? value / rating : value > 0 ? 2 : 0;
-    verdict.figures.push_back({std::move(name), value, rating, std::move(unit), share, goes, judged});
+    verdict.figures.push_back({std::move(name), value, rating, std::move(unit), share, goes, judged, window});
   };
   const auto over_ambient = [](double kelvin) { return kelvin - plants::MotorHeat::ambient; };
   const double winding_limit = over_ambient(stage.temperature_limit());
-  add("rms torque", worst.torque, ratings.continuous(worst.speed), "N m", Goes::as_the_torque, !whole);
+  add("rms torque", worst.torque, ratings.continuous(worst.speed), "N m", Goes::as_the_torque, !whole, means);
   add("peak torque", peaks.torque, peaks.share > 0 ? peaks.torque / peaks.share : ratings.peak_torque, "N m",
-      Goes::as_the_torque);
-  add("largest speed", peaks.speed * units::rpm, ratings.max_speed * units::rpm, "rpm", Goes::as_the_speed);
+      Goes::as_the_torque, !ratings.works_at_limit, peaks_from);
+  add("largest speed", peaks.speed * units::rpm, ratings.max_speed * units::rpm, "rpm", Goes::as_the_speed,
+      true, peaks_from);
   const double current = std::sqrt(worst.current_squared);
   add("rms current, for the winding", current, std::sqrt(stage.current_squared_for_ever(worst.rotor_loss)),
-      "A", Goes::as_the_torque, !whole);
+      "A", Goes::as_the_torque, !whole, means);
   const double steady = stage.steady_temperature(worst.current_squared, worst.rotor_loss);
   if (std::isfinite(steady))
-    add("winding over 40 degC, for ever", over_ambient(steady), winding_limit, "K", Goes::not_with_it, false);
-  add("winding over 40 degC, so far", over_ambient(peaks.winding), winding_limit, "K", Goes::as_its_square);
+    add("winding temperature rise, continuous duty", over_ambient(steady), winding_limit, "K",
+        Goes::not_with_it, false, means);
+  add("winding temperature rise, so far", over_ambient(peaks.winding), winding_limit, "K",
+      Goes::as_its_square, true, peaks_from);
   if (const auto& amplifier = stage.amplifier()) {
     add("rms current, for the amplifier", std::sqrt(worst.fed_squared), amplifier->current, "A",
-        Goes::as_the_torque, !whole);
-    add("amplifier's I2t, so far", peaks.i2t * percent, percent, "%", Goes::as_its_square);
+        Goes::as_the_torque, !whole, means);
+    add("amplifier's I2t, so far", peaks.i2t * percent, percent, "%", Goes::as_its_square, true, peaks_from);
   }
   if (const auto& link = stage.link()) {
     const double mains = std::sqrt(2.0) * link->data().voltage;
-    add("bus voltage over the mains'", std::max(0.0, peaks.voltage - mains),
-        (link->data().overvoltage - 1) * mains, "V", Goes::not_with_it);
+    add("DC link above rectified mains", std::max(0.0, peaks.voltage - mains),
+        (link->data().overvoltage - 1) * mains, "V", Goes::not_with_it, true, peaks_from);
     if (worst.resistor > 0)
-      add("brake resistor", worst.resistor, link->data().resistor_power, "W", Goes::as_the_braking, !whole);
+      add("brake resistor", worst.resistor, link->data().resistor_power, "W", Goes::as_the_braking, !whole,
+          means);
   }
   if (worst.saturated > 0)
-    add("time at the torque limit", worst.saturated * percent, most_saturated * percent, "%",
-        Goes::not_with_it, !whole);
+    add("time at the torque limit", worst.saturated * percent,
+        ratings.works_at_limit ? percent : most_saturated * percent, "%", Goes::not_with_it,
+        !ratings.works_at_limit, means);
   if (worst.saturated_once > 0)
     add("time at the torque limit, worst cycle", worst.saturated_once * percent, percent, "%",
-        Goes::not_with_it, false);
+        Goes::not_with_it, false, verdict.cycles);
   verdict.inertia_ratio = drive.load_inertia / ratings.rotor_inertia;
-  verdict.energy = whole ? stage.totals().from_mains : drive.energy / drive.cycles;
+  verdict.energy = whole ? stage.totals().from_mains : drive.energy / drive.counted;
   verdict.trips = drive.trips;
   for (const auto& figure : verdict.figures)
     if (figure.judged && figure.share > good)
       verdict.advised = std::min(verdict.advised, advised_for(figure, worst.constant));
+  verdict.steady = drive.steady || drive.even;
+  if (!whole) {
+    drive.elsewhere.add(drive.in_cycle);
+    if (const auto& [times, time, first] = drive.elsewhere; times > 0 && !ratings.works_at_limit)
+      verdict.limit_elsewhere =
+          fmt::format("{}, {:.3g} s in all, first at {:.3f} s",
+                      times == 1 ? "once" : fmt::format("{} times", times), time, first);
+  }
+  remark(verdict, whole);
   verdict.cycle_points = drive.cycle_points.points();
   verdict.points = drive.points.points();
   return verdict;
+}
+
+// What neither passes nor fails.
+void DriveJudge::remark(DriveVerdict& verdict, bool whole) {
+  if (!whole) {
+    if (!verdict.steady)
+      verdict.notes.push_back(
+          fmt::format("{}: no steady cycle in {}: no rms torque is within 1 % of that of the cycle before; "
+                      "let it run for "
+                      "longer",
+                      verdict.drive, verdict.cycles));
+    return;
+  }
+  auto text = fmt::format(
+      "{}: heat is not judged, for no machine cycle is known; name its length, such as "
+      "drives: {{cycle: 2 s}}",
+      verdict.drive);
+  bool over = false;
+  const auto& means = verdict.figures.front().window;
+  for (const auto& figure : verdict.figures) {
+    if (figure.judged || figure.share <= 1 || figure.window != means) continue;
+    over = true;
+    text += fmt::format("; {} would be {:.0f} %", figure.name, figure.share * percent);
+  }
+  (over ? verdict.warnings : verdict.notes).push_back(std::move(text));
 }
 
 std::vector<DriveVerdict> DriveJudge::verdicts() const {
@@ -234,18 +311,24 @@ std::vector<DriveVerdict> DriveJudge::verdicts() const {
 
 std::string text_of(const DriveVerdict& verdict) {
   const auto& figure = verdict.tightest();
-  auto text = fmt::format("{}{}: {}{} {:.4g} of {:.4g} {} ({:.0f} %)", verdict.drive,
-                          verdict.alike > 1 ? fmt::format(", each of {}", verdict.alike) : "",
-                          verdict.trips.empty() ? "" : fmt::format("{}; ", fmt::join(verdict.trips, ", ")),
-                          figure.name, figure.value, figure.rating, figure.unit, figure.share * percent);
+  auto text =
+      verdict.drive + (verdict.alike > 1 ? fmt::format(", each of {}: ", verdict.alike) : std::string(": "));
+  text += fmt::format("{}", fmt::join(verdict.trips, ", "));
+  // Behind a trip only what is over its limit tells something.
+  if (verdict.trips.empty() || figure.share > 1)
+    text +=
+        fmt::format("{}{} {:.4g} of {:.4g} {} ({:.0f} %, {})", verdict.trips.empty() ? "" : "; ", figure.name,
+                    figure.value, figure.rating, figure.unit, figure.share * percent, figure.window);
   std::vector<std::string> others;
   for (const auto& other : verdict.figures)
     if (&other != &figure && other.judged && other.share > 1)
       others.push_back(fmt::format("{} {:.0f} %", other.name, other.share * percent));
   if (!others.empty()) text += fmt::format(", {}", fmt::join(others, ", "));
-  if (!verdict.holds() && verdict.advised < 1)
-    text += fmt::format("; within 90 % at {:.0f} % of this speed, by a cautious estimate",
-                        std::floor(verdict.advised * percent));
+  if (!verdict.limit_elsewhere.empty())
+    text += fmt::format("; outside of these cycles at its torque limit {}", verdict.limit_elsewhere);
+  if (const double share = std::floor(verdict.advised * percent);
+      figure.share > 1 && share > 0 && share < percent)
+    text += fmt::format("; within 90 % at {:.0f} % of this speed, by a cautious estimate", share);
   return text;
 }
 
@@ -254,9 +337,9 @@ std::vector<CheckResult> DriveJudge::results(const std::vector<DriveVerdict>& ve
   CheckResult result;
   result.name = "drive within its ratings";
   result.expectation =
-      "torque, speed, current, heat, bus voltage and brake resistor of every drive within their ratings, "
-      "over "
-      "the worst ten cycles in a row as if they went on for ever; no trip";
+      "torque, speed, current, heat, DC link and brake resistor of every drive within their ratings, over "
+      "the "
+      "worst ten cycles in a row as if they went on for ever; no trip";
   result.passed = true;
   std::vector<std::string> details;
   double largest = 0;
@@ -265,9 +348,11 @@ std::vector<CheckResult> DriveJudge::results(const std::vector<DriveVerdict>& ve
     largest = std::max(largest, verdict.tightest().share);
     details.push_back(text_of(verdict));
   }
-  result.margin = (1 - largest) * percent;
-  result.used = largest;
-  result.unit = "%";
+  if (result.passed || largest > 1) {  // a trip has no distance
+    result.margin = (1 - largest) * percent;
+    result.used = largest;
+    result.unit = "%";
+  }
   result.detail = fmt::format("{}", fmt::join(details, " | "));
   return {result};
 }

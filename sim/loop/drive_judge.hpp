@@ -6,6 +6,7 @@
 
 #include "plants/power_stage.hpp"
 #include "sim/loop/checks.hpp"
+#include "sim/loop/drive_cycles.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/loop/observer.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -14,7 +15,7 @@ namespace drycut::sim::loop {
 
 /// One number of a drive beside what it may be.
 struct DriveFigure {
-  std::string name;   ///< "rms torque", "winding, steady"
+  std::string name;   ///< "rms torque"
   double value = 0;   ///< in `unit`
   double rating = 0;  ///< in `unit`
   std::string unit;
@@ -22,19 +23,26 @@ struct DriveFigure {
   /// How it goes with the machine's speed.
   enum class Goes { not_with_it, as_the_speed, as_the_torque, as_its_square, as_the_braking };
   Goes goes = Goes::as_the_speed;
-  bool judged = true;  ///< else it is only told
+  bool judged = true;       ///< else it is only told
+  std::string window = {};  ///< when that was: "steady cycle", "from the first cut on"
 };
 
 /// What came of a drive over its machine cycles.
 struct DriveVerdict {
   std::string drive;   ///< "knife.servo"
-  std::string cycles;  ///< "10 of 24 cycles, from cut to cut"
+  std::string cycles;  ///< "24 cycles from cut to cut"
   plants::DriveRatings ratings;
   std::vector<DriveFigure> figures;
   double inertia_ratio = 0;        ///< load over rotor
   int alike = 1;                   ///< drives that do the same: all figures are those of one
   double energy = 0;               ///< from the mains, mean of a cycle [J]
-  std::vector<std::string> trips;  ///< "overload at 3.2 s"
+  bool steady = false;             ///< a steady cycle was found: what the drive bears for ever is known
+  std::vector<std::string> trips;  ///< "tripped by overload at 3.2 s", "pulled out at 3.2 s"
+  /// When the torque limit acted outside of what is judged: "twice, 0.12 s in all, first at 0.8 s"; "" =
+  /// never.
+  std::string limit_elsewhere;
+  std::vector<std::string> notes;     ///< heat that is not judged, no steady cycle
+  std::vector<std::string> warnings;  ///< of heat that is not judged and would be over its rating
   /// At this share of the machine's speed all would be within 90 % of their ratings, by a cautious estimate
   /// from one run: friction and load stay, the rest of the torque goes with the speed. 1 where all are; 0
   /// where friction and load alone are too much.
@@ -59,12 +67,12 @@ class Thinned {
   std::size_t seen_ = 0;
 };
 
-/// Judges the drives of all plants by their ratings: torque, current, heat and voltages of each machine
-/// cycle, over the worst ten cycles in a row as if they went on for ever. A cycle lasts from cut to cut of
-/// the drive's plant, or as long as the scenario says (drives.cycle). Without either, means over the whole
-/// run are told and not judged: who knows whether it goes on like that. A cycle counts that lasts as long as
-/// the one before, to a fifth: homing, the start and a change of order are not the machine's work, and only
-/// their peaks and trips are judged, from the first cut on.
+/// Judges the drives of all plants by their ratings: torque, current, heat and voltages over the worst ten
+/// machine cycles in a row as if they went on for ever (DriveCycles); where there are not ten, over the
+/// steady cycle: the last whose rms torque is within 1 % of that of the one before; where there is none, over
+/// all. Without any cycle, means from the first motion on are told and not judged: who knows whether it goes
+/// on like that. Homing, the start and a change of order are not the machine's work: of machines that cut
+/// only the peaks from the first cut on are judged, and trips.
 class DriveJudge : public Observer {
  public:
   DriveJudge(const scenario::Scenario& scenario, const std::vector<NamedPlant>& plants);
@@ -76,6 +84,8 @@ class DriveJudge : public Observer {
   [[nodiscard]] double cycle_of(const std::string& plant, Time now) const;
   /// The verdicts as they stand, a drive each.
   [[nodiscard]] std::vector<DriveVerdict> verdicts() const;
+  /// The check "drive within its ratings" is among the checks.
+  [[nodiscard]] bool judges() const { return judged_; }
   /// The check "drive within its ratings"; none without drives, or where the scenario switches it off;
   /// from verdicts().
   [[nodiscard]] std::vector<CheckResult> results(const std::vector<DriveVerdict>& verdicts) const;
@@ -93,6 +103,16 @@ class DriveJudge : public Observer {
     double resistor = 0;         ///< mean power [W]
     double saturated = 0;        ///< share of the time
     double saturated_once = 0;   ///< of a single cycle
+
+    void take(const plants::DriveTotals& stretch, const plants::DriveRatings& ratings);
+  };
+  /// Stretches in which the torque limit acted.
+  struct AtLimit {
+    int times = 0;
+    double seconds = 0;
+    double first = 0;  ///< [s]
+
+    void add(const AtLimit& more);
   };
   struct Drive {
     std::string plant;
@@ -100,32 +120,33 @@ class DriveJudge : public Observer {
     plants::PowerStage* stage = nullptr;
     double load_inertia = 0;
     int alike = 1;
-    bool begun = false;
-    double energy = 0;  ///< from the mains in the cycles that count [J]
-    bool judged = false;
-    double last = 0;  ///< how long the cycle before lasted [s]
-    std::deque<plants::DriveTotals> ends =
-        {};  ///< of the last cycles, and the beginning of the first of them
-    int cycles = 0;
+    DriveCycles cycles;
+    int counted = 0;                           ///< cycles
+    double energy = 0;                         ///< from the mains in them [J]
+    std::deque<plants::DriveTotals> row = {};  ///< the last of them in a row, up to ten
+    std::size_t judged = 0;                    ///< most of them in a row that were judged
+    std::optional<plants::DriveTotals> steady = {};
+    bool even = false;  ///< five cycles in a row came to the same as the five before
     Worst worst = {};
+    AtLimit in_cycle = {};   ///< since the last one ended
+    AtLimit elsewhere = {};  ///< in none that counts
     std::vector<std::string> trips = {};
     Thinned cycle_points = {};
     Thinned points = {};
   };
 
-  static void begin_cycles(Drive& drive);
-  /// `any`: however long it was.
-  static void end_cycle(Drive& drive, bool any);
-  static void judge(Drive& drive, const plants::DriveTotals& from, const plants::DriveTotals& until);
+  static void end_cycle(Drive& drive, DriveCycles::Ended ended);
+  static void judge_row(Drive& drive);
+  static std::string judge_rest(Drive& drive);
+  static void remark(DriveVerdict& verdict, bool whole);
   [[nodiscard]] DriveVerdict verdict(Drive drive) const;
 
   bool judged_;
   Time cycle_;
-  Time next_ = 0;  ///< end of the cycle that runs, where the scenario names its length
   std::vector<Drive> drives_;
 };
 
-/// "knife.servo, each of 2: rms torque 6.1 of 9.5 N m (64 %)".
+/// "knife.servo, each of 2: rms torque 6.1 of 9.5 N m (64 %, steady cycle)".
 std::string text_of(const DriveVerdict& verdict);
 
 }  // namespace drycut::sim::loop

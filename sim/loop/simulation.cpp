@@ -288,6 +288,11 @@ std::vector<std::string> Simulation::notes() const {
   if (time_ > 0)  // it ran
     for (auto& undone : timeline_->left_undone(time_)) notes.push_back(std::move(undone));
   for (auto& remark : remarks_.notes()) notes.push_back(std::move(remark));
+  if (time_ > 0 && drives_->judges())
+    for (auto& drive : drives_->verdicts()) {
+      for (auto& warning : drive.warnings) notes.push_back("warning: " + warning);
+      for (auto& note : drive.notes) notes.push_back(std::move(note));
+    }
   return notes;
 }
 

@@ -94,7 +94,8 @@ renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts
   for (const auto& verdict : verdicts) {
     auto name = verdict.drive + "\n" + verdict.cycles;
     for (const auto& figure : verdict.figures) {
-      table.rows.push_back({{name, figure.name, fmt::format("{:.4g} {}", figure.value, figure.unit),
+      table.rows.push_back({{name, fmt::format("{}\n{}", figure.name, figure.window),
+                             fmt::format("{:.4g} {}", figure.value, figure.unit),
                              fmt::format("{:.4g} {}", figure.rating, figure.unit), grade_text(figure)}});
       name.clear();
     }
@@ -105,7 +106,10 @@ renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts
     if (!verdict.trips.empty())
       table.rows.push_back(
           {{"", "trips", fmt::format("{}", fmt::join(verdict.trips, ", ")), "none", "FAIL"}});
-    if (verdict.advised < 1 && !verdict.holds())
+    if (!verdict.limit_elsewhere.empty())
+      table.rows.push_back(
+          {{"", "at the torque limit\noutside of these cycles", verdict.limit_elsewhere, "", ""}});
+    if (verdict.advised < 1 && std::floor(100 * verdict.advised) > 0 && verdict.tightest().share > 1)
       table.rows.push_back({{"", "within 90 % of all",
                              fmt::format("at {:.0f} % of this speed\nby a cautious estimate",
                                          std::floor(100 * verdict.advised)),

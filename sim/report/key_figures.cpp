@@ -162,7 +162,7 @@ void add_drives(const loop::Outcome& outcome, std::vector<renders::ReportKey>& k
           {fmt::format("{} of {}", figure.name, drive->drive),
            fmt::format("{:.3g} {}", figure.value, figure.unit),
            {fmt::format("limit {:.4g} {}{}", figure.rating, figure.unit, figure.judged ? "" : "; not judged"),
-            drive->cycles},
+            figure.window},
            figure.share});
     }
   }

@@ -129,5 +129,67 @@ TEST(ContactorDrive, WithAPhaseLostItRunsButDoesNotStart) {
   EXPECT_NEAR((kloss(w, sync - stand.rotor.speed) - kloss(w, sync + stand.rotor.speed)) / 2, 5, 1e-6);
 }
 
+/// The events of a drive that tell that its motor was pulled out.
+template <class AnyStand>
+std::vector<Event> pulled_out(AnyStand& stand) {
+  auto events = stand.drive.power().take_events();
+  std::erase_if(events, [](const Event& event) { return event.name != "pulled_out"; });
+  return events;
+}
+
+TEST(ContactorDrive, ToPassThePullOutTorqueIsPartOfEachStart) {
+  ContactorStand stand;
+  stand.load = 10;
+  stand.drive.forward.level = true;
+  stand.run(3);  // it begins beyond the pull-out slip
+  stand.drive.slow.level = true;
+  stand.run(3);  // and so does braking by the slow winding
+  stand.drive.slow.level = stand.drive.forward.level = false;
+  stand.drive.backward.level = true;
+  stand.load = -10;
+  stand.run(5);
+  EXPECT_NEAR(stand.rotor.speed, -sync, 10);
+  EXPECT_TRUE(pulled_out(stand).empty());
+}
+
+TEST(ContactorDrive, AMotorThatLosesItsLoadIsPulledOutOnce) {
+  ContactorStand stand;
+  stand.load = 10;
+  stand.drive.forward.level = true;
+  stand.run(2);
+  stand.load = 45;  // 40 N m is all that it has
+  stand.run(3);
+  const auto stalled = pulled_out(stand);
+  ASSERT_EQ(stalled.size(), 1U);
+  EXPECT_EQ(stalled[0].values[0].name, "speed");
+  EXPECT_LT(stalled[0].values[0].number, 1500 - pullout_slip(WindingData{}) * rpm);
+  EXPECT_EQ(stalled[0].values[1].name, "slip");
+  EXPECT_NEAR(stalled[0].values[0].number + stalled[0].values[1].number, 1500, 1);
+
+  // The slow winding shall brake a load that drives the motor, and cannot.
+  ContactorStand driven;
+  driven.drive.forward.level = true;
+  driven.run(2);
+  driven.drive.slow.level = true;
+  driven.load = -38;
+  driven.run(0.2);
+  EXPECT_GT(driven.rotor.speed, sync);
+  EXPECT_EQ(pulled_out(driven).size(), 1U);
+
+  // It stands, as where a brake does not open; who is slow only is none.
+  ContactorStand held({}, 1e9);
+  held.drive.forward.level = true;
+  held.run(1);
+  EXPECT_TRUE(pulled_out(held).empty());
+  const auto hold = [&](double time) {
+    for (long i = std::lround(time / h); i > 0; --i) {
+      held.load = held.drive.torque();
+      held.step();
+    }
+  };
+  hold(1);
+  EXPECT_EQ(pulled_out(held).size(), 1U);
+}
+
 }  // namespace
 }  // namespace drycut::plants

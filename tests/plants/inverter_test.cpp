@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/plants/drive_stand.hpp"
@@ -70,9 +71,16 @@ TEST(Inverter, AtTheTorqueLimitTheFrequencyFollowsTheRotor) {
   stand.run(12);
   EXPECT_FALSE(stand.drive.limited());
   EXPECT_NEAR(stand.rotor.speed, sync, 1e-3);
+  const auto is_pulled_out = [&] {
+    const auto events = stand.drive.power().take_events();
+    return std::count_if(events.begin(), events.end(),
+                         [](const Event& event) { return event.name == "pulled_out"; });
+  };
+  EXPECT_EQ(is_pulled_out(), 0) << "its ramp has waited";
   fault(stand.faults(), "drive", "torque_limit", 10);
   stand.load = 12;
   stand.run(3);
+  EXPECT_EQ(is_pulled_out(), 1) << "the load drives it away from its speed";
   const double fast = stand.rotor.speed;
   stand.run(1);
   EXPECT_NEAR(stand.rotor.speed - fast, 10 - 12, 1e-6);

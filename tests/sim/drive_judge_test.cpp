@@ -19,6 +19,7 @@
 namespace drycut::sim::loop {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 const auto scenes = std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes";
@@ -213,7 +214,7 @@ TEST(DriveJudge, TheCorrugatedLineFailsAt200WithItsReasonsAndPassesAtTheSpeedItA
   ASSERT_FALSE(now.holds());
   const auto check = line.ratings().at(0);
   EXPECT_FALSE(check.passed);
-  EXPECT_THAT(check.detail, testing::StartsWith("knife.servo, each of 2: overload at "));
+  EXPECT_THAT(check.detail, testing::StartsWith("knife.servo, each of 2: tripped by overload at "));
   EXPECT_THAT(now.cycles, testing::EndsWith(" cycles from cut to cut, each of 2 drives"));
   EXPECT_THAT(check.detail, HasSubstr("rms torque"));
   EXPECT_THAT(check.detail, HasSubstr("brake resistor"));
@@ -225,7 +226,7 @@ TEST(DriveJudge, TheCorrugatedLineFailsAt200WithItsReasonsAndPassesAtTheSpeedItA
   const double load = figure(now, "rms current, for the amplifier").share;
   const double time_constant = -3 / std::log1p(-37.0 * 37 / (83 * 83));
   double tripped = 0;
-  ASSERT_EQ(std::sscanf(now.trips[0].c_str(), "overload at %lf s", &tripped), 1) << now.trips[0];
+  ASSERT_EQ(std::sscanf(now.trips[0].c_str(), "tripped by overload at %lf s", &tripped), 1) << now.trips[0];
   EXPECT_NEAR(tripped - 2.2, -time_constant * std::log1p(-1 / (load * load)), 0.7);
   // Two motors on two drums, one body on the shaft: half of them behind the gear is each motor's load.
   EXPECT_NEAR(now.inertia_ratio, (0.4 + 0.4) / 2 / 25 / 0.0151, 1e-9);
@@ -243,6 +244,218 @@ TEST(DriveJudge, TheCorrugatedLineFailsAt200WithItsReasonsAndPassesAtTheSpeedItA
   }
   EXPECT_TRUE(now.holds()) << speed << " m/min: " << text_of(now);
   EXPECT_GT(speed, 90);
+}
+
+/// A motor that is turned by hand, a servo's or one on the mains.
+class TurnedByHand : public plants::Plant {
+ public:
+  explicit TurnedByHand(const plants::DriveRatings& ratings)
+      : stage({.per_torque_squared = 1, .resistance = 1}, {}, ratings, plants::AmplifierData{10, 30, 3}, {}) {
+  }
+  void drive(double) override {}
+  void sense(double) override {}
+  std::vector<plants::DriveOfPlant> drives() override { return {{"servo", &stage, 0.01, 1}}; }
+  plants::Shaft rotor;
+  plants::PowerStage stage;
+};
+
+/// Its judge, as a run tells it: record instants every 2 ms, and events.
+struct ByHand {
+  static constexpr Time step = 100 * microsecond;
+  scenario::Scenario scenario;
+  TurnedByHand axis;
+  std::unique_ptr<DriveJudge> judge;
+  Time now = 0;
+
+  static plants::DriveRatings ratings() {
+    return {.rotor_inertia = 0.01,
+            .stall_torque = 10,
+            .rated_torque = 10,
+            .peak_torque = 30,
+            .torque_at_max_speed = 30,
+            .rated_speed = 200,
+            .max_speed = 300};
+  }
+  explicit ByHand(double cycle, const plants::DriveRatings& rated = ratings()) : axis(rated) {
+    scenario.drives.cycle = static_cast<Time>(std::llround(cycle * static_cast<double>(second)));
+    judge = std::make_unique<DriveJudge>(scenario, std::vector<NamedPlant>{{"axis", &axis}});
+  }
+  /// So long with such a torque [N m], from a speed to another [rad/s]; `asked`: over the torque limit.
+  void run(double time, double torque, double from = 0, double to = 0, double asked = 0) {
+    const auto steps = std::lround(time / seconds(step));
+    for (long i = 0; i < steps; ++i) {
+      axis.rotor.speed_before = from + (to - from) * static_cast<double>(i) / static_cast<double>(steps);
+      axis.rotor.speed = from + (to - from) * static_cast<double>(i + 1) / static_cast<double>(steps);
+      axis.stage.account({torque, 0, asked, true}, axis.rotor, seconds(step));
+      now += step;
+      for (const auto& event : axis.stage.take_events()) {
+        RecordedEvent told{now, 0, "axis", std::string(event.name), {}, ""};
+        for (const auto& value : event.values)
+          told.values.push_back({std::string(value.name), value.number, std::string(value.unit)});
+        judge->happened(told);
+      }
+      if (now % (2 * millisecond) == 0) judge->sample(now);
+    }
+  }
+  /// Up, along, down, and a rest: 1.2 s. `more`: times the torque.
+  void move(double more = 1) {
+    run(0.2, 12 * more, 0, 100);
+    run(0.3, 2 * more, 100, 100);
+    run(0.2, -8 * more, 100, 0);
+    run(0.5, 1 * more);
+  }
+  static double rms_of_move() { return std::sqrt((144 * 0.2 + 4 * 0.3 + 64 * 0.2 + 1 * 0.5) / 1.2); }
+  void cut() { judge->happened({now, 0, "axis", "cut", {}, ""}); }
+  [[nodiscard]] DriveVerdict verdict() const { return judge->verdicts().at(0); }
+  [[nodiscard]] CheckResult check() const { return judge->results(judge->verdicts()).at(0); }
+};
+
+// However many moves a run has, whether home was searched before them, and how long it stands before and
+// after.
+TEST(DriveJudge, TheLoadOfACycleIsThatOfTheMoveFromAnyNumberOfThem) {
+  for (const bool homing : {false, true})
+    for (const int moves : {2, 3, 12}) {
+      SCOPED_TRACE(testing::Message() << moves << " moves" << (homing ? " behind a search of home" : ""));
+      ByHand hand(1.2);
+      hand.run(0.7, 1);
+      if (homing) {
+        hand.run(0.25, 3, 20, 20);
+        hand.run(0.37, 1);
+      }
+      for (int i = 0; i < moves; ++i) hand.move();
+      hand.run(3, 1);
+      const auto verdict = hand.verdict();
+      EXPECT_TRUE(verdict.steady);
+      EXPECT_THAT(verdict.notes, testing::IsEmpty());
+      const auto& rms = figure(verdict, "rms torque");
+      EXPECT_TRUE(rms.judged);
+      EXPECT_NEAR(rms.value, ByHand::rms_of_move(), 2e-3 * ByHand::rms_of_move());
+      EXPECT_NEAR(figure(verdict, "rms current, for the winding").value, rms.value, 1e-9);
+      EXPECT_EQ(rms.window, moves == 12 ? "worst 10 cycles in a row" : "steady cycle");
+      EXPECT_EQ(verdict.cycles, std::to_string(moves + (homing ? 1 : 0)) + " cycles of 1.2 s");
+    }
+}
+
+TEST(DriveJudge, WithoutASteadyCycleTheRunSaysSo) {
+  ByHand hand(1.2);
+  for (const double more : {1.0, 1.05, 1.0, 1.05}) hand.move(more);
+  EXPECT_FALSE(hand.verdict().steady);
+  EXPECT_EQ(figure(hand.verdict(), "rms torque").window, "mean of 4 cycles");
+  EXPECT_THAT(hand.verdict().notes,
+              ElementsAre(HasSubstr("axis.servo: no steady cycle in 4 cycles of 1.2 s")));
+  hand.move(1.055);  // within 1 %
+  EXPECT_TRUE(hand.verdict().steady);
+  EXPECT_NEAR(figure(hand.verdict(), "rms torque").value, 1.055 * ByHand::rms_of_move(), 0.02);
+  EXPECT_THAT(hand.verdict().notes, testing::IsEmpty());
+}
+
+TEST(DriveJudge, WithoutACycleTheVerdictSaysThatHeatIsNotJudgedAndWarnsOfWhatWouldBeTooMuch) {
+  const std::string remedy = "axis.servo: heat is not judged, for no machine cycle is known; name its length";
+  ByHand cool(0);
+  cool.run(5, 1);
+  for (int i = 0; i < 3; ++i) cool.move();
+  EXPECT_TRUE(cool.check().passed);
+  EXPECT_THAT(cool.verdict().notes, ElementsAre(HasSubstr(remedy)));
+  EXPECT_THAT(cool.verdict().warnings, testing::IsEmpty());
+  // Standstill before the first motion is in no mean.
+  EXPECT_NEAR(figure(cool.verdict(), "rms torque").value, ByHand::rms_of_move(), 5e-3);
+
+  ByHand hot(0);
+  hot.run(5, 1);
+  for (int i = 0; i < 3; ++i) hot.move(2);
+  EXPECT_TRUE(hot.check().passed);
+  EXPECT_THAT(hot.verdict().notes, testing::IsEmpty());
+  ASSERT_EQ(hot.verdict().warnings.size(), 1U);
+  EXPECT_THAT(hot.verdict().warnings[0],
+              testing::AllOf(HasSubstr(remedy), HasSubstr("rms torque would be 120 %")));
+}
+
+// Counting noise makes each cycle another one; ten of them are the machine's work all the same.
+TEST(DriveJudge, TenUnevenCyclesAreKnownWhenFiveAreAsTheFiveBefore) {
+  ByHand hand(1.2);
+  for (int i = 0; i < 5; ++i)
+    for (const double more : {1.0, 1.05, 0.95, 1.03}) hand.move(more);
+  EXPECT_TRUE(hand.verdict().steady);
+  EXPECT_THAT(figure(hand.verdict(), "rms torque").window, "worst 10 cycles in a row");
+}
+
+TEST(DriveJudge, FromCutToCutTheSteadyCycleStandsForTooFewOfThem) {
+  ByHand hand(0);
+  hand.run(1, 1);
+  hand.run(0.3, 25, 20, 20);  // the search of home
+  for (int i = 0; i < 5; ++i) {
+    hand.cut();
+    hand.move();
+  }
+  EXPECT_EQ(hand.verdict().cycles, "3 cycles from cut to cut");
+  EXPECT_EQ(figure(hand.verdict(), "rms torque").window, "steady cycle");
+  EXPECT_NEAR(figure(hand.verdict(), "rms torque").value, ByHand::rms_of_move(), 5e-3);
+  EXPECT_EQ(figure(hand.verdict(), "peak torque").window, "from the first cut on");
+  EXPECT_NEAR(figure(hand.verdict(), "peak torque").value, 12, 1e-9);
+}
+
+TEST(DriveJudge, ADriveThatIsClippedFailsWithoutACycleToo) {
+  ByHand hand(0);
+  hand.run(1, 1);
+  for (int i = 0; i < 4; ++i) {
+    hand.run(0.2, 30, 0, 100, 1.3);
+    hand.run(0.2, -30, 100, 0, 1.2);
+    hand.run(0.6, 0);
+  }
+  const auto check = hand.check();
+  EXPECT_FALSE(check.passed);
+  EXPECT_THAT(check.detail,
+              HasSubstr("time at the torque limit 40 of 1 % (4000 %, from the first motion on)"));
+  EXPECT_EQ(figure(hand.verdict(), "peak torque").share, 1);
+
+  // An inverter's ramp waits at its limit, a motor on the mains passes its pull-out torque at each start.
+  auto inverter = ByHand::ratings();
+  inverter.works_at_limit = true;
+  ByHand works(0, inverter);
+  for (int i = 0; i < 4; ++i) {
+    works.run(0.2, 30, 0, 100, 1.3);
+    works.run(0.2, -30, 100, 0, 1.2);
+    works.run(0.6, 0);
+  }
+  EXPECT_TRUE(works.check().passed) << works.check().detail;
+  EXPECT_FALSE(figure(works.verdict(), "peak torque").judged);
+  EXPECT_NE(works.verdict().tightest().name, "peak torque");
+  EXPECT_NE(works.verdict().tightest().name, "time at the torque limit");
+}
+
+TEST(DriveJudge, ALimitThatActedBeforeTheFirstCutIsTold) {
+  ByHand hand(0);
+  hand.run(0.8, 1);
+  hand.run(0.05, 30, 10, 20, 1.5);
+  hand.run(0.1, 1, 20, 20);
+  hand.run(0.03, -30, 20, 0, 1.5);
+  hand.run(0.1, 1);
+  for (int i = 0; i < 13; ++i) {
+    hand.cut();
+    hand.move();
+  }
+  const auto check = hand.check();
+  EXPECT_TRUE(check.passed) << check.detail;
+  EXPECT_EQ(hand.verdict().limit_elsewhere, "2 times, 0.08 s in all, first at 0.800 s");
+  EXPECT_THAT(check.detail,
+              HasSubstr("; outside of these cycles at its torque limit 2 times, 0.08 s in all"));
+  EXPECT_NEAR(figure(hand.verdict(), "peak torque").value, 12, 1e-9);
+}
+
+TEST(DriveJudge, ATripIsToldInWordsAndHasNoMargin) {
+  for (const auto& [event, words] :
+       {std::pair{"bus_overvoltage", "axis.servo: tripped by overvoltage at 0.500 s"},
+        {"bus_undervoltage", "axis.servo: tripped by undervoltage at 0.500 s"},
+        {"overload", "axis.servo: tripped by overload at 0.500 s"},
+        {"pulled_out", "axis.servo: pulled out at 0.500 s"}}) {
+    ByHand hand(1.2);
+    hand.run(0.5, 1, 10, 10);
+    hand.judge->happened({hand.now, 0, "axis", event, {}, ""});
+    const auto check = hand.check();
+    EXPECT_FALSE(check.passed);
+    EXPECT_EQ(check.detail, words);
+    EXPECT_FALSE(check.margin);
+  }
 }
 
 /// On every plant with a drive what the mains gave is found again: in work, heat, the resistor, the link.

@@ -45,6 +45,7 @@ void visit(Drive& drive, const Each& each) {
   each(drive.energy);
   each(drive.trips);
   each(drive.cycles);
+  each(drive.steady);
   each(drive.rms.first);
   each(drive.rms.second);
   for (auto& point : drive.outline) {
@@ -68,8 +69,8 @@ std::vector<std::string> rated_columns(const std::string& drive) {
     columns.push_back(fmt::format("{} {} [{}]", drive, name, unit));
     columns.push_back(fmt::format("{} {}, share", drive, name));
   }
-  for (const auto* name :
-       {"inertia ratio", "energy [J]", "trips", "cycles", "mean speed [rad/s]", "rms torque then [N m]"})
+  for (const auto* name : {"inertia ratio", "energy [J]", "trips", "cycles", "steady", "mean speed [rad/s]",
+                           "rms torque then [N m]"})
     columns.push_back(fmt::format("{} {}", drive, name));
   for (std::size_t i = 0; i < RatedDrive{}.outline.size(); ++i) {
     columns.push_back(fmt::format("{} speed {} [rad/s]", drive, i));
@@ -89,6 +90,7 @@ std::vector<double> rated_numbers(const loop::DriveVerdict& verdict) {
   drive.energy = verdict.energy;
   drive.trips = static_cast<double>(verdict.trips.size());
   drive.cycles = static_cast<double>(verdict.cycle_points.size());
+  drive.steady = verdict.steady ? 1 : 0;
   drive.rms = {no_point, no_point};
   for (const auto& point : verdict.cycle_points)
     if (std::isnan(drive.rms.second) || point.second > drive.rms.second) drive.rms = point;

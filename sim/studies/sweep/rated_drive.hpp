@@ -20,10 +20,10 @@ inline constexpr std::array<RatingName, 10> ratings = {{{"rms torque", "N m"},
                                                         {"peak torque", "N m"},
                                                         {"largest speed", "rpm"},
                                                         {"rms current, for the winding", "A"},
-                                                        {"winding over 40 degC, so far", "K"},
+                                                        {"winding temperature rise, so far", "K"},
                                                         {"rms current, for the amplifier", "A"},
                                                         {"amplifier's I2t, so far", "%"},
-                                                        {"bus voltage over the mains'", "V"},
+                                                        {"DC link above rectified mains", "V"},
                                                         {"brake resistor", "W"},
                                                         {"time at the torque limit", "%"}}};
 /// The place of a rating in that list. Throws std::logic_error if there is none of that name.
@@ -37,8 +37,9 @@ struct RatedDrive {
   std::array<Figure, ratings.size()> figures = {};
   double inertia_ratio = 0;  ///< load over rotor
   double energy = 0;         ///< from the mains, mean of a cycle [J]
-  double trips = 0;          ///< how often it has tripped
+  double trips = 0;          ///< how often it has tripped, or its motor was pulled out
   double cycles = 0;         ///< machine cycles that were judged, as far as they are kept; 0: none ended
+  double steady = 0;  ///< 1: a steady cycle was found; 0: none, so what it must bear for ever is not known
   std::pair<double, double> rms = {};  ///< of the hardest cycle: mean speed [rad/s], rms torque [N m]
   /// Operating points [rad/s, N m]: the highest and the lowest torque in each of so many parts of its range
   /// of speeds. NaN: no point there.

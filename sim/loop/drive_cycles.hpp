@@ -1,0 +1,74 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <optional>
+#include <utility>
+
+#include "plants/power_stage.hpp"
+
+namespace drycut::sim::loop {
+
+/// Cuts the run of a drive into the cycles of its machine. A cycle goes from cut to cut; it counts if it
+/// lasts as long as the one before, to a fifth. Or it lasts as long as the scenario says: then it begins with
+/// a motion, the first, or that in which the cycle before has ended, or the next where the motor stood.
+class DriveCycles {
+ public:
+  using Totals = plants::DriveTotals;
+  enum class Ended { nothing, counts, does_not_count };
+
+  /// `named`: how long a cycle lasts [s]; 0 = from cut to cut.
+  explicit DriveCycles(double named) : named_(named) {}
+
+  /// At each record instant: what the drive has done, and whether its motor turns.
+  Ended sample(const Totals& now, bool turns) {
+    if (turns && !moves_) motion_ = seen_;
+    if (turns && !first_) first_ = seen_;
+    if (turns) turned_ = now.time;
+    moves_ = turns || (moves_ && now.time - turned_ <= pause * named_);
+    const double period = now.time - seen_.time;
+    seen_ = now;
+    if (named_ <= 0) return Ended::nothing;
+    if (!begin_ && moves_) begin_ = motion_;
+    if (!begin_ || now.time - begin_->time < named_ - period / 2) return Ended::nothing;
+    last_ = now - *begin_;
+    if (!moves_)
+      begin_.reset();
+    else
+      begin_ = motion_.time > begin_->time ? motion_ : now;
+    return Ended::counts;
+  }
+
+  /// At each cut.
+  Ended cut(const Totals& now) {
+    if (named_ > 0) return Ended::nothing;
+    const auto begin = std::exchange(begin_, now);
+    if (!begin || now.time <= begin->time) return Ended::nothing;
+    last_ = now - *begin;
+    const double before = std::exchange(length_, last_.time);
+    return std::abs(length_ - before) > unsteady * before ? Ended::does_not_count : Ended::counts;
+  }
+
+  /// One runs.
+  [[nodiscard]] bool running() const { return begin_.has_value(); }
+  /// What was done in the cycle that ended last.
+  [[nodiscard]] const Totals& last() const { return last_; }
+  /// What was done before the first motion.
+  [[nodiscard]] Totals before_motion() const { return first_.value_or(Totals{}); }
+
+ private:
+  static constexpr double unsteady = 0.2;
+  static constexpr double pause = 0.02;  // of a cycle: what is shorter ends no motion
+
+  double named_;
+  std::optional<Totals> begin_;  // of the cycle that runs
+  Totals last_;
+  double length_ = 0;  // of the last from cut to cut [s]
+  Totals seen_;        // at the last record instant
+  std::optional<Totals> first_;
+  Totals motion_;       // where the last motion began
+  double turned_ = 0;   // [s] at the last record instant at which the motor turned
+  bool moves_ = false;  // it turns, or stands for a pause only
+};
+
+}  // namespace drycut::sim::loop
