@@ -237,7 +237,7 @@ TEST_F(Slips, InTheStructuredTextOfAKnife) {
 TEST_F(Slips, InASawAndAPress) {
   make("vertical_press", "qmove");
   check_all({
-      {"line.yaml", "tours: 3 ", "tours: @3.5 ", "is 3.5, and a whole number is needed"},
+      {"line.yaml", "tours: 4 ", "tours: @3.5 ", "is 3.5, and a whole number is needed"},
       {"line.yaml", "load: 0 kg", "load: @0 N", "is a force (0 N); it is used as a mass...write 0 kg"},
       {"line.yaml", "drive: contactors", "drive: @contactor", "did you mean contactors?"},
       {"line.yaml", "Axis.dobiner: 1", "@Axis.dobiner: 2", "write 0 to 1"},
