@@ -11,7 +11,8 @@ namespace drycut::sim::loop {
 
 /// Cuts the run of a drive into the cycles of its machine. A cycle goes from cut to cut; it counts if it
 /// lasts as long as the one before, to a fifth. Or it lasts as long as the scenario says: then it begins with
-/// a motion, the first, or that in which the cycle before has ended, or the next where the motor stood.
+/// a motion: the first, that in which the cycle before has ended, or the next where the motor stood. It ends
+/// up to 5 % early where the next motion begins, for who names it rounds.
 class DriveCycles {
  public:
   using Totals = plants::DriveTotals;
@@ -22,7 +23,8 @@ class DriveCycles {
 
   /// At each record instant: what the drive has done, and whether its motor turns.
   Ended sample(const Totals& now, bool turns) {
-    if (turns && !moves_) motion_ = seen_;
+    const bool starts = turns && !moves_;
+    if (starts) motion_ = seen_;
     if (turns && !first_) first_ = seen_;
     if (turns) turned_ = now.time;
     moves_ = turns || (moves_ && now.time - turned_ <= pause * named_);
@@ -30,8 +32,10 @@ class DriveCycles {
     seen_ = now;
     if (named_ <= 0) return Ended::nothing;
     if (!begin_ && moves_) begin_ = motion_;
-    if (!begin_ || now.time - begin_->time < named_ - period / 2) return Ended::nothing;
-    last_ = now - *begin_;
+    if (!begin_) return Ended::nothing;
+    const Totals& end = starts ? motion_ : now;
+    if (end.time - begin_->time < (starts ? rounded : 1) * named_ - period / 2) return Ended::nothing;
+    last_ = end - *begin_;
     if (!moves_)
       begin_.reset();
     else
@@ -59,6 +63,7 @@ class DriveCycles {
  private:
   static constexpr double unsteady = 0.2;
   static constexpr double pause = 0.02;  // of a cycle: what is shorter ends no motion
+  static constexpr double rounded = 0.95;
 
   double named_;
   std::optional<Totals> begin_;  // of the cycle that runs

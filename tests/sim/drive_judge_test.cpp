@@ -313,10 +313,11 @@ struct ByHand {
 // However many moves a run has, whether home was searched before them, and how long it stands before and
 // after.
 TEST(DriveJudge, TheLoadOfACycleIsThatOfTheMoveFromAnyNumberOfThem) {
-  for (const bool homing : {false, true})
+  for (const auto& [homing, cycle] : {std::pair{false, "1.2 s"}, {true, "1.2 s"}, {true, "1.21 s"}})
     for (const int moves : {2, 3, 12}) {
-      SCOPED_TRACE(testing::Message() << moves << " moves" << (homing ? " behind a search of home" : ""));
-      ByHand hand(1.2);
+      SCOPED_TRACE(testing::Message()
+                   << moves << " moves" << (homing ? " behind a search of home" : "") << ", named " << cycle);
+      ByHand hand(std::stod(cycle));
       hand.run(0.7, 1);
       if (homing) {
         hand.run(0.25, 3, 20, 20);
@@ -329,10 +330,10 @@ TEST(DriveJudge, TheLoadOfACycleIsThatOfTheMoveFromAnyNumberOfThem) {
       EXPECT_THAT(verdict.notes, testing::IsEmpty());
       const auto& rms = figure(verdict, "rms torque");
       EXPECT_TRUE(rms.judged);
-      EXPECT_NEAR(rms.value, ByHand::rms_of_move(), 2e-3 * ByHand::rms_of_move());
+      EXPECT_NEAR(rms.value, ByHand::rms_of_move(), 5e-3 * ByHand::rms_of_move());
       EXPECT_NEAR(figure(verdict, "rms current, for the winding").value, rms.value, 1e-9);
       EXPECT_EQ(rms.window, moves == 12 ? "worst 10 cycles in a row" : "steady cycle");
-      EXPECT_EQ(verdict.cycles, std::to_string(moves + (homing ? 1 : 0)) + " cycles of 1.2 s");
+      EXPECT_EQ(verdict.cycles, std::to_string(moves + (homing ? 1 : 0)) + " cycles of " + cycle);
     }
 }
 
