@@ -8,6 +8,7 @@
 #include <set>
 
 #include "sim/report/statistics.hpp"
+#include "sim/scenario/format.hpp"
 
 namespace drycut::sim::loop {
 
@@ -60,13 +61,14 @@ bool in_window(const scenario::Check& check, double at) {
 
 }  // namespace
 
-Checks::Checks(const scenario::Scenario& scenario, Watch& watch, const Names& names,
-               const std::vector<KnownEvent>& events, Problems& problems) {
+Checks::Checks(const scenario::Scenario& scenario, Watch& watch, Names& names,
+               const std::vector<KnownEvent>& events, Problems& problems)
+    : watch_(watch), at_steps_(names) {
   auto known = names.reading_names();
   for (const auto& check : scenario.checks) {
     states_.emplace_back().check = check;
     if (problems.size() > most_suggestions) known.clear();
-    bind(states_.back(), scenario, watch, known, events, problems);
+    bind(states_.back(), scenario, known, events, problems);
   }
 }
 
@@ -91,9 +93,8 @@ const KnownEvent* Checks::bind_event(State& state, const scenario::Scenario& sce
   return found;
 }
 
-void Checks::bind(State& state, const scenario::Scenario& scenario, Watch& watch,
-                  std::vector<std::string>& known, const std::vector<KnownEvent>& events,
-                  Problems& problems) {
+void Checks::bind(State& state, const scenario::Scenario& scenario, std::vector<std::string>& known,
+                  const std::vector<KnownEvent>& events, Problems& problems) {
   const auto& check = state.check;
   if (!check.event.text.empty() && bind_event(state, scenario, events, problems) == nullptr) return;
   if (check.kind == scenario::Check::Kind::never) return;
@@ -112,7 +113,7 @@ void Checks::bind(State& state, const scenario::Scenario& scenario, Watch& watch
       note(name, &slot.number, slot.unit);
       return {&slot.number, slot.unit};
     }
-    auto operand = watch.operand(name);
+    auto operand = watch_.operand(name);
     if (operand.number != nullptr) {
       units.insert(*operand.unit);
       note(name, operand.number, *operand.unit);
@@ -127,7 +128,7 @@ void Checks::bind(State& state, const scenario::Scenario& scenario, Watch& watch
           fmt::format("{} is a value of the event, and a cycle has one", name),
           fmt::format("write all: {} for statistics over the events", check.event.text));
     }
-    return watch.operand(name);
+    return check.kind == scenario::Check::Kind::all ? watch_.operand(name) : at_steps_.operand(name);
   };
   const auto of_all = known.size();
   for (const auto& slot : state.slots) known.push_back(slot.name);
@@ -140,6 +141,11 @@ void Checks::bind(State& state, const scenario::Scenario& scenario, Watch& watch
       units.insert(statistic.unit);
       note(statistic.text, &statistic.value, statistic.unit);
     }
+    if (check.kind != scenario::Check::Kind::all) {
+      stepped_.push_back(&state);
+      state.rate = fmt::format(", at each step of {} ({:.4g} kHz)", scenario::format_time(scenario.scene.step),
+                               static_cast<double>(millisecond) / static_cast<double>(scenario.scene.step));
+    }
     state.begin = check.from;
     start_window(state, seconds(check.from));
   }
@@ -150,10 +156,11 @@ void Checks::bind(State& state, const scenario::Scenario& scenario, Watch& watch
 void Checks::start_window(State& state, double at) {
   state.expression->start(at);
   state.began = at;
-  state.taken = 0;
+  state.taken = false;
 }
 
 void Checks::judge_window(State& state, double at) {
+  watch_.update();  // a window may end between two record instants
   state.expression->finish();
   note_operands(state);
   const auto values = operands_text(state);
@@ -168,23 +175,23 @@ void Checks::close_windows(State& state, Time now) {
     const Time end = check.every ? state.begin + *check.every : last;
     state.done = check.every && end > last;
     if (state.done || (check.every ? end > now : end >= now)) return;
-    if (state.taken > 0) judge_window(state, seconds(end));
+    if (state.taken) judge_window(state, seconds(end));
     state.begin = end;
     state.done = !check.every;
     start_window(state, seconds(end));
   }
 }
 
-void Checks::sample_window(State& state, Time now) {
+void Checks::take_into_window(State& state, Time now) {
   const auto& check = state.check;
-  if (check.kind == scenario::Check::Kind::all || (check.kind == scenario::Check::Kind::each && !state.open))
-    return;
-  if (check.kind != scenario::Check::Kind::each) {
+  if (check.kind == scenario::Check::Kind::each) {
+    if (!state.open) return;
+  } else {
     close_windows(state, now);
     if (state.done || now < check.from || now > last_instant(check)) return;
   }
   state.expression->take(seconds(now));
-  ++state.taken;
+  state.taken = true;
 }
 
 bool Checks::concerns(const State& state, const RecordedEvent& event) {
@@ -247,14 +254,16 @@ void Checks::evaluate(State& state, double at, const std::string& values) {
   if (eventually) note_operands(state);
 }
 
+void Checks::step(Time now) {
+  at_steps_.update();
+  for (auto* state : stepped_) take_into_window(*state, now);
+}
+
 void Checks::sample(Time now) {
   const double at = seconds(now);
   for (auto& state : states_) {
     const auto kind = state.check.kind;
-    if (state.windowed) {
-      sample_window(state, now);
-      continue;
-    }
+    if (state.windowed) continue;
     if (kind == scenario::Check::Kind::always && in_window(state.check, at)) evaluate(state, at, "");
     if (kind == scenario::Check::Kind::eventually && now >= state.check.from && !state.held_at &&
         (!state.check.within || now <= state.check.from + *state.check.within)) {
@@ -364,7 +373,7 @@ std::vector<Tolerance> Checks::tolerances_of(const State& state) {
 
 CheckResult Checks::result(State& state, Time end) {
   const auto& check = state.check;
-  CheckResult result{check.name.text, expectation_text(check), false, {}, state.unit, {}, ""};
+  CheckResult result{check.name.text, expectation_text(check) + state.rate, false, {}, state.unit, {}, ""};
   const bool by_event = check.kind == scenario::Check::Kind::each || check.kind == scenario::Check::Kind::all;
   if (by_event && state.count < check.at_least) {
     const bool cycles = state.windowed && check.kind == scenario::Check::Kind::each;
@@ -393,7 +402,7 @@ CheckResult Checks::result(State& state, Time end) {
     return result;
   }
   if (check.kind == scenario::Check::Kind::all) finish_statistics(state);
-  if (state.windowed && is_judged_once(check) && state.taken > 0) judge_window(state, seconds(end));
+  if (state.windowed && is_judged_once(check) && state.taken) judge_window(state, seconds(end));
   if (state.count == 0) {
     result.detail = never_looked_at();
     return result;

@@ -40,15 +40,18 @@ struct CheckResult {
 
 /// Evaluates the checks of a scenario while it runs. always / eventually look at every record instant, the
 /// others at every event; an expression has a channel's number in the unit of its trace.csv column. So do
-/// statistics: of `all` at every event, else at every record instant, over a window of time or, of `each`,
-/// from behind one event to the next.
+/// statistics: of `all` at every event, else at every physics step, whatever is recorded, over a window of
+/// time or, of `each`, from behind one event to the next.
 class Checks : public Observer {
  public:
-  Checks(const scenario::Scenario& scenario, Watch& watch, const Names& names,
+  Checks(const scenario::Scenario& scenario, Watch& watch, Names& names,
          const std::vector<KnownEvent>& events, Problems& problems);
   Checks(const Checks&) = delete;
   Checks& operator=(const Checks&) = delete;
 
+  /// A check has statistics of every step: only then need step() be told.
+  [[nodiscard]] bool looks_at_steps() const { return !stepped_.empty(); }
+  void step(Time now) override;
   /// The watch has been updated for this record instant.
   void sample(Time now) override;
   /// An event; the watch has been updated for it.
@@ -101,20 +104,21 @@ class Checks : public Observer {
     double began = 0;               ///< [s] the same, of each too
     bool open = false;              ///< each: a cycle has begun
     bool done = false;              ///< there are no more windows
-    int taken = 0;                  ///< instants in the present window
+    bool taken = false;             ///< the present window has seen something
+    std::string rate;               ///< of its statistics: ", at each step of 100 us (10 kHz)"
   };
 
   /// `known`: the names that may be suggested; left as it was.
-  void bind(State& state, const scenario::Scenario& scenario, Watch& watch, std::vector<std::string>& known,
+  void bind(State& state, const scenario::Scenario& scenario, std::vector<std::string>& known,
             const std::vector<KnownEvent>& events, Problems& problems);
   static const KnownEvent* bind_event(State& state, const scenario::Scenario& scenario,
                                       const std::vector<KnownEvent>& events, Problems& problems);
   static void start_window(State& state, double at);
   /// Judges the window that ends at a time [s].
-  static void judge_window(State& state, double at);
+  void judge_window(State& state, double at);
   /// Judges the windows that have ended before `now`.
-  static void close_windows(State& state, Time now);
-  static void sample_window(State& state, Time now);
+  void close_windows(State& state, Time now);
+  void take_into_window(State& state, Time now);
   static bool concerns(const State& state, const RecordedEvent& event);
   static void evaluate(State& state, double at, const std::string& values);
   static void note_operands(State& state);
@@ -122,10 +126,13 @@ class Checks : public Observer {
   static std::string failed_text(const State& state);
   static void finish_statistics(State& state);
   static std::string looked_at(const State& state);
-  static CheckResult result(State& state, Time end);
+  CheckResult result(State& state, Time end);
   static std::vector<Tolerance> tolerances_of(const State& state);
 
+  Watch& watch_;
+  Watch at_steps_;  ///< what statistics of every step look at
   std::deque<State> states_;
+  std::vector<State*> stepped_;  ///< those that have such
 };
 
 }  // namespace drycut::sim::loop

@@ -10,6 +10,8 @@ class Observer {
   virtual ~Observer() = default;
   /// A record instant.
   virtual void sample(Time) {}
+  /// Time zero and every physics step, before the rest, of who asked for it; nothing has been updated.
+  virtual void step(Time) {}
   virtual void happened(const RecordedEvent&) {}
   /// The run has come to its end. May throw std::runtime_error when something cannot be written.
   virtual void finish() {}

@@ -61,6 +61,7 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
       bind_recording({scenario, named_, *names_, *watch_, known_events_, all_events_}, recording_, problems);
   drives_ = std::make_unique<DriveJudge>(scenario, named_);
   observers_ = {checks_.get(), drives_.get(), &shutter_, &remarks_, &causes_};
+  if (checks_->looks_at_steps()) tell_steps(*checks_);
   if (problems.size() == before) compare_with_machine();
   scenario::blame_variables(scenario, problems, before, [&](const scenario::Trial& trial) {
     Problems left;
@@ -194,6 +195,7 @@ void Simulation::step() {
 
   collect_events();
   time_ += step_;
+  for (auto* observer : steppers_) observer->step(time_);
   if (!world_.failure().empty()) failure_ = world_.failure();
   if (time_ >= next_record_) record();
   if (time_ >= shutter_.next()) snapshot();
@@ -310,7 +312,7 @@ std::vector<Reading> Simulation::controller_values() {
 
 void Simulation::run_to_end(const std::function<void(Time)>& progress) {
   constexpr int steps_between_reports = 2000;
-  record();
+  begin();
   int countdown = steps_between_reports;
   while (time_ < scenario_.scene.duration && failure_.empty()) {
     step();

@@ -81,7 +81,9 @@ class Simulation {
   // For whoever works at the machine while it runs, in place of run().
   /// What is recorded of time zero; advance() does it else.
   void begin() {
-    if (time_ == 0 && next_record_ == 0) record();
+    if (time_ > 0 || next_record_ > 0) return;
+    for (auto* observer : steppers_) observer->step(time_);
+    record();
   }
   /// One step; false if the simulation itself failed, now or before.
   bool advance() {
@@ -91,6 +93,8 @@ class Simulation {
   }
   /// Tells one more, from now on; it outlives the simulation.
   void tell(Observer& observer) { observers_.push_back(&observer); }
+  /// Tells one more every step, which costs time in each; before the first one. It outlives the simulation.
+  void tell_steps(Observer& observer) { steppers_.push_back(&observer); }
   /// Takes an entry of the timeline more, before the step at which it is due: at() in the future, or now. The
   /// run is the same as if it had stood behind the scenario's own. False, and nothing taken, if it does not
   /// fit.
@@ -185,6 +189,7 @@ class Simulation {
   Remarks remarks_;
   Causes causes_;
   std::vector<Observer*> observers_;      ///< all of them, in the order in which they are told
+  std::vector<Observer*> steppers_;       ///< those that are told every step
   std::vector<KnownEvent> known_events_;  ///< of the plants
   std::vector<KnownEvent> all_events_;    ///< with those of timeline and controller
   std::string failure_;

@@ -260,6 +260,10 @@ void Expression::start(double at) {
   for (auto& window : compiled_->tree.windows) window.running.start(at);
 }
 
+void Expression::start(std::size_t statistic, double at) {
+  compiled_->tree.windows[statistic].running.start(at);
+}
+
 void Expression::take(double at) {
   for (std::size_t i = 0; i < compiled_->tree.windows.size(); ++i) take(i, at);
 }

@@ -114,8 +114,9 @@ class Expression {
   [[nodiscard]] bool has_margin() const;
 
   [[nodiscard]] const std::deque<ExpressionStatistic>& statistics() const;
-  /// A window begins at a time [s].
+  /// A window begins at a time [s], of all statistics or of one.
   void start(double at);
+  void start(std::size_t statistic, double at);
   /// Takes the names' present numbers into all statistics, or into one of them.
   void take(double at);
   void take(std::size_t statistic, double at);

@@ -151,7 +151,8 @@ constexpr KindName kinds[] = {
     {"all", Check::Kind::all,
      "expect holds over statistics of all events of this name: mean_x, max_x, ..., p99(x), rms(x), ..."},
     {"always", Check::Kind::always,
-     "the expression holds at every record instant; statistics look at the whole window, or at every period"},
+     "the expression holds at every record instant; statistics look at every step of the whole window, or of "
+     "every period"},
     {"eventually", Check::Kind::eventually,
      "the expression holds at one record instant at least, or over one period"},
     {"never", Check::Kind::never, "no event of this name happens"}};

@@ -42,6 +42,7 @@ void RunningStatistic::start(double at) {
   settled_ = at;
   beyond_ = false;
   numbers_.clear();
+  stride_ = 1;
 }
 
 void RunningStatistic::take(double at, double number) {
@@ -73,9 +74,19 @@ void RunningStatistic::take(double at, double number) {
       beyond_ = std::abs(number) > band_;
       break;
     case Function::percentile:
-      numbers_.push_back(number);
+      keep(number);
       break;
   }
+}
+
+void RunningStatistic::keep(double number) {
+  if ((count_ - 1) % stride_ != 0) return;
+  if (numbers_.size() == most_kept) {
+    for (std::size_t i = 0; 2 * i < most_kept; ++i) numbers_[i] = numbers_[2 * i];
+    numbers_.resize(most_kept / 2);
+    stride_ *= 2;
+  }
+  numbers_.push_back(number);
 }
 
 double RunningStatistic::result() const {

@@ -8,9 +8,12 @@
 namespace drycut::sim::scenario {
 
 /// One number about the numbers of a window, which are taken one after the other: checks, metrics and
-/// comparisons mean the same by `rms`. Only a percentile keeps the numbers, those of its window.
+/// comparisons mean the same by `rms`. Only a percentile keeps the numbers, those of its window: every one of the
+/// first `most_kept`, every second one once there are more, then every fourth, and so on.
 class RunningStatistic {
  public:
+  static constexpr std::size_t most_kept = 1U << 20U;  ///< numbers of a percentile: 8 MB
+
   /// max, min, mean, rms, sd (of a sample, n - 1), count, settling, or the percentile pNN: p50, p99, p99.9
   /// (linear between the two nearest numbers); nothing if no statistic is called so.
   static std::optional<RunningStatistic> named(std::string_view name);
@@ -33,6 +36,7 @@ class RunningStatistic {
 
  private:
   enum class Function { max, min, mean, rms, sd, count, settling, percentile };
+  void keep(double number);
   [[nodiscard]] double percentile() const;
 
   Function function_ = Function::max;
@@ -49,6 +53,7 @@ class RunningStatistic {
   double settled_ = 0;
   bool beyond_ = false;  ///< settling: the last number was outside the band
   std::vector<double> numbers_;
+  std::size_t stride_ = 1;  ///< percentile: every so many numbers one is kept
 };
 
 }  // namespace drycut::sim::scenario

@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
+#include <functional>
 #include <numbers>
+#include <optional>
 
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -28,26 +31,44 @@ const std::string sine = "5 * sin(_pi * bench.counter1.count / 500)";
 struct Ran {
   loop::CheckResult check;
   loop::Recording recording;
+  double metric = NAN;
 };
+
+/// `metric`: a limit of tune's, from 1.2 s on.
+Ran run_file(const std::filesystem::path& file, const std::vector<scenario::Override>& set,
+             const std::function<void(Simulation&)>& on_the_way = [](auto&) {},
+             studies::Metric* metric = nullptr) {
+  constexpr Time from = 1200 * millisecond;
+  Problems problems;
+  const auto scenario = scenario::read_scenario(file, set, problems);
+  Ran ran;
+  if (problems.empty()) {
+    loop::Simulation simulation(scenario, problems);
+    if (problems.empty()) {
+      std::optional<studies::MetricSteps> steps;
+      if (metric != nullptr) steps.emplace(simulation, std::vector{metric}, from);
+      ran.check = simulation.run([&](Time) { on_the_way(simulation); }).checks.front();
+      ran.recording = simulation.take_recording();
+      if (metric != nullptr) ran.metric = metric->value(ran.recording, from);
+    }
+  }
+  for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
+  return ran;
+}
 
 /// `on_the_way` comes every 2000 steps.
 Ran run(
     const std::string& check, const std::string& step = "1 ms",
     const std::function<void(Simulation&)>& on_the_way = [](auto&) {}) {
-  Problems problems;
   TestFolder folder;
-  const auto scenario = scenario::read_scenario(folder.file("line.yaml", head + check + "\n"),
-                                                {{"scene.step", step}}, problems);
-  Ran ran;
-  if (problems.empty()) {
-    loop::Simulation simulation(scenario, problems);
-    if (problems.empty()) {
-      ran.check = simulation.run([&](Time) { on_the_way(simulation); }).checks.front();
-      ran.recording = simulation.take_recording();
-    }
-  }
-  for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
-  return ran;
+  return run_file(folder.file("line.yaml", head + check + "\n"), {{"scene.step", step}}, on_the_way);
+}
+
+/// Steps of 1 ms, of which every so many is recorded.
+Ran run_recorded(const std::string& check, const std::string& every, studies::Metric* metric = nullptr) {
+  TestFolder folder;
+  return run_file(
+      folder.file("line.yaml", head + check + "\n"), {{"record.every", every}}, [](auto&) {}, metric);
 }
 
 std::string problem_of(const std::string& check) {
@@ -64,16 +85,60 @@ std::string problem_of(const std::string& check) {
 }
 
 TEST(ChecksOverWindows, RmsOfASineIsItsHeightByRootTwo) {
-  const auto [check, recording] = run("{name: a, always: rms(" + sine + ") <= 4, from: 1 s, until: 2.998 s}");
+  const auto check = run("{name: a, always: rms(" + sine + ") <= 4, from: 1 s, until: 2.999 s}").check;
   EXPECT_TRUE(check.passed);
   EXPECT_NEAR(*check.margin, 4 - 5 / std::numbers::sqrt2, 1e-9);
   EXPECT_FALSE(check.at);
-  EXPECT_EQ(check.detail, "1.0000 s to 2.9980 s: rms(" + sine + ")=3.53553");
-  EXPECT_EQ(check.expectation, "always rms(" + sine + ") <= 4, from 1.0 s, until 2.998 s");
+  EXPECT_EQ(check.detail, "1.0000 s to 2.9990 s: rms(" + sine + ")=3.53553");
+  EXPECT_EQ(check.expectation,
+            "always rms(" + sine + ") <= 4, from 1.0 s, until 2.999 s, at each step of 1 ms (1 kHz)");
+}
+
+// 20 ms apart the sine's record instants are not a whole number to a period of the window.
+TEST(ChecksOverWindows, TheSameWhateverIsRecorded) {
+  for (const std::string& text : std::vector<std::string>{
+           "{name: a, always: \"rms(" + sine + ") <= 4 && p90(bench.counter1.count) < 1e9\", from: 1.21 s}",
+           "{name: a, always: \"mean(" + sine + ") <= 4\", from: 1 s, every: 0.33 s}",
+           "{name: a, each: set, expect: \"sd(" + sine + ") <= 4 && bench.counter1.count < 1e9\"}",
+           "{name: a, eventually: max(bench.counter1.count) > 2000, every: 0.07 s}"}) {
+    const auto often = run_recorded(text, "1 ms");
+    const auto seldom = run_recorded(text, "20 ms");
+    ASSERT_GT(often.recording.times().size(), 19 * (seldom.recording.times().size() - 1));
+    EXPECT_TRUE(often.check.passed) << text << ": " << often.check.detail;
+    EXPECT_EQ(often.check.detail, seldom.check.detail) << text;
+    EXPECT_EQ(often.check.margin, seldom.check.margin) << text;
+    EXPECT_EQ(often.check.at, seldom.check.at) << text;
+    EXPECT_THAT(seldom.check.expectation, HasSubstr(", at each step of 1 ms (1 kHz)"));
+  }
+}
+
+TEST(ChecksOverWindows, RmsOfATorqueSeesEveryStep) {
+  TestFolder folder;
+  const std::filesystem::path knife = std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/rotary_knife.yaml";
+  const auto file = folder.file("line.yaml", "extends: " + knife.string() + R"(
+scene: {duration: 3 s}
+checks:
+  - {name: torque, always: rms(knife.motor.torque) <= 100 N m, from: 1 s}
+)");
+  const auto every_step = run_file(file, {{"record.every", "100 us"}});
+  const auto usual = run_file(file, {{"record.every", "2 ms"}});
+  double squares = 0;
+  double count = 0;
+  const auto& torque = every_step.recording.column("knife.motor.torque")->values;
+  for (std::size_t row = 0; row < torque.size(); ++row) {
+    if (every_step.recording.times()[row] < 1 * second) continue;
+    squares += torque[row] * torque[row];
+    ++count;
+  }
+  EXPECT_NEAR(count, 20001, 0.5);
+  EXPECT_NEAR(*every_step.check.margin, 100 - std::sqrt(squares / count), 1e-9);
+  EXPECT_EQ(usual.check.margin, every_step.check.margin);
+  EXPECT_EQ(usual.check.detail, every_step.check.detail);
+  EXPECT_THAT(usual.check.expectation, HasSubstr("at each step of 100 us (10 kHz)"));
 }
 
 TEST(ChecksOverWindows, PercentileOfARampIsThatShareOfIt) {
-  const auto [check, recording] =
+  const auto [check, recording, none] =
       run("{name: a, always: \"abs(p99(bench.counter1.count) - min(bench.counter1.count) - 990) <= 1\", "
           "from: 1 s, "
           "until: 2 s}");
@@ -103,18 +168,19 @@ TEST(ChecksOverWindows, LookingOnTheWayChangesNothing) {
 }
 
 TEST(ChecksOverWindows, PeriodsAreJudgedOneByOne) {
-  const auto [check, recording] =
+  const auto [check, recording, none] =
       run("{name: a, always: max(bench.counter1.count) <= 2600, from: 0.5 s, every: 1 s}");
   EXPECT_TRUE(check.passed);  // half a period is left at the end
   EXPECT_EQ(check.unit, "");
   EXPECT_THAT(check.detail,
               StartsWith("2 periods, worst: 1.5000 s to 2.5000 s: max(bench.counter1.count)=249"));
   EXPECT_EQ(*check.at, 2.5);
-  EXPECT_EQ(check.expectation, "always max(bench.counter1.count) <= 2600, from 0.5 s, every 1.0 s");
+  EXPECT_EQ(check.expectation,
+            "always max(bench.counter1.count) <= 2600, from 0.5 s, every 1.0 s, at each step of 1 ms (1 kHz)");
 }
 
 TEST(ChecksOverWindows, EventuallyIsTrueAtTheEndOfAPeriod) {
-  const auto [check, recording] =
+  const auto [check, recording, none] =
       run("{name: a, eventually: min(bench.counter1.count) >= 900, every: 0.5 s, within: 2 s}");
   EXPECT_TRUE(check.passed);
   EXPECT_EQ(check.detail, "first true at 1.5000 s");
@@ -122,17 +188,17 @@ TEST(ChecksOverWindows, EventuallyIsTrueAtTheEndOfAPeriod) {
 }
 
 TEST(ChecksOverWindows, ACycleGoesFromEventToEvent) {
-  const auto [check, recording] =
+  const auto [check, recording, none] =
       run("{name: a, each: set, from: 0.4 s, expect: max(bench.counter1.count) - min(bench.counter1.count) "
           "<= 500}");
   EXPECT_TRUE(check.passed);
-  EXPECT_NEAR(*check.margin, 2, 1e-9);  // 250 instants, 2 counts apart
+  EXPECT_NEAR(*check.margin, 1, 1e-9);  // 500 steps, a count apart
   EXPECT_THAT(check.detail, StartsWith("4 cycles from set to set, worst: 0.5000 s to 1.0000 s: max("));
   EXPECT_EQ(*check.at, 1);
 }
 
 TEST(ChecksOverWindows, TooFewCyclesFail) {
-  const auto [check, recording] =
+  const auto [check, recording, none] =
       run("{name: a, each: set, from: 2.4 s, expect: rms(bench.counter1.rate) <= 1e9}");
   EXPECT_FALSE(check.passed);
   EXPECT_EQ(check.detail, "no cycle from set to set between 2.4 s and 3.0 s, at least 1 expected");
@@ -154,7 +220,7 @@ TEST(ChecksOverWindows, AWindowThatDidNotComeFails) {
 }
 
 TEST(ChecksOverWindows, NumbersCarryUnits) {
-  const auto [check, recording] =
+  const auto [check, recording, none] =
       run("{name: a, always: rms(bench.counter1.rate) <= 90000 1/min, from: 1 s}");
   EXPECT_TRUE(check.passed);
   EXPECT_NEAR(*check.margin, 500, 1e-9);
@@ -170,13 +236,19 @@ TEST(ChecksOverWindows, EqualTheTermsOfTuneAndTheTrace) {
     auto own = term;
     own.replace(own.find('x', own.find('(') + (term.starts_with("max") ? 5 : 1)), 1, sine);
     const auto limit = own + " <= 7";
-    const auto [check, recording] = run("{name: a, always: \"" + limit + "\", from: 1.2 s}");
+    const auto checked = "{name: a, always: \"" + limit + "\", from: 1.2 s}";
     std::vector<scenario::ExpressionFault> faults;
     auto metric = studies::Metric::compile(limit, studies::Metric::Kind::limit, {}, faults);
     ASSERT_TRUE(metric);
-    EXPECT_EQ(*check.margin, metric->value(recording, 1200 * millisecond));
+    const auto seldom = run_recorded(checked, "20 ms", &*metric);
+    EXPECT_EQ(*seldom.check.margin, seldom.metric);
+    auto of_recording = studies::Metric::compile(limit, studies::Metric::Kind::limit, {}, faults);
+    const auto [check, recording, none] = run_recorded(checked, "1 ms");
+    EXPECT_EQ(*check.margin, of_recording->value(recording, 1200 * millisecond));
+    EXPECT_EQ(*check.margin, seldom.metric);
   }
-  const auto [check, recording] = run("{name: a, always: \"rms(" + sine + ") <= 7\", from: 1.2 s}");
+  const auto [check, recording, none] =
+      run_recorded("{name: a, always: \"rms(" + sine + ") <= 7\", from: 1.2 s}", "1 ms");
   double squares = 0;
   double count = 0;
   for (std::size_t row = 0; row < recording.times().size(); ++row) {

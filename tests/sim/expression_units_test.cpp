@@ -142,6 +142,17 @@ TEST(ExpressionStatistics, AgreeWithClosedForms) {
   EXPECT_DOUBLE_EQ(over("2 * max(x) + mean(x)", 3, ramp), 10);
 }
 
+TEST(ExpressionStatistics, APercentileKeepsEveryFourthNumberOfTwoAndAHalfMillion) {
+  auto median = RunningStatistic::named("p50");
+  ASSERT_TRUE(median);
+  median->start(0);
+  for (int i = 0; i < 1001; ++i) median->take(i, i);
+  EXPECT_EQ(median->result(), 500);
+  median->start(0);
+  for (int i = 0; i < 2'500'000; ++i) median->take(i, i);
+  EXPECT_EQ(median->result(), 1'249'998);  // of 0, 4, 8 .. 2 499 996
+}
+
 TEST(ExpressionStatistics, NothingIsNoNumber) {
   for (const auto* term : {"rms(x)", "p99(x)", "max(x)", "settling(x, 1)"}) {
     EXPECT_TRUE(std::isnan(over(term, 0, [](int) { return 0.0; }))) << term;

@@ -9,6 +9,7 @@
 #include "sim/file.hpp"
 #include "sim/report/report.hpp"
 #include "sim/report/results.hpp"
+#include "sim/scenario/format.hpp"
 #include "sim/studies/compare/pieces.hpp"
 
 namespace drycut::sim::studies {
@@ -124,7 +125,10 @@ ReportTable piece_table(const Comparison& comparison, const PieceRows& pieces) {
 
 ReportTable channel_table(const Comparison& comparison) {
   ReportTable table{
-      "Channels that runs share; rms and peak behind the start-up", {"channel", "unit"}, {}, true};
+      "Channels that runs share; rms and peak of what was recorded behind the start-up",
+      {"channel", "unit"},
+      {},
+      true};
   for (const auto& run : comparison.runs) {
     table.headings.push_back(run.label + ": rms");
     table.headings.push_back(run.label + ": peak");
@@ -175,7 +179,8 @@ void add_tables(const Comparison& comparison, const ComparisonPage& page, render
     if (table.rows.empty()) return;
     (table.folded ? report.tables : report.summary).push_back(std::move(table));
   };
-  if (!page.figures.empty()) add(figure_table(comparison, "Compared", page.figures));
+  if (!page.figures.empty())
+    add(figure_table(comparison, "Compared; statistics of channels are of what was recorded", page.figures));
   add(verdict_table(comparison));
   add(parameter_table(comparison));
   auto events = figure_table(comparison, "Cuts and other events", comparison.events);
@@ -193,6 +198,13 @@ std::vector<renders::Plot> drawn_plots(const Comparison& comparison, const Compa
   return overlay(comparison.runs, requests);
 }
 
+/// What the statistics of its channels are taken of.
+std::string rate_text(const RunFolder& run) {
+  const auto& times = run.recording.times();
+  if (times.size() < 2) return "";
+  return fmt::format(", recorded every {}", scenario::format_time(times[1] - times[0]));
+}
+
 renders::Report report_of(const Comparison& comparison, const ComparisonPage& page) {
   renders::Report report;
   report.title = page.title;
@@ -203,7 +215,7 @@ renders::Report report_of(const Comparison& comparison, const ComparisonPage& pa
   for (const auto& run : comparison.runs) {
     const double start = comparison.from.value_or(settled(run));
     report.facts.push_back(
-        {{run.label, fmt::format("{:g} s simulated, drycut {}{}", run.end, run.version,
+        {{run.label, fmt::format("{:g} s simulated{}, drycut {}{}", run.end, rate_text(run), run.version,
                                  start > 0 ? fmt::format("; start-up until {:g} s", start) : "")}});
   }
   if (comparison.from) report.facts.push_back({{"figures from", fmt::format("{:g} s", *comparison.from)}});

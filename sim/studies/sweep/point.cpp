@@ -254,6 +254,9 @@ PointRow run_point(const PointQuestion& question, const PointScenario& point) {
   auto metrics = metrics_of(question, problems);
   loop::Simulation simulation(point.scenario, problems);
   if (!problems.empty()) return refused(problems);
+  std::vector<Metric*> followed;
+  for (auto& metric : metrics) followed.push_back(&metric);
+  MetricSteps steps(simulation, followed, 0);
   const auto outcome = simulation.run();
   if (!outcome.failure.empty()) return row_without_run(Verdict::diverged, outcome.failure, question);
 

@@ -182,6 +182,27 @@ void Metric::take(std::size_t term, const loop::Recording& recording, Time from)
   }
 }
 
+bool Metric::follow(loop::Watch& watch, Time from) {
+  from_ = from;
+  bool any = false;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (!terms_[i][0]->name.event.empty()) continue;
+    for (auto* slot : terms_[i]) slot->followed = watch.slot(slot->name.text);
+    formula_->start(i, seconds(from));
+    any = true;
+  }
+  return any;
+}
+
+void Metric::take(Time now) {
+  if (now < from_) return;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (!follows(i)) continue;
+    for (auto* slot : terms_[i]) slot->number = *slot->followed;
+    formula_->take(i, seconds(now));
+  }
+}
+
 bool Metric::needs_loop() const { return !figures_.empty(); }
 
 double Metric::value(const loop::Recording& recording, Time from, const LoopFigures& loop) {
@@ -189,12 +210,27 @@ double Metric::value(const loop::Recording& recording, Time from, const LoopFigu
     figure.number = loop.*figure.figure;
     if (std::isnan(figure.number)) return nothing;
   }
-  formula_->start(seconds(from));
-  for (std::size_t i = 0; i < terms_.size(); ++i) take(i, recording, from);
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (follows(i)) continue;
+    formula_->start(i, seconds(from));
+    take(i, recording, from);
+  }
   formula_->finish();
   for (const auto& statistic : formula_->statistics())
     if (std::isnan(statistic.value)) return nothing;
   return kind_ == Kind::number ? formula_->value() : formula_->evaluate().margin.value_or(nothing);
+}
+
+MetricSteps::MetricSteps(loop::Simulation& simulation, const std::vector<Metric*>& metrics, Time from)
+    : watch_(simulation.names()) {
+  for (auto* metric : metrics)
+    if (metric->follow(watch_, from)) metrics_.push_back(metric);
+  if (!metrics_.empty()) simulation.tell_steps(*this);
+}
+
+void MetricSteps::step(Time now) {
+  watch_.update();
+  for (auto* metric : metrics_) metric->take(now);
 }
 
 }  // namespace drycut::sim::studies

@@ -9,6 +9,7 @@
 
 #include "sim/loop/checks.hpp"
 #include "sim/loop/recorder.hpp"
+#include "sim/loop/simulation.hpp"
 #include "sim/scenario/expression.hpp"
 
 namespace drycut::sim::studies {
@@ -50,8 +51,14 @@ class Metric {
                                        std::vector<scenario::ExpressionFault>& faults,
                                        const UnitOf& unit_of = {});
 
+  /// Before a run: its channels are taken from `watch`, by take(), from `from` on. False if it looks at none.
+  bool follow(loop::Watch& watch, Time from);
+  /// The watch has been updated.
+  void take(Time now);
+
   /// A number: its value. A limit: the room left, negative beyond it. Over instants and events from `from`
-  /// on; the channels must have been recorded. NaN where a term has nothing to look at.
+  /// on. Channels are those that were followed; else they must have been recorded. NaN where a term has
+  /// nothing to look at.
   [[nodiscard]] double value(const loop::Recording& recording, Time from, const LoopFigures& loop = {});
   /// True if a figure of the loop is in it.
   [[nodiscard]] bool needs_loop() const;
@@ -62,6 +69,7 @@ class Metric {
   struct Slot {
     MetricName name;
     double number = 0;
+    const double* followed = nullptr;
   };
   struct Figure {
     double LoopFigures::*figure;
@@ -70,12 +78,26 @@ class Metric {
   class Compiler;
 
   void take(std::size_t term, const loop::Recording& recording, Time from);
+  [[nodiscard]] bool follows(std::size_t term) const { return terms_[term][0]->followed != nullptr; }
 
   std::deque<Slot> slots_;
   std::vector<std::vector<Slot*>> terms_;  ///< what each statistic of the formula looks at
   std::deque<Figure> figures_;
   std::optional<scenario::Expression> formula_;
   Kind kind_ = Kind::number;
+  Time from_ = 0;  ///< what is followed counts from here on
+};
+
+/// Takes what metrics look at every step of a run, as checks do: whatever is recorded. It lives until the
+/// run's end.
+class MetricSteps : public loop::Observer {
+ public:
+  MetricSteps(loop::Simulation& simulation, const std::vector<Metric*>& metrics, Time from);
+  void step(Time now) override;
+
+ private:
+  loop::Watch watch_;
+  std::vector<Metric*> metrics_;  ///< those that look at channels
 };
 
 }  // namespace drycut::sim::studies

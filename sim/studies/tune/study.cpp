@@ -139,6 +139,9 @@ void measure_case(const Study& study, const Study::Case& entry,
   loop::Simulation simulation(scenario, problems);
   if (!problems.empty()) return stop(verdict, to_string(problems.front()));
   ++verdict.runs;
+  std::vector<Metric*> metrics;
+  for (auto& gauge : all) metrics.push_back(&gauge.metric);
+  MetricSteps steps(simulation, metrics, study.from);
   const auto outcome = simulation.run();
   if (!outcome.failure.empty()) return stop(verdict, outcome.failure);
   const auto& recording = simulation.recording();
