@@ -78,7 +78,7 @@ bool is_number(const std::string& text) {
 
 /// A field of the table has one name: a figure must not be called like another column.
 void check_names(const studies::PointQuestion& question, const studies::SweepAxes& axes, Problems& problems) {
-  std::set<std::string> taken = {"verdict", "limit"};
+  std::set<std::string> taken = {"verdict", "limit", "rating"};
   for (const auto& axis : axes) taken.insert(axis.parameter.path);
   const auto own = question.columns.size() - question.figures.size();
   for (std::size_t i = 0; i < own; ++i) {
@@ -90,6 +90,12 @@ void check_names(const studies::PointQuestion& question, const studies::SweepAxe
       problems.push_back({"figures", 1, 1, "'" + figure.name + "' cannot be the name of a figure",
                           figure.name.empty() ? "give it one" : "a column has this name, give another"});
 }
+
+/// "plants.web.speed=20..300 m/min:1", the largest or the smallest; "" = nothing.
+struct Sought {
+  std::string text;
+  bool least = false;
+};
 
 struct SweepCall {
   std::filesystem::path file;
@@ -107,8 +113,7 @@ class Asked {
   std::vector<studies::SweepPoint> points;
   std::optional<sim::OutputFolder> folder;
 
-  Asked(const SweepCall& call, const std::string& find_max, std::optional<std::size_t> sample,
-        const Place& place) {
+  Asked(const SweepCall& call, const Sought& sought, std::optional<std::size_t> sample, const Place& place) {
     Problems problems;
     check_jobs(place.jobs, problems);
     auto text = sim::read_file(call.file, problems);
@@ -118,7 +123,9 @@ class Asked {
     for (const auto& over : call.over)
       if (auto axis = studies::parse_axis(over, "over", sample.has_value(), problems))
         axes.push_back(std::move(*axis));
-    if (!find_max.empty()) bound = studies::parse_bound(find_max, "find_max", problems);
+    if (!sought.text.empty())
+      bound =
+          studies::parse_bound(sought.text, sought.least ? "find_min" : "find_max", sought.least, problems);
     if (text) {
       question.text = std::move(*text);
       studies::prepare(question, problems);
@@ -129,10 +136,10 @@ class Asked {
     if (bound) all.push_back({bound->parameter, {}});
     check_names(question, all, problems);
     if (bound) {
-      studies::Envelope sought{call.file.stem().string(), question, axes, *bound};
-      points = studies::planned(sought, problems);
-      axes = std::move(sought.axes);
-      bound = std::move(sought.request);
+      studies::Envelope envelope{call.file.stem().string(), question, axes, *bound};
+      points = studies::planned(envelope, problems);
+      axes = std::move(envelope.axes);
+      bound = std::move(envelope.request);
     } else {
       points = studies::planned(axes, sample, question, problems);
     }
@@ -148,7 +155,7 @@ class Asked {
   [[nodiscard]] std::string table() const { return bound ? "envelope.csv" : "sweep.csv"; }
   /// Columns of words; all others are numbers.
   [[nodiscard]] std::vector<std::string> words() const {
-    std::vector<std::string> words = {"verdict", "limit"};
+    std::vector<std::string> words = {"verdict", "limit", "rating"};
     for (const auto& axis : axes)
       if (!std::all_of(axis.values.begin(), axis.values.end(), is_number))
         words.push_back(heading(axis.parameter));
@@ -177,14 +184,14 @@ py::dict answer(const Asked& asked, const std::string& csv, std::size_t simulate
 /// Asks and runs, while other threads of Python go on: `work` runs it and gives the table, and what writes
 /// its report.
 template <typename Work>
-py::dict studied(const SweepCall& call, const std::string& find_max, std::optional<std::size_t> sample,
+py::dict studied(const SweepCall& call, const Sought& sought, std::optional<std::size_t> sample,
                  const Place& place, const Work& work) {
   std::optional<Asked> asked;
   std::string csv;
   std::size_t simulated = 0;
   {
     const py::gil_scoped_release unlocked;
-    asked.emplace(call, find_max, sample, place);
+    asked.emplace(call, sought, sample, place);
     studies::PointStore store(asked->folder->add(points_file), place.jobs);
     const auto [table, write_report] = work(*asked, store);
     csv = table;
@@ -201,7 +208,7 @@ py::dict studied(const SweepCall& call, const std::string& find_max, std::option
 py::dict sweep(const SweepCall& call, std::optional<std::size_t> sample, const Place& place,
                const py::object& progress) {
   Teller teller(progress);
-  return studied(call, "", sample, place, [&](Asked& asked, studies::PointStore& store) {
+  return studied(call, {}, sample, place, [&](Asked& asked, studies::PointStore& store) {
     auto rows = studies::sweep(asked.question, asked.axes, asked.points, store, std::ref(teller));
     teller.end(rows.size());
     auto csv = studies::sweep_csv(asked.question, asked.axes, asked.points, rows);
@@ -211,10 +218,10 @@ py::dict sweep(const SweepCall& call, std::optional<std::size_t> sample, const P
   });
 }
 
-py::dict envelope(const SweepCall& call, const std::string& find_max, const Place& place,
+py::dict envelope(const SweepCall& call, const Sought& bound, const Place& place,
                   const py::object& progress) {
   Teller teller(progress);
-  return studied(call, find_max, std::nullopt, place, [&](Asked& asked, studies::PointStore& store) {
+  return studied(call, bound, std::nullopt, place, [&](Asked& asked, studies::PointStore& store) {
     std::vector<studies::Envelope> sought = {
         {call.file.stem().string(), asked.question, asked.axes, *asked.bound, asked.points}};
     studies::seek(sought.front(), store, std::ref(teller));
@@ -294,11 +301,12 @@ void add_studies(py::module_& module) {
   module.def(
       "envelope",
       [](const std::filesystem::path& file, const Settings& set, const std::vector<std::string>& over,
-         const std::string& find_max, const Figures& figures, int jobs, const std::filesystem::path& folder,
-         bool kept, const py::object& progress) {
-        return envelope({file, set, over, figures}, find_max, {folder, kept, jobs}, progress);
+         const std::string& find, bool least, const Figures& figures, int jobs,
+         const std::filesystem::path& folder, bool kept, const py::object& progress) {
+        return envelope({file, set, over, figures}, {find, least}, {folder, kept, jobs}, progress);
       },
-      "file"_a, "set"_a, "over"_a, "find_max"_a, "figures"_a, "jobs"_a, "folder"_a, "kept"_a, "progress"_a);
+      "file"_a, "set"_a, "over"_a, "find"_a, "least"_a, "figures"_a, "jobs"_a, "folder"_a, "kept"_a,
+      "progress"_a);
   module.def(
       "tune",
       [](const std::vector<std::filesystem::path>& files, const Settings& set,

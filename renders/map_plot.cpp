@@ -22,88 +22,107 @@ constexpr double kTitleSize = 20;
 constexpr double kTextSize = 15;
 constexpr double kLevelSize = 13;
 constexpr double kLegendWidth = 300;
-constexpr Ink kGood = ink(0xc5ebdf);
-constexpr Ink kNothing = ink(0xeef1f4);
-constexpr std::array kBad = {ink(0xfbdcc4), ink(0xf3dcea), ink(0xfbe8b9), ink(0xcfe6f5),
-                             ink(0xf5c6c2), ink(0xe3dcf6), ink(0xd8d2c4), ink(0xdadfe4)};
+constexpr Ink kGood = ink(0x009e73);
+constexpr Ink kNothing = ink(0xa3adb8);
+constexpr std::array kBad = {ink(0xd55e00), ink(0xe69f00), ink(0xcc79a7), ink(0x56b4e9),
+                             ink(0xb3261e), ink(0x8d6cb8), ink(0x7a6a4f), ink(0x52606d)};
 constexpr std::array kLineInks = {ink(0x0072b2), ink(0x6a3d9a), ink(0x006b4f), ink(0x8a4b00)};
 const std::array<Dash, 3> kLineDashes = {Dash{}, Dash{8, 4}, Dash{3, 3}};
 const Dash kCurveDash = {10, 4, 2, 4};
 constexpr double kLineWidth = 1.6;
 constexpr double kCurveWidth = 2.2;
+constexpr double kBoundWidth = 1.4;
+constexpr double kClear = 14;  ///< between the outermost points and the axes
+constexpr double kLargestDot = 7;
+constexpr double kSmallestDot = 1.5;
 constexpr double kRow = 24;             ///< of the legend
 constexpr std::size_t kMostPieces = 4;  ///< of a level's line: more are noise
 
-/// Half-way to the neighbours, and as far beyond the ends.
-std::vector<double> borders(const std::vector<double>& values) {
-  std::vector<double> found = {values[0] - (values[1] - values[0]) / 2};
-  found.reserve(values.size() + 1);
-  for (std::size_t i = 0; i + 1 < values.size(); ++i) found.push_back((values[i] + values[i + 1]) / 2);
-  found.push_back(values.back() + (values.back() - values[values.size() - 2]) / 2);
-  return found;
+/// Half-way to the neighbour on either side; at the ends no further.
+Range around(const std::vector<double>& values, std::size_t i) {
+  return {i == 0 ? values[i] : (values[i - 1] + values[i]) / 2,
+          i + 1 == values.size() ? values[i] : (values[i] + values[i + 1]) / 2};
 }
 
 class MapPainter : Paper {
  public:
   MapPainter(cairo_t* pen, const MapPlot& map)
-      : Paper(pen),
-        map_(map),
-        area_(map_area(map)),
-        x_(borders(map.x.values)),
-        y_(borders(map.y.values)),
-        drawn_(map.lines.size()) {}
+      : Paper(pen), map_(map), area_(map_area(map)), radius_(dot_radius()), drawn_(map.lines.size()) {}
 
   void paint() {
     blank();
     text(area_.left, 24, fitted(map_.title, kTitleSize, map_.width - area_.left - 10, true), Align::left,
          kTitleSize, true);
-    cells();
     axes();
+    points();
     clipped(area_, [&] {
       for (std::size_t i = 0; i < map_.lines.size(); ++i) lines(i);
       for (const MapCurve& shown : map_.curves) curve(shown);
     });
+    if (!map_.bound.empty()) bound();
     legend();
   }
 
  private:
-  /// Neighbours of one region in a row are one box: no seams.
-  void cells() {
-    const std::size_t columns = map_.x.values.size();
-    for (std::size_t row = 0; row < map_.y.values.size(); ++row) {
-      for (std::size_t first = 0; first < columns;) {
-        const std::size_t region = map_.region[row * columns + first];
-        std::size_t last = first + 1;
-        while (last < columns && map_.region[row * columns + last] == region) ++last;
-        box(std::floor(area_.x(x_[first])), std::floor(area_.y(y_[row + 1])), std::floor(area_.x(x_[last])),
-            std::floor(area_.y(y_[row])), ink_of(region));
-        first = last;
-      }
-    }
-    borders_of_regions();
+  /// So that neighbours do not touch.
+  [[nodiscard]] double dot_radius() const {
+    constexpr double share = 0.35;  // of the way to the nearest
+    double nearest = kLargestDot / share;
+    for (std::size_t i = 1; i < map_.x.values.size(); ++i)
+      nearest = std::min(nearest, area_.x(map_.x.values[i]) - area_.x(map_.x.values[i - 1]));
+    for (std::size_t i = 1; i < map_.y.values.size(); ++i)
+      nearest = std::min(nearest, area_.y(map_.y.values[i - 1]) - area_.y(map_.y.values[i]));
+    return std::max(kSmallestDot, share * nearest);
   }
 
-  void borders_of_regions() {
+  void points() const {
     const std::size_t columns = map_.x.values.size();
-    const auto differ = [&](std::size_t a, std::size_t b) { return map_.region[a] != map_.region[b]; };
-    for (std::size_t row = 0; row < map_.y.values.size(); ++row) {
-      for (std::size_t column = 0; column < columns; ++column) {
-        const std::size_t here = row * columns + column;
-        const double left = area_.x(x_[column]);
-        const double right = area_.x(x_[column + 1]);
-        if (column + 1 < columns && differ(here, here + 1))
-          line(right, area_.y(y_[row]), right, area_.y(y_[row + 1]), kPaper, 1.5);
-        if (row + 1 < map_.y.values.size() && differ(here, here + columns))
-          line(left, area_.y(y_[row + 1]), right, area_.y(y_[row + 1]), kPaper, 1.5);
-      }
+    for (std::size_t i = 0; i < map_.region.size(); ++i)
+      point(area_.x(map_.x.values[i % columns]), area_.y(map_.y.values[i / columns]), radius_,
+            map_.region[i]);
+  }
+
+  void point(double x, double y, double radius, std::size_t region) const {
+    const double half = 0.85 * radius;
+    switch (map_.regions[region].kind) {
+      case MapRegion::Kind::good:
+        return dot(x, y, radius, ink_of(region));
+      case MapRegion::Kind::bad:
+        return box(x - half, y - half, x + half, y + half, ink_of(region));
+      case MapRegion::Kind::none:
+        break;
+    }
+    const double arm = 0.6 * radius;
+    x = crisp(x);
+    y = crisp(y);
+    line(x - arm, y - arm, x + arm, y + arm, ink_of(region), 2);
+    line(x - arm, y + arm, x + arm, y - arm, ink_of(region), 2);
+  }
+
+  /// Half-way between neighbours of which one is good and one bad.
+  void bound() const {
+    const std::size_t columns = map_.x.values.size();
+    const auto part = [&](std::size_t a, std::size_t b) {
+      const auto kind = [&](std::size_t i) { return map_.regions[map_.region[i]].kind; };
+      using Kind = MapRegion::Kind;
+      return (kind(a) == Kind::good && kind(b) == Kind::bad) ||
+             (kind(a) == Kind::bad && kind(b) == Kind::good);
+    };
+    for (std::size_t i = 0; i < map_.region.size(); ++i) {
+      const auto [left, right] = around(map_.x.values, i % columns);
+      const auto [low, high] = around(map_.y.values, i / columns);
+      if (i % columns + 1 < columns && part(i, i + 1))
+        line(area_.x(right), area_.y(low), area_.x(right), area_.y(high), kText, kBoundWidth);
+      if (i + columns < map_.region.size() && part(i, i + columns))
+        line(area_.x(left), area_.y(high), area_.x(right), area_.y(high), kText, kBoundWidth);
     }
   }
 
   void axes() {
-    const double left = crisp(area_.left);
-    const double bottom = crisp(area_.bottom);
-    line(left, area_.top, left, bottom, kAxis, kGridWidth);
-    line(left, bottom, area_.right, bottom, kAxis, kGridWidth);
+    const double left = crisp(area_.left - kClear);
+    const double bottom = crisp(area_.bottom + kClear);
+    line(left, area_.top, left, area_.bottom, kAxis, kGridWidth);
+    line(area_.left, bottom, area_.right, bottom, kAxis, kGridWidth);
     for (const Tick& tick : axis_ticks(area_.x_range.first, area_.x_range.second, 10)) {
       const double x = crisp(area_.x(tick.value));
       line(x, bottom, x, bottom + kTickLength, kAxis, kGridWidth);
@@ -190,7 +209,7 @@ class MapPainter : Paper {
   }
 
   void legend() {
-    const double left = area_.right + 24;
+    const double left = area_.right + kClear + 24;
     const double sample = 28;
     const double room = map_.width - left - sample - 16;
     double y = area_.top + 10;
@@ -200,8 +219,12 @@ class MapPainter : Paper {
     };
     for (std::size_t i = 0; i < map_.regions.size(); ++i) {
       if (std::find(map_.region.begin(), map_.region.end(), i) == map_.region.end()) continue;
-      box(left, y - 8, left + sample, y + 8, ink_of(i));
+      point(left + sample / 2, y, kLargestDot, i);
       words(map_.regions[i].label);
+    }
+    if (!map_.bound.empty()) {
+      line(left, y, left + sample, y, kText, kBoundWidth);
+      words(map_.bound);
     }
     y += kRow / 2;
     for (std::size_t i = 0; i < map_.lines.size(); ++i) {
@@ -231,8 +254,7 @@ class MapPainter : Paper {
 
   const MapPlot& map_;
   PlotArea area_;
-  std::vector<double> x_;  // borders of the cells
-  std::vector<double> y_;
+  double radius_;  // of the dots
   std::vector<PlotArea> labels_;
   std::vector<bool> drawn_;  // of each quantity: a line at least
 };
@@ -267,9 +289,12 @@ void require_drawable(const MapPlot& map) {
 }  // namespace
 
 PlotArea map_area(const MapPlot& map) {
-  const auto x = borders(map.x.values);
-  const auto y = borders(map.y.values);
-  return {80, 48, map.width - kLegendWidth, map.height - 60.0, {x.front(), x.back()}, {y.front(), y.back()}};
+  return {80 + kClear,
+          48,
+          map.width - kLegendWidth - kClear,
+          map.height - 60.0 - kClear,
+          {map.x.values.front(), map.x.values.back()},
+          {map.y.values.front(), map.y.values.back()}};
 }
 
 std::filesystem::path draw_map(const MapPlot& map, const std::filesystem::path& directory) {

@@ -17,6 +17,7 @@ struct MapAxis {
 /// What a point of a map belongs to.
 struct MapRegion {
   std::string label;  ///< "passed", "fails: rms torque"
+  /// A round dot, a square one in a colour of its own, a grey cross: there is no verdict.
   enum class Kind { good, bad, none } kind = Kind::bad;
 };
 
@@ -35,8 +36,9 @@ struct MapCurve {
   std::vector<std::pair<double, double>> points;
 };
 
-/// Two quantities against each other: every point of the grid coloured by what it belongs to, with lines of
-/// equal value over it. Points are in rows of y, each with a point for each x.
+/// Two quantities against each other: a dot for every point of the grid, coloured by what it belongs to, with
+/// lines of equal value over them. What lies between the points stays white, and the axes end at the
+/// outermost points. Points are in rows of y, each with a point for each x.
 struct MapPlot {
   std::string name;  ///< file name without extension
   std::string title;
@@ -44,6 +46,8 @@ struct MapPlot {
   MapAxis y;
   std::vector<MapRegion> regions;
   std::vector<std::size_t> region;  ///< of each point
+  /// In the legend: the marks between a good point and a bad one beside it. "": there are none.
+  std::string bound = {};
   std::vector<MapLines> lines = {};
   std::vector<MapCurve> curves = {};
   int width = 1200;  ///< pixels, with the legend on the right

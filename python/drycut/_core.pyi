@@ -16,8 +16,8 @@ def bode(file: _Path, set: dict[str, str], wire: str, at: str | None, lowest: fl
          points: int, amplitude: float, settle: float) -> dict[str, Any]: ...
 def sweep(file: _Path, set: dict[str, str], over: list[str], figures: list[tuple[str, str]], sample: int | None,
           jobs: int, folder: _Path, kept: bool, progress: Callable[[int, int], object] | None) -> dict[str, Any]: ...
-def envelope(file: _Path, set: dict[str, str], over: list[str], find_max: str, figures: list[tuple[str, str]],
-             jobs: int, folder: _Path, kept: bool,
+def envelope(file: _Path, set: dict[str, str], over: list[str], find: str, least: bool,
+             figures: list[tuple[str, str]], jobs: int, folder: _Path, kept: bool,
              progress: Callable[[int, int], object] | None) -> dict[str, Any]: ...
 def tune(files: Sequence[_Path], set: dict[str, str], vary: list[str], minimise: str, constraints: list[str],
          start: str, ignore_checks: bool, wire: str, at: str | None, amplitude: float, budget: int, seed: int,

@@ -24,7 +24,8 @@ class Sweep:
     """What drycut.sweep() and drycut.envelope() give.
 
     points     numpy structured array, shape (points,), a row a point: a field an axis, `verdict` ("passed", "failed",
-               "refused", "diverged"), `limit` (what gave way first), then figures as float64; NaN = there is none
+               "refused", "diverged"), `limit` (what failed first), `rating` (of a drive, where that is the limit),
+               then figures as float64; NaN = there is none
     units      of the fields of `points`, "" = a pure number
     axes       fields of `points` that were gone over, the last one fastest
     shape      points[...].reshape(shape) is a map over the axes; (points,) of a sample
@@ -132,25 +133,29 @@ def sweep(file: Path, over: Axes, *, set: Settings | None = None, figures: Mappi
     return _sweep(got, sample)
 
 
-def envelope(file: Path, over: Axes, find_max: Mapping[str, str], *, set: Settings | None = None,
+def envelope(file: Path, over: Axes, find_max: Mapping[str, str] | None = None, *,
+             find_min: Mapping[str, str] | None = None, set: Settings | None = None,
              figures: Mapping[str, str] | None = None, jobs: int = 1, out: Path | None = None,
              progress: Progress = None) -> Sweep:
-    """Finds the largest value at which every check and every rating holds, at every point of a grid.
+    """Finds the largest or the smallest value at which every check and every rating holds, at every point of a grid.
 
     find_max  what is sought, {"plants.web.speed": "20..300 m/min:1"}: between 20 and 300, to 1 m/min; a two-hundredth
               of the range unless given
+    find_min  in its place, the smallest: {"variables.length": "300..1500 mm:5"}
     file, over, set, figures, jobs, out, progress as of sweep(); over may be empty, then there is one point
 
     The field of the sought path has the value found, `verdict` "found", "throughout" (it holds up to the end of the
-    range) or "nowhere", `limit` what gives way beyond it. The numbers are those of `drycut envelope`'s envelope.csv.
+    range) or "nowhere", `limit` what fails beyond it. The numbers are those of `drycut envelope`'s envelope.csv.
     Raises BadInput with all problems.
     """
-    if len(find_max) != 1:
-        raise refuse("find_max", f"{len(find_max)} values are sought", "seek one")
-    (path, span), = find_max.items()
+    largest, smallest = dict(find_max or {}), dict(find_min or {})
+    least = bool(smallest) and not largest
+    if len(largest) + len(smallest) != 1:
+        raise refuse("find_min" if least else "find_max", f"{len(largest) + len(smallest)} values are sought", "seek one")
+    (path, span), = (smallest or largest).items()
     with _folder(out) as folder:
-        got = _core.envelope(file, settings(set), _axes(over), f"{path}={span}", list((figures or {}).items()), jobs,
-                             folder, out is not None, progress)
+        got = _core.envelope(file, settings(set), _axes(over), f"{path}={span}", least, list((figures or {}).items()),
+                             jobs, folder, out is not None, progress)
     return _sweep(got, None)
 
 

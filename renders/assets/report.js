@@ -342,7 +342,7 @@
   Plot.prototype.paint = function () {
     this.busy = true;
     for (const view of this.graphs) {
-      view.holder.querySelectorAll("i").forEach((swatch, i) => { swatch.style.background = curveColour(view.panel.curves[i], i); });
+      view.swatches.forEach((swatch, i) => { swatch.style.background = curveColour(view.panel.curves[i], i); });
       const options = {axisLineColor: theme("--soft"), gridLineColor: theme("--line")};
       if (view.panel.curves.length) options.colors = view.panel.curves.map(curveColour);
       view.graph.updateOptions(options);
@@ -355,12 +355,14 @@
     const holder = element(this.box, "div", "live-panel");
     const legend = element(holder, "div", "live-legend");
     if (panel.title || panel.yLabel) element(legend, "b", "", (panel.title + " " + panel.yLabel).trim());
+    const swatches = [];  // of curves with a name
     const values = panel.curves.map((curve, i) => {
       const entry = element(legend, "span", "live-entry");
       if (curve.label) {
-        element(entry, "i", curve.style);
+        swatches[i] = element(entry, "i", curve.style);
         element(entry, "span", "", curve.label + " ");
       }
+      entry.hidden = curve.faint && !curve.label;  // a guide for the eye behind the others
       return element(entry, "output", "", "");
     });
     for (const band of panel.bands) if (band.label) element(legend, "span", "live-band", band.label);
@@ -373,7 +375,7 @@
     canvas.style.height = (lanes ? laneHeight * lanes + (last ? 26 : 8) : narrow ? 180 : 220) + strip + "px";
     const cursor = element(canvas, "div", "live-cursor");
     const states = panel.lanes.map(() => element(canvas, "output", "live-state"));
-    const view = {panel: panel, holder: holder, values: values, states: states, cursor: cursor, canvas: canvas, top: strip};
+    const view = {panel: panel, holder: holder, swatches: swatches, values: values, states: states, cursor: cursor, canvas: canvas, top: strip};
     const series = {};
     panel.curves.forEach((curve, i) => {
       series["c" + i] = curve.style === "points" ? {drawPoints: true, strokeWidth: 0, pointSize: curve.faint ? 1 : 3}

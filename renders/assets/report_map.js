@@ -65,7 +65,9 @@
       const value = (share, from, to, range) => range[0] + (share - from) / (to - from) * (range[1] - range[0]);
       const across = (event.clientX - picture.left) / picture.width;
       const down = (event.clientY - picture.top) / picture.height;
-      if (across < map.left || across > map.right || down < map.top || down > map.bottom) return false;
+      const beside = 0.02;  // a dot at the end of an axis is met from both sides
+      if (across < map.left - beside || across > map.right + beside) return false;
+      if (down < map.top - beside || down > map.bottom + beside) return false;
       column = nearest(map.x, value(across, map.left, map.right, map.xRange));
       row = nearest(map.y, value(down, map.bottom, map.top, map.yRange));
       show();

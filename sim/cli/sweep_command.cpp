@@ -12,10 +12,12 @@
 #include <optional>
 
 #include "base/plain_text.hpp"
+#include "base/text.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/progress.hpp"
 #include "sim/file.hpp"
 #include "sim/output_folder.hpp"
+#include "sim/studies/sweep/answer.hpp"
 #include "sim/studies/sweep/report.hpp"
 #include "sim/studies/sweep/study.hpp"
 
@@ -97,11 +99,21 @@ class Countdown {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// The largest first, equal ones by name.
-void print_counts(const std::map<std::string, std::size_t>& counts) {
-  std::vector<std::pair<std::string, std::size_t>> all(counts.begin(), counts.end());
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-  for (const auto& [name, count] : all) fmt::print("{:>8} {}\n", count, printable(name));
+/// How many rows have which limit, the most first, equal ones by name. Why there is no run may differ from
+/// row to row: the first one's is told.
+void print_limits(const std::vector<studies::PointRow>& rows) {
+  using Verdict = studies::PointRow::Verdict;
+  std::map<std::string, std::pair<std::size_t, std::string>> counts;
+  for (const auto& row : rows) {
+    const bool failed = row.verdict == Verdict::failed;
+    auto& [count, first] = counts[failed ? "failed: " + region_of(row) : std::string(name_of(row.verdict))];
+    if (count++ == 0 && !failed && !row.limit.empty()) first = ", the first: " + row.limit;
+  }
+  std::vector<std::pair<std::string, std::pair<std::size_t, std::string>>> all(counts.begin(), counts.end());
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.second.first > b.second.first; });
+  for (const auto& [name, told] : all)
+    fmt::print("{:>8} {}{}\n", told.first, printable(name), printable(told.second));
 }
 
 /// What several scenarios have to say alike is told once.
@@ -126,7 +138,8 @@ int in_folder(const StudyOptions& options, OutputFolder& folder, const Work& wor
     studies::PointStore store(folder.add(points_file), std::move(workers));
     work(store);
     folder.finish();
-    fmt::print("{} runs simulated now\n", store.simulated());
+    fmt::print("{} runs simulated now{}\n", store.simulated(),
+               store.refused() > 0 ? fmt::format(", {} refused", store.refused()) : "");
     for (const auto& lost : store.lost()) fmt::print(stderr, "{}\n", printable(lost));
     return store.lost().empty() ? all_passed : simulation_failed;
   } catch (const std::exception& error) {
@@ -175,13 +188,11 @@ int sweep_scenario(const SweepOptions& options) {
     bar.clear();
     write_file(folder->add(sweep_file), studies::sweep_csv(question, axes, points, rows));
     studies::write_sweep_report(question, axes, points, rows, *folder);
-    std::map<std::string, std::size_t> verdicts;
-    for (const auto& row : rows)
-      ++verdicts[row.limit.empty() ? std::string(name_of(row.verdict))
-                                   : fmt::format("{}: {}", name_of(row.verdict), row.limit)];
-    print_counts(verdicts);
-    fmt::print("{} points: {}\nreport: {}\n", rows.size(), (options.out / sweep_file).string(),
-               (options.out / "report.html").string());
+    print_limits(rows);
+    std::vector<studies::PointRow::Verdict> verdicts;
+    for (const auto& row : rows) verdicts.push_back(row.verdict);
+    fmt::print("{}, {}: {}\nreport: {}\n", counted(rows.size(), "point"), studies::counts_of(verdicts),
+               (options.out / sweep_file).string(), (options.out / "report.html").string());
   });
 }
 
@@ -237,19 +248,29 @@ void shift(studies::TunedParameter& parameter, int by) {
   parameter.high_column += by;
 }
 
-std::optional<studies::BoundRequest> read_request(const std::vector<std::string>& given,
-                                                  const std::string& scene, Problems& problems) {
-  constexpr auto* option = "--find-max";
-  if (given.size() != 1) {
+constexpr auto* largest_option = "--find-max";
+constexpr auto* smallest_option = "--find-min";
+
+/// One of the two options, once.
+std::optional<studies::BoundRequest> read_request(const EnvelopeOptions& options, const std::string& scene,
+                                                  Problems& problems) {
+  const auto largest = options_for(scene, options.find_max);
+  const auto smallest = options_for(scene, options.find_min);
+  const auto count = largest.size() + smallest.size();
+  const bool least = largest.empty() && !smallest.empty();
+  const auto* option = least ? smallest_option : largest_option;
+  if (count != 1) {
     problems.push_back({option, 1, 1,
-                        given.empty() ? fmt::format("nothing says what to find of {}", scene)
-                                      : fmt::format("there are {} of them for {}", given.size(), scene),
+                        count == 0 ? fmt::format("nothing says what to find of {}", scene)
+                        : largest.size() == count || smallest.size() == count
+                            ? fmt::format("there are {} of them for {}", count, scene)
+                            : fmt::format("{} and {} for {}", largest_option, smallest_option, scene),
                         fmt::format("one for all, or one that begins with {}:", scene)});
     return {};
   }
-  auto [request, by] = behind_name(given[0], problems, [&](const std::string& text, Problems& own) {
-    return studies::parse_bound(text, option, own);
-  });
+  auto [request, by] = behind_name(
+      least ? smallest[0] : largest[0], problems,
+      [&](const std::string& text, Problems& own) { return studies::parse_bound(text, option, least, own); });
   if (request) shift(request->parameter, by);
   return request;
 }
@@ -268,7 +289,7 @@ studies::Envelope read_envelope(const EnvelopeOptions& options, const std::files
     shift(axis->parameter, by);
     envelope.axes.push_back(std::move(*axis));
   }
-  const auto request = read_request(options_for(envelope.scene, options.find_max), envelope.scene, own);
+  const auto request = read_request(options, envelope.scene, own);
   envelope.question = read_question(options, file, own);
   if (request) envelope.request = *request;
   const bool sound = own.empty();
@@ -290,7 +311,8 @@ std::vector<studies::Envelope> read_envelopes(const EnvelopeOptions& options, Pr
     scenes.push_back(std::move(name));
   }
   refuse_unknown_names(options.over, "--over", scenes, problems);
-  refuse_unknown_names(options.find_max, "--find-max", scenes, problems);
+  refuse_unknown_names(options.find_max, largest_option, scenes, problems);
+  refuse_unknown_names(options.find_min, smallest_option, scenes, problems);
   std::vector<studies::Envelope> envelopes;
   if (!problems.empty()) return envelopes;
   envelopes.reserve(options.scenarios.size());
@@ -298,15 +320,15 @@ std::vector<studies::Envelope> read_envelopes(const EnvelopeOptions& options, Pr
   return envelopes;
 }
 
+/// A line a point, and the answer in one.
 void print_envelope(const studies::Envelope& envelope, bool several) {
+  constexpr std::size_t most = 60;
   if (several) fmt::print("{}\n", printable(envelope.scene));
-  std::map<std::string, std::size_t> limits;
-  for (const auto& bound : envelope.bounds) {
-    ++limits[bound.limit.empty() ? std::string(name_of(bound.kind))
-                                 : fmt::format("{}: {}", name_of(bound.kind), bound.limit)];
-    if (bound.again) ++limits["holds again beyond the bound"];
-  }
-  print_counts(limits);
+  const auto points = envelope.axes.empty() ? 0 : envelope.points.size();
+  for (std::size_t i = 0; i < std::min(points, most); ++i)
+    fmt::print("  {}\n", printable(point_answer(envelope, i)));
+  if (points > most) fmt::print("  ... and {} points more in {}\n", points - most, envelope_file);
+  fmt::print("{}\n", printable(headline(envelope)));
 }
 
 }  // namespace
@@ -327,16 +349,15 @@ int envelope_scenario(const EnvelopeOptions& options) {
     }
     write_file(folder->add(envelope_file), studies::envelope_csv(envelopes));
     studies::write_envelope_report(envelopes, *folder);
-    for (const auto& envelope : envelopes) print_envelope(envelope, envelopes.size() > 1);
+    std::vector<studies::PointRow::Verdict> looks;
+    for (const auto& envelope : envelopes) {
+      print_envelope(envelope, envelopes.size() > 1);
+      const auto own = verdicts_of(envelope);
+      looks.insert(looks.end(), own.begin(), own.end());
+    }
     if (const auto why = studies::why_again(envelopes); !why.empty()) fmt::print("  note {}\n", why);
-    const auto& request = envelopes.front().request;
-    const auto sought =
-        envelopes.size() > 1
-            ? std::string()
-            : fmt::format(", {} to {:.6g} {}",
-                          studies::with_check_names(envelopes.front().question, request.parameter.path),
-                          request.tolerance, request.parameter.unit);
-    fmt::print("{} points{}: {}\nreport: {}\n", points, sought, (options.out / envelope_file).string(),
+    fmt::print("{}, {} values tried, {}: {}\nreport: {}\n", counted(points, "point"), looks.size(),
+               studies::counts_of(looks), (options.out / envelope_file).string(),
                (options.out / "report.html").string());
   });
 }
@@ -365,18 +386,17 @@ void add_envelope(CLI::App& app, int& status) {
   const auto chosen = std::make_shared<EnvelopeOptions>();
   auto& options = *chosen;
   options.out = "out/envelope";
-  auto* envelope = app.add_subcommand("envelope",
-                                      "Find the largest value of a parameter up to which every check and "
-                                      "every rating holds, and what gives way "
-                                      "behind it: envelope.csv, a row a point.\nNine values from end to end "
-                                      "are looked at, up to 33 where none "
-                                      "of them holds; where what held first gives way, the interval is "
-                                      "halved down to the tolerance. Then it is "
-                                      "looked below the bound: no stretch stays that is wider than a "
-                                      "sixteenth of the range, or than a quarter of "
-                                      "its distance from the bound. What fails there ends a lower bound; "
-                                      "that it holds again beyond is told.\n"
-                                      "Several scenarios come into one report.");
+  auto* envelope =
+      app.add_subcommand("envelope",
+                         "Find the largest value of a parameter up to which every check and "
+                         "every rating holds, or the smallest, and what fails beyond it: "
+                         "envelope.csv, a row a point.\nIt tries nine evenly spaced values, up "
+                         "to 33 where none of them holds, bisects between the last pass and the "
+                         "first fail down to the tolerance, then samples below the bound: no "
+                         "stretch stays untried that is wider than a sixteenth of the range, or "
+                         "than a quarter of its distance from the bound. What fails there ends a "
+                         "lower bound; that it holds again beyond is told.\n"
+                         "Several scenarios come into one report.");
   envelope->add_option("scenarios", options.scenarios, "Scenario files (.yaml)")->required();
   add_study(
       *envelope, options,
@@ -385,11 +405,17 @@ void add_envelope(CLI::App& app, int& status) {
   envelope
       ->add_option("--find-max", options.find_max,
                    "[NAME:]PATH=LO..HI UNIT[:TOLERANCE], such as \"plants.web.speed=20..300 m/min:1\"; a "
-                   "two-hundredth of "
-                   "the range unless given")
-      ->required()
+                   "two-hundredth of the range unless given; or --find-min")
       ->allow_extra_args(false);
-  envelope->callback([chosen, &status] { status = envelope_scenario(*chosen); });
+  envelope
+      ->add_option("--find-min", options.find_min,
+                   "The smallest value in place of the largest, such as the shortest piece: "
+                   "\"variables.length=300..1500 mm:5\"")
+      ->allow_extra_args(false);
+  envelope->callback([chosen, &status] {
+    if (chosen->find_max.empty() && chosen->find_min.empty()) throw CLI::RequiredError("--find-max");
+    status = envelope_scenario(*chosen);
+  });
 }
 
 }  // namespace drycut::sim::cli

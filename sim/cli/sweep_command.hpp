@@ -21,11 +21,12 @@ struct SweepOptions : StudyOptions {
   std::filesystem::path scenario;
   std::string sample;  ///< "sobol:1000" in place of the grid
 };
-/// An --over or --find-max that begins with NAME: is for the scenarios whose files' names begin so, in place
-/// of those without: "flying_saw:variables.length=1..6 m:11".
+/// An --over, --find-max or --find-min that begins with NAME: is for the scenarios whose files' names begin
+/// so, in place of those without: "flying_saw:variables.length=1..6 m:11".
 struct EnvelopeOptions : StudyOptions {
   std::vector<std::filesystem::path> scenarios;
-  std::vector<std::string> find_max;  ///< "plants.web.speed=20..300 m/min:1", one a scenario
+  std::vector<std::string> find_max = {};  ///< "plants.web.speed=20..300 m/min:1", one of both a scenario
+  std::vector<std::string> find_min = {};  ///< "variables.length=400..2000 mm:5"
 };
 
 /// drycut sweep, drycut envelope: 0 all points have been looked at, whatever came of them, 2 bad input, 3

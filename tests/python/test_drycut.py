@@ -311,7 +311,8 @@ class SweepTest(unittest.TestCase):
                 self.assertEqual(list(points[name]), cells)
             else:
                 np.testing.assert_array_equal(points[name], [float(cell) if cell else math.nan for cell in cells])
-        self.assertEqual({name for name in points.dtype.names if points.dtype[name].kind == "U"}, {"verdict", "limit"})
+        self.assertEqual({name for name in points.dtype.names if points.dtype[name].kind == "U"},
+                         {"verdict", "limit", "rating"})
 
     def test_is_a_map_over_its_axes(self):
         self.assertEqual(self.sweep.axes, ["variables.length", "plants.web.speed"])
@@ -398,6 +399,10 @@ class SweepTest(unittest.TestCase):
                  (lambda: drycut.sweep(KNIFE, length, out=""), [("out", 1)]),
                  (lambda: drycut.sweep(KNIFE, length, out=KNIFE), [("out", 1)]),
                  (lambda: drycut.envelope(KNIFE, {}, {}), [("find_max", 1)]),
+                 (lambda: drycut.envelope(KNIFE, {}), [("find_max", 1)]),
+                 (lambda: drycut.envelope(KNIFE, {}, {"plants.web.speed": "20..40 m/min"},
+                                          find_min={"plants.web.speed": "20..40 m/min"}), [("find_max", 1)]),
+                 (lambda: drycut.envelope(KNIFE, {}, find_min={"plants.web.speed": "20 m/min"}), [("find_min", 18)]),
                  (lambda: drycut.envelope(KNIFE, {}, {"plants.web.speed": "20 m/min"}), [("find_max", 18)]),
                  (lambda: drycut.tune(KNIFE, {}, "rms(AxisX.follerr)"), [("vary", 1)]),
                  (lambda: drycut.tune([], {"a": "1..2"}, "rms(AxisX.follerr)"), [("files", 1)]),
@@ -439,6 +444,18 @@ class EnvelopeTest(unittest.TestCase):
         self.assertEqual(list(found.points["verdict"]), [row["verdict"] for row in rows])
         self.assertEqual((found.axes, found.shape), (["variables.length"], (2,)))
         self.assertEqual(found.units["plants.web.speed"], "m/min")
+
+
+    def test_finds_the_smallest_as_the_command_does(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PROGRAM, "envelope", KNIFE, "--find-min", "variables.length=400..900 mm:100",
+                            "--set", "scene.duration=5 s", "--out", folder], check=True, capture_output=True)
+            with open(os.path.join(folder, "envelope.csv"), encoding="utf-8") as file:
+                written = file.read()
+        found = drycut.envelope(KNIFE, {}, find_min={"variables.length": "400..900 mm:100"}, set=SHORT)
+        self.assertEqual(found.csv, written)
+        self.assertEqual(found.points.dtype.names[:6],
+                         ("variables.length", "verdict", "limit", "rating", "holds to", "fails at"))
 
 
 class TuneTest(unittest.TestCase):

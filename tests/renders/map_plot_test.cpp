@@ -120,6 +120,7 @@ TEST(MapPlot, ShowsEveryPointsRegion) {
     const auto* pixel = image.row(static_cast<int>(area.y(y))) + 3 * static_cast<int>(area.x(x));
     return std::array{pixel[0], pixel[1], pixel[2]};
   };
+  const std::array<std::uint8_t, 3> paper = {255, 255, 255};
   std::array<std::array<std::uint8_t, 3>, 4> colours = {colour_at(2000, 100), colour_at(600, 200),
                                                         colour_at(2000, 200), colour_at(600, 300)};
   for (std::size_t i = 0; i < 4; ++i)
@@ -129,6 +130,47 @@ TEST(MapPlot, ShowsEveryPointsRegion) {
       EXPECT_EQ(colour_at(map.x.values[column], map.y.values[row]),
                 colours[map.region[row * map.x.values.size() + column]])
           << map.x.values[column] << " " << map.y.values[row];
+  // What was not run is not painted: between the points and beyond the last. The axes end there.
+  for (const auto& colour : colours) EXPECT_NE(colour, paper);
+  for (std::size_t row = 0; row + 1 < map.y.values.size(); ++row)
+    for (std::size_t column = 0; column + 1 < map.x.values.size(); ++column)
+      EXPECT_EQ(colour_at((map.x.values[column] + map.x.values[column + 1]) / 2,
+                          (map.y.values[row] + map.y.values[row + 1]) / 2),
+                paper)
+          << map.x.values[column] << " " << map.y.values[row];
+  EXPECT_EQ(area.x_range, Range(500, 3000));
+  EXPECT_EQ(area.y_range, Range(20, 300));
+  for (const double length : {500.0, 1700.0, 3000.0}) EXPECT_EQ(colour_at(length, 304), paper) << length;
+}
+
+// A mark between what passed and what failed beside it; none where one of both was not run.
+TEST(MapPlot, MarksTheBoundBetweenTheVerdicts) {
+  const Scratch scratch;
+  MapPlot map{.name = "bound",
+              .title = "",
+              .x = {"x", {0, 1, 2}},
+              .y = {"y", {0, 1, 2}},
+              .regions = {{"passed", MapRegion::Kind::good}, {"torque"}, {"refused", MapRegion::Kind::none}},
+              .region = {0, 0, 0, 0, 1, 0, 1, 1, 2},
+              .bound = "the bound"};
+  const auto area = map_area(map);
+  const auto image = read_png(draw_map(map, scratch.path));
+  const auto is_marked = [&](double x, double y) {
+    bool dark = false;
+    for (int dx = -2; dx <= 2; ++dx)
+      for (int dy = -2; dy <= 2; ++dy)
+        dark =
+            dark || image.row(static_cast<int>(area.y(y)) + dy)[3 * (static_cast<int>(area.x(x)) + dx)] < 128;
+    return dark;
+  };
+  EXPECT_TRUE(is_marked(0, 1.5));
+  EXPECT_TRUE(is_marked(0.5, 1));
+  EXPECT_TRUE(is_marked(1, 0.5));
+  EXPECT_TRUE(is_marked(1.5, 1));
+  EXPECT_FALSE(is_marked(0, 0.5));   // both passed
+  EXPECT_FALSE(is_marked(0.5, 2));   // both failed
+  EXPECT_FALSE(is_marked(2, 1.5));   // refused above passed
+  EXPECT_FALSE(is_marked(1.75, 2));  // refused beside failed
 }
 
 TEST(MapPlot, IsTheSameBytesAgainAndTellsItsLines) {

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <array>
+
 #include "renders/report.hpp"
 #include "sim/cli/sweep_command.hpp"
 #include "tests/scenes/browser.hpp"
@@ -65,7 +67,9 @@ TEST(MapInAReport, TellsItsPoints) {
   };
   for (std::size_t i = 0; i < report.maps[0].cells.size(); ++i) {
     const auto& cells = report.maps[0].cells[i];
-    const auto [x, y] = point(map.x.values[i % 4] + 100, map.y.values[i / 4] - 10);  // nearest to this one
+    // Nearest to this one, and a little beside the last of an axis: its dot is met from both sides.
+    const auto [x, y] =
+        point(map.x.values[i % 4] + (i % 4 < 3 ? 100 : 10), map.y.values[i / 4] - (i > 3 ? 10 : 1));
     browser.mouse("mouseMoved", x, y);
     EXPECT_THAT(told(), HasSubstr(fmt::format("length='{} mm' --set speed='{} m/min'", cells[0], cells[1])));
     EXPECT_THAT(told(), HasSubstr(cells[2]));
@@ -169,6 +173,52 @@ checks:
   for (int i = 0; i < 9; ++i) press("ArrowUp");
   for (int i = 0; i < 9; ++i) press("ArrowRight");
   says(4, 6);
+  EXPECT_THAT(browser.complaints(), IsEmpty());
+}
+
+// The curves of a sweep over one axis: a name's swatch has the colour of its dots, the line that only joins
+// them has no name, and light and dark page agree.
+TEST(CurvesInAReport, OfASweepAreNamedByTheColourOfTheirDots) {
+  if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
+  const TestFolder folder;
+  sim::cli::SweepOptions sweep;
+  sweep.scenario = folder.file("web.yaml", R"(variables: {speed: 60 m/min}
+scene: {step: 1 ms, duration: 0.2 s}
+plants: {web: {type: web, speed: "${speed}"}}
+record: {every: 10 ms, channels: [web.speed]}
+checks:
+  - {name: slow enough, always: "web.speed <= 100 m/min"}
+)");
+  sweep.over = {"variables.speed=5..125 m/min:7"};
+  sweep.figures = {"peak=max(web.speed)"};
+  sweep.out = folder / "out";
+  testing::internal::CaptureStdout();
+  const int status = sweep_scenario(sweep);
+  testing::internal::GetCapturedStdout();
+  ASSERT_EQ(status, sim::cli::all_passed);
+  Browser browser(folder.path);
+  browser.window(1280, 900);
+  for (const auto& [scheme, fails, passes] : {std::array{"light", "rgb(213, 94, 0)", "rgb(0, 158, 115)"},
+                                              std::array{"dark", "rgb(255, 143, 74)", "rgb(46, 199, 155)"}}) {
+    browser.media(scheme);
+    browser.open(sweep.out / "report.html");
+    ASSERT_TRUE(browser.becomes("document.querySelector('.live-legend i') !== null"));
+    const auto legend = browser.evaluate(
+        "[...document.querySelectorAll('.live-legend')].pop().querySelectorAll('.live-entry:not([hidden])')."
+        "length");
+    EXPECT_EQ(legend, 2);
+    const auto colour = [&](int entry) {
+      return browser
+          .evaluate(fmt::format("(() => {{ const named = [...document.querySelectorAll('.live-legend')].pop()"
+                                ".querySelectorAll('.live-entry i')[{}];"
+                                "return named.nextSibling.textContent.trim() + ' ' + "
+                                "getComputedStyle(named).backgroundColor; }})()",
+                                entry))
+          .get<std::string>();
+    };
+    EXPECT_EQ(colour(0), std::string("fails ") + fails) << scheme;
+    EXPECT_EQ(colour(1), std::string("passes ") + passes) << scheme;
+  }
   EXPECT_THAT(browser.complaints(), IsEmpty());
 }
 

@@ -81,7 +81,8 @@ void read_envelope(const std::filesystem::path& file, const std::string& scene, 
         heading.begin());
   };
   const auto verdict = any ? find("verdict") : 0;
-  if (verdict == 0 || verdict >= heading.size() || find("holds from") >= heading.size()) {
+  const bool has_stretch = find("holds from") < heading.size() || find("holds to") < heading.size();
+  if (verdict == 0 || verdict >= heading.size() || !has_stretch) {
     if (broken.none()) broken.add(1, 1, "this is no envelope.csv", "drycut envelope writes one");
     return;
   }
@@ -113,8 +114,7 @@ void read_envelope(const std::filesystem::path& file, const std::string& scene, 
     broken.add(1, 1, fmt::format("it has no points of the scene {}", scene),
                "the envelope of this scenario, or the scenario of this envelope");
   else if (taken == 0 && broken.none())
-    broken.add(1, 1, "at none of its points everything holds",
-               "an envelope with a point that has a largest value");
+    broken.add(1, 1, "at none of its points everything holds", "an envelope with a point at which it does");
 }
 
 /// What the scenario says against it; an override's problems come under the corner's name.

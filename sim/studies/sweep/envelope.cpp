@@ -23,17 +23,36 @@ constexpr int most_intervals = 32;     // looked at where nothing holds
 bool holds(const PointRow& row) { return row.verdict == PointRow::Verdict::passed; }
 
 /// The bound at one point of an envelope, found in rounds: asks for rows at values(), is given them by
-/// take(), until nothing is asked.
+/// take(), until nothing is asked. A smallest value is the largest of those with the other sign: that is how
+/// it goes on inside.
 class Seeker {
  public:
-  explicit Seeker(const BoundRequest& request) : request_(request) { scan(); }
+  explicit Seeker(const BoundRequest& request)
+      : request_(request),
+        low_(request.least ? -request.parameter.high : request.parameter.low),
+        width_(request.parameter.high - request.parameter.low),
+        step_(warranted_step(request.tolerance)) {
+    scan();
+  }
 
   [[nodiscard]] const std::vector<double>& values() const { return values_; }
 
-  /// The rows at values(), in their order.
+  /// The rows at values(), in their order. A value that is refused may have too many digits for a whole
+  /// number of the controller: it is asked for once more in those that the tolerance warrants.
   void take(std::vector<PointRow> rows) {
-    for (std::size_t i = 0; i < rows.size(); ++i) seen_.insert_or_assign(values_[i], std::move(rows[i]));
-    values_.clear();
+    std::vector<double> again;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double plain = rounded(std::rint(values_[i] / step_) * step_);
+      const bool new_one = plain != values_[i] && !seen_.contains(turned(plain)) &&
+                           plain >= request_.parameter.low && plain <= request_.parameter.high &&
+                           std::find(again.begin(), again.end(), plain) == again.end();
+      if (rows[i].verdict == PointRow::Verdict::refused && new_one)
+        again.push_back(plain);
+      else
+        seen_.insert_or_assign(turned(values_[i]), std::move(rows[i]));
+    }
+    values_ = std::move(again);
+    if (!values_.empty()) return;
     const auto [least, end] = first_stretch();
     if (least == seen_.end()) {
       if (intervals_ == most_intervals) return;
@@ -43,7 +62,7 @@ class Seeker {
     const double bound = std::prev(end)->first;
     if (end != seen_.end()) ask_between(bound, end->first, request_.tolerance);
     if (!values_.empty()) return;
-    const double widest = widest_share * (request_.parameter.high - request_.parameter.low);
+    const double widest = widest_share * width_;
     for (auto upper = std::next(least); upper != end; ++upper) {
       const double lower = std::prev(upper)->first;
       const double close = std::min(widest, distance_share * (bound - lower));
@@ -54,23 +73,27 @@ class Seeker {
   [[nodiscard]] Bound bound() const {
     const auto [least, end] = first_stretch();
     Bound bound{Bound::Kind::nowhere, no_bound, no_bound, {}, {}, {}, {}, {}};
-    for (const auto& [value, row] : seen_) bound.looks.push_back({value, holds(row)});
+    for (const auto& [value, row] : seen_) bound.looks.push_back({turned(value), row.verdict});
+    if (request_.least) std::reverse(bound.looks.begin(), bound.looks.end());
     if (least == seen_.end()) {
-      bound.limit = seen_.begin()->second.limit;
+      const auto ran = std::find_if(seen_.begin(), seen_.end(), [](const auto& look) {
+        return look.second.verdict != PointRow::Verdict::refused;
+      });
+      bound.beyond = (ran == seen_.end() ? seen_.begin() : ran)->second;
       return bound;
     }
     const auto& [value, row] = *std::prev(end);
     bound.kind = end == seen_.end() ? Bound::Kind::throughout : Bound::Kind::found;
-    bound.value = value;
-    bound.from = least->first;
+    bound.value = turned(value);
+    bound.from = turned(least->first);
     bound.numbers = row.numbers;
     if (end == seen_.end()) return bound;
-    bound.limit = end->second.limit;
+    bound.beyond = end->second;
     for (auto fails = end; fails != seen_.end();) {
       const auto held = std::find_if(fails, seen_.end(), holds_at);
       if (held == seen_.end()) break;
-      if (!bound.again) bound.again = held->first;
-      bound.gaps.emplace_back(fails->first, std::prev(held)->first);
+      if (!bound.again) bound.again = turned(held->first);
+      bound.gaps.emplace_back(turned(fails->first), turned(std::prev(held)->first));
       fails = std::find_if_not(held, seen_.end(), holds_at);
     }
     return bound;
@@ -87,19 +110,22 @@ class Seeker {
   }
 
   void scan() {
-    const auto& [low, high] = std::pair(request_.parameter.low, request_.parameter.high);
     for (int i = 0; i <= intervals_; ++i) {
-      const double value = rounded(low + i * (high - low) / intervals_);
-      if (!seen_.contains(value) && (values_.empty() || values_.back() < value)) values_.push_back(value);
+      const double value = rounded(low_ + i * width_ / intervals_);
+      if (!seen_.contains(value) && (values_.empty() || turned(values_.back()) < value))
+        values_.push_back(turned(value));
     }
   }
+
+  /// From outside to inside and back; 0 has no sign.
+  [[nodiscard]] double turned(double value) const { return request_.least && value != 0 ? -value : value; }
 
   /// In the middle of two values, if they are further apart than `closest`.
   void ask_between(double lower, double upper, double closest) {
     if (upper - lower <= closest) return;
     const double half = lower + (upper - lower) / 2;
     const double middle = rounded(request_.parameter.integer ? std::floor(half) : half);
-    if (middle > lower && middle < upper) values_.push_back(middle);
+    if (middle > lower && middle < upper) values_.push_back(turned(middle));
   }
 
   /// As it stands in a row.
@@ -108,6 +134,9 @@ class Seeker {
   }
 
   const BoundRequest& request_;
+  double low_;
+  double width_;
+  double step_;
   int intervals_ = scanned_values - 1;
   Seen seen_;
   std::vector<double> values_;
@@ -129,13 +158,15 @@ std::string_view name_of(Bound::Kind kind) {
   return names.at(static_cast<std::size_t>(kind));
 }
 
-std::optional<BoundRequest> parse_bound(const std::string& text, const std::string& option,
+double warranted_step(double tolerance) { return std::pow(10, std::floor(std::log10(tolerance))); }
+
+std::optional<BoundRequest> parse_bound(const std::string& text, const std::string& option, bool least,
                                         Problems& problems) {
   const auto colon = text.find(':', std::min(text.find(".."), text.size()));
   const auto range = text.substr(0, colon);
   auto parameter = parse_parameter(range, option, false, problems);
   if (!parameter) return {};
-  BoundRequest request{std::move(*parameter), 0};
+  BoundRequest request{std::move(*parameter), 0, least};
   const double width = request.parameter.high - request.parameter.low;
   request.tolerance = width / default_share;
   if (colon == std::string::npos) return request;
@@ -197,9 +228,10 @@ namespace {
 /// "115..121.875; 140": where it fails though it holds again behind.
 std::string gaps_cell(const Bound& bound) {
   std::string text;
-  for (const auto& [from, to] : bound.gaps) {
+  for (const auto& gap : bound.gaps) {
+    const auto [low, high] = std::minmax(gap.first, gap.second);
     if (!text.empty()) text += "; ";
-    text += from == to ? number_cell(from) : fmt::format("{}..{}", number_cell(from), number_cell(to));
+    text += low == high ? number_cell(low) : fmt::format("{}..{}", number_cell(low), number_cell(high));
   }
   return text;
 }
@@ -214,8 +246,9 @@ std::vector<Cell> cells_of(const Envelope& envelope, std::size_t point) {
     cells.emplace_back(heading(envelope.axes[i].parameter), csv_cell(envelope.points[point][i]));
   cells.emplace_back(heading(sought), number_cell(bound.value));
   cells.emplace_back("verdict", name_of(bound.kind));
-  cells.emplace_back("limit", csv_cell(bound.limit));
-  cells.emplace_back("holds from" + unit, number_cell(bound.from));
+  cells.emplace_back("limit", csv_cell(bound.beyond.limit));
+  cells.emplace_back("rating", csv_cell(bound.beyond.rating));
+  cells.emplace_back((envelope.request.least ? "holds to" : "holds from") + unit, number_cell(bound.from));
   cells.emplace_back("fails at" + unit, gaps_cell(bound));
   cells.emplace_back("holds again at" + unit, number_cell(bound.again.value_or(no_bound)));
   const auto& columns = envelope.question.columns;

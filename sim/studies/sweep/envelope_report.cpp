@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +7,7 @@
 #include <set>
 
 #include "sim/report/report.hpp"
+#include "sim/studies/sweep/answer.hpp"
 #include "sim/studies/sweep/page.hpp"
 #include "sim/studies/sweep/report.hpp"
 
@@ -15,14 +17,12 @@ namespace {
 
 constexpr std::string_view end_of_range = "nothing, to the end of the range";
 
-std::string without_unit(const std::string& heading) { return heading.substr(0, heading.rfind(" [")); }
-
-/// The bound in digits that the tolerance warrants, never above it.
-std::string bound_text(const Envelope& envelope, const Bound& bound) {
-  if (std::isnan(bound.value)) return "none";
-  const double step = std::pow(10, std::floor(std::log10(envelope.request.tolerance)));
-  return short_text(std::floor(bound.value / step + 1e-9) * step);
+/// What fails beyond a largest value is above it, beyond a smallest below it.
+std::string fails_heading(const BoundRequest& request) {
+  return request.least ? "fails below" : "fails above";
 }
+
+std::string without_unit(const std::string& heading) { return heading.substr(0, heading.rfind(" [")); }
 
 /// The bounds as a page shows them: the bound is the first number.
 Studied studied(const Envelope& envelope) {
@@ -31,16 +31,18 @@ Studied studied(const Envelope& envelope) {
                 axis_headings(question, envelope.axes)};
   study.columns = {with_check_names(question, heading(envelope.request.parameter))};
   study.columns.insert(study.columns.end(), question.columns.begin(), question.columns.end());
-  study.headings.insert(study.headings.end(), {study.columns[0], "bound", "what gives way behind it"});
+  study.headings.insert(study.headings.end(),
+                        {study.columns[0], "verdict", fails_heading(envelope.request), "rating"});
   study.headings.insert(study.headings.end(), question.columns.begin(), question.columns.end());
   renders::MapLines lines{study.columns[0], {}, {}};
   for (std::size_t i = 0; i < envelope.points.size(); ++i) {
     const auto& bound = envelope.bounds[i];
     const bool good = bound.kind != Bound::Kind::nowhere;
     auto& cells = study.cells.emplace_back(short_point(envelope.points[i]));
-    cells.push_back(good ? bound_text(envelope, bound) : "");
+    cells.push_back(good ? bound_text(envelope.request, bound) : "");
     cells.emplace_back(name_of(bound.kind));
-    cells.push_back(bound.limit);
+    cells.push_back(bound.beyond.limit);
+    cells.push_back(bound.beyond.rating);
     auto& numbers = study.numbers.emplace_back();
     numbers = {good ? bound.value : unknown};
     numbers.insert(numbers.end(), bound.numbers.begin(), bound.numbers.end());
@@ -48,9 +50,9 @@ Studied studied(const Envelope& envelope) {
     for (std::size_t k = 1; k < numbers.size(); ++k) cells.push_back(short_text(numbers[k]));
     study.good.push_back(good);
     study.kept.push_back(bound.kind == Bound::Kind::throughout);
-    study.region.push_back(!good                 ? std::string(holds_nowhere)
-                           : bound.limit.empty() ? std::string(end_of_range)
-                                                 : bound.limit);
+    study.region.push_back(!good               ? std::string(holds_nowhere)
+                           : study.kept.back() ? std::string(end_of_range)
+                                               : region_of(bound.beyond));
     lines.values.push_back(numbers[0]);
   }
   study.lines = {std::move(lines)};
@@ -66,12 +68,16 @@ struct Family {
   std::vector<const Envelope*> envelopes;
   std::vector<const Studied*> studies;
   std::string of;  ///< the heading of what is sought
+  [[nodiscard]] bool least() const { return envelopes[0]->request.least; }
+  /// "Largest variables.speed"
+  [[nodiscard]] std::string sought() const { return sought_text(*envelopes[0]); }
 };
 std::vector<Family> families_of(const std::vector<Envelope>& envelopes, const std::vector<Studied>& studies) {
   std::vector<Family> families;
   for (std::size_t i = 0; i < studies.size(); ++i) {
     const auto alike = [&](const Family& family) {
-      return family.of == studies[i].columns[0] && x_headings(*family.studies[0]) == x_headings(studies[i]);
+      return family.of == studies[i].columns[0] && family.least() == envelopes[i].request.least &&
+             x_headings(*family.studies[0]) == x_headings(studies[i]);
     };
     auto family = std::find_if(families.begin(), families.end(), alike);
     if (family == families.end()) family = families.insert(family, Family{{}, {}, studies[i].columns[0]});
@@ -81,10 +87,12 @@ std::vector<Family> families_of(const std::vector<Envelope>& envelopes, const st
   return families;
 }
 
-/// A row a point that any of the scenes has, a column a scene: how far, and what gives way behind it.
+/// A row a point that any of the scenes has, a column a scene: how far, and what fails beyond it.
 renders::ReportTable key_figures(const Family& family) {
-  renders::ReportTable table{"Largest " + family.of, x_headings(*family.studies[0]), {}};
-  table.verdicts = true;  // what gives way stands small under the number
+  renders::ReportTable table{fmt::format("{} {}", family.least() ? "Smallest" : "Largest", family.of),
+                             x_headings(*family.studies[0]),
+                             {}};
+  table.verdicts = true;  // what fails stands small under the number
   std::vector<SweepPoint> points;
   for (const auto* study : family.studies) {
     table.headings.push_back(family.studies.size() > 1 ? study->scene : family.of);
@@ -105,12 +113,11 @@ renders::ReportTable key_figures(const Family& family) {
         continue;
       }
       const auto& bound = envelope->bounds[static_cast<std::size_t>(at - envelope->points.begin())];
-      auto text = bound_text(*envelope, bound);
-      if (!bound.limit.empty()) text += "\n" + bound.limit;
-      if (bound.kind == Bound::Kind::throughout) text += "\nthe end of the range";
-      if (bound.from > envelope->request.parameter.low)
-        text += fmt::format("\nholds from {} on, not below", short_text(bound.from));
-      if (bound.again) text += fmt::format("; holds again at {:.4g}", *bound.again);
+      auto text = bound_text(envelope->request, bound) + "\n";
+      text += bound.kind == Bound::Kind::throughout
+                  ? "holds to the end of the range"
+                  : fmt::format("{}: {}", fails_heading(envelope->request), limit_of(bound.beyond));
+      text += elsewhere_text(envelope->request, bound);
       cells.push_back(std::move(text));
     }
     table.rows.push_back({std::move(cells)});
@@ -118,22 +125,27 @@ renders::ReportTable key_figures(const Family& family) {
   return table;
 }
 
-/// The bound with all that was looked at about it, and what gives way behind it.
+/// The bound with all that was looked at about it, and what fails beyond it. The axis ends where the range
+/// does; what lies far above all bounds is not worth its room.
 renders::Panel scene_panel(const Envelope& envelope, const Studied& study, const std::string& title) {
-  std::vector<renders::Curve> curves = {curve_of(study, 0, "largest")};
-  auto panel = panel_of(study.columns[0], std::move(curves));
+  auto panel = panel_of(study.columns[0], {curve_of(study, 0, "bound; its line only joins the dots")});
   panel.title = title;
-  // What lies far above all bounds is not worth its room.
+  const auto& parameter = envelope.request.parameter;
   constexpr double headroom = 1.15;
-  if (panel.y_range) panel.y_range->second *= headroom;
-  const double top = panel.y_range ? panel.y_range->second : HUGE_VAL;
+  double top = parameter.low;
+  for (const auto& bound : envelope.bounds) {
+    if (bound.kind == Bound::Kind::nowhere) top = parameter.high;
+    top = std::fmax(top, headroom * bound.value);
+  }
+  top = envelope.request.least ? parameter.high : std::min(top, parameter.high);
+  panel.y_range = {parameter.low, top};
   using Style = renders::Curve::Style;
-  renders::Curve fails{"looked at, fails", {}, {}, Style::points};
-  renders::Curve holds{"looked at, holds", {}, {}, Style::points};
+  renders::Curve fails{"fails", {}, {}, Style::points};
+  renders::Curve holds{"holds", {}, {}, Style::points};
   for (std::size_t i = 0; i < envelope.points.size(); ++i) {
     for (const auto& look : envelope.bounds[i].looks) {
-      if (look.value > top) continue;
-      auto& curve = look.holds ? holds : fails;
+      if (look.value > top || look.verdict == PointRow::Verdict::refused) continue;
+      auto& curve = look.verdict == PointRow::Verdict::passed ? holds : fails;
       curve.x.push_back(number_in(envelope.points[i][0]));
       curve.y.push_back(look.value);
     }
@@ -142,8 +154,11 @@ renders::Panel scene_panel(const Envelope& envelope, const Studied& study, const
   panel.curves.push_back(std::move(holds));
   for (const auto& region : regions_of(study)) {
     const bool none = region.label == end_of_range;
-    renders::Curve limited{
-        none ? "the end of the range" : "gives way: " + region.label, {}, {}, Style::points};
+    renders::Curve limited{none ? "the end of the range"
+                                : fmt::format("{} it: {}", fails_heading(envelope.request), region.label),
+                           {},
+                           {},
+                           Style::points};
     for (std::size_t i = 0; i < study.points.size(); ++i) {
       if (study.region[i] != region.label || !study.good[i]) continue;
       limited.x.push_back(number_in(study.points[i][0]));
@@ -157,8 +172,7 @@ renders::Panel scene_panel(const Envelope& envelope, const Studied& study, const
 /// The bounds over each other, then each alone.
 renders::Plot bounds_plot(const Family& family, const std::string& name) {
   const auto x_label = family.studies[0]->headings[0];
-  renders::Plot plot{
-      name, fmt::format("Largest {} over {}", without_unit(family.of), without_unit(x_label)), x_label, {}};
+  renders::Plot plot{name, fmt::format("{} over {}", family.sought(), without_unit(x_label)), x_label, {}};
   const bool several = family.studies.size() > 1;
   if (several) {
     std::vector<renders::Curve> curves;
@@ -168,7 +182,7 @@ renders::Plot bounds_plot(const Family& family, const std::string& name) {
   }
   for (std::size_t i = 0; i < family.studies.size(); ++i)
     plot.panels.push_back(scene_panel(*family.envelopes[i], *family.studies[i],
-                                      several ? family.studies[i]->scene : plot.title));
+                                      several ? family.studies[i]->scene : without_unit(family.of)));
   return plot;
 }
 
@@ -210,23 +224,23 @@ renders::Report page_of(const std::vector<Envelope>& envelopes, const std::vecto
   renders::Report report;
   const bool several = studies.size() > 1;
   std::set<std::string> sought;
-  std::set<std::string> tolerances;
-  std::size_t points = 0;
   std::vector<const Studied*> all;
+  std::vector<std::string> spans;
   for (std::size_t i = 0; i < studies.size(); ++i) {
-    const auto& request = envelopes[i].request;
-    sought.insert(studies[i].columns[0]);
-    tolerances.insert(fmt::format("{:.6g} {}", request.tolerance, request.parameter.unit));
-    points += studies[i].points.size();
+    sought.insert(sought_text(envelopes[i]));
+    spans.push_back(fmt::format("{} {}", envelopes[i].scene, span_text(envelopes[i])));
     all.push_back(&studies[i]);
     report.scenario += (i > 0 ? ", " : "") + studies[i].question.file.filename().string();
   }
   report.title = several ? "Envelopes" : "Envelope of " + studies[0].scene;
-  if (sought.size() == 1) report.title += ": largest " + *sought.begin();
   report.passed = true;
-  report.word = fmt::format("{}", points);
-  report.verdict = several ? fmt::format("points of {} scenarios", studies.size()) : "points";
-  if (tolerances.size() == 1) report.verdict += ", each bound found to " + *tolerances.begin();
+  report.word = several                             ? fmt::format("{} scenarios", studies.size())
+                : span_text(envelopes[0]) == "none" ? "NONE"
+                                                    : "FOUND";
+  report.verdict = headline(envelopes[0]);
+  if (several)
+    report.verdict =
+        fmt::format("{}{}", sought.size() == 1 ? *sought.begin() + ": " : "", fmt::join(spans, "; "));
   report.facts = facts_of(all);
   return report;
 }
@@ -255,15 +269,17 @@ void write_envelope_report(const std::vector<Envelope>& envelopes, OutputFolder&
     const auto& study = studies[i];
     const auto of = studies.size() > 1 ? study.scene + ": " : "";
     (studies.size() > 1 ? report.tables : report.summary)
-        .push_back(counts_of(study, of.empty() ? "What gives way behind the bound" : of + "what gives way"));
+        .push_back(counts_of(
+            study, of.empty() ? "What fails beyond the bound" : of + "what fails beyond the bound"));
     report.tables.push_back(rows_of(study, of.empty() ? "Every point" : of + "every point"));
     if (over_axes(study, 2)) {
       const auto name = studies.size() > 1 ? fmt::format("map_{}", i + 1) : "map";
-      report.maps.push_back(map_of(study, name,
-                                   fmt::format("{}{}argest {}", of, of.empty() ? "L" : "l", study.columns[0]),
-                                   "The colours say what gives way behind the largest value, green that "
-                                   "nothing does; the lines are of equal largest value.",
-                                   &envelopes[i].request.parameter, folder));
+      report.maps.push_back(
+          map_of(study, name, fmt::format("{}{}", of, sought_text(envelopes[i])),
+                 "A dot a bound that was found. Its colour says what fails beyond it, a round "
+                 "green one that nothing does; the lines of equal bound are drawn between "
+                 "the points.",
+                 &envelopes[i].request.parameter, folder));
     } else if (const auto command = first_command(envelopes[i], study); !command.empty()) {
       commands += command + "\n";
     }

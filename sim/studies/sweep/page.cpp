@@ -115,7 +115,7 @@ std::vector<renders::MapRegion> regions_of(const Studied& study) {
 }
 
 renders::ReportTable counts_of(const Studied& study, const std::string& title) {
-  renders::ReportTable table{title, {"points", "what came of them"}, {}};
+  renders::ReportTable table{title, {"points", "verdict"}, {}};
   for (const auto& region : regions_of(study))
     table.rows.push_back(
         {{std::to_string(std::count(study.region.begin(), study.region.end(), region.label)), region.label}});
@@ -139,6 +139,7 @@ renders::ReportMap map_of(const Studied& study, const std::string& name, const s
   map.x = {study.headings[0], scale_of(study.axes[0])};
   map.y = {study.headings[1], scale_of(study.axes[1])};
   map.regions = regions_of(study);
+  if (sought == nullptr) map.bound = "the bound: between these";
   const auto count = map.x.values.size() * map.y.values.size();
   map.region.resize(count);
   shown.cells.resize(count);
@@ -207,7 +208,8 @@ renders::Panel panel_of(const std::string& heading, std::vector<renders::Curve> 
     }
   }
   constexpr double headroom = 1.08;
-  if (low == 0 && high > 0) panel.y_range = {0, headroom * high};
+  constexpr double least = 1e-4;
+  if (low == 0 && high > 0) panel.y_range = {0, std::max(least, headroom * high)};
   panel.curves = std::move(curves);
   return panel;
 }

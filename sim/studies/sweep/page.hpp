@@ -25,7 +25,7 @@ struct Studied {
   std::vector<std::vector<std::string>> cells = {};  ///< a row a point, the axes' first
   std::vector<std::string> region = {};              ///< of each point
   std::vector<bool> good = {};                       ///< has numbers to show
-  std::vector<bool> kept = {};                       ///< nothing gives way: green
+  std::vector<bool> kept = {};                       ///< nothing fails: green
   std::vector<std::string> columns = {};             ///< of `numbers`
   std::vector<std::vector<double>> numbers = {};  ///< a row a point; only of good points, else not a number
   std::vector<renders::MapLines> lines = {};      ///< that a map shows, with a value a point
@@ -49,7 +49,7 @@ std::string setting(const TunedParameter& parameter, const std::string& value);
 /// What the page says of where it comes from: scenarios, axes, what was set.
 std::vector<renders::ReportRow> facts_of(const std::vector<const Studied*>& studies);
 
-/// The kinds of regions in the order of their first point, those where nothing gives way first, and how many
+/// The kinds of regions in the order of their first point, those where nothing fails first, and how many
 /// points are in each.
 std::vector<renders::MapRegion> regions_of(const Studied& study);
 renders::ReportTable counts_of(const Studied& study, const std::string& title);
@@ -57,7 +57,8 @@ renders::ReportTable counts_of(const Studied& study, const std::string& title);
 renders::ReportTable rows_of(const Studied& study, const std::string& title);
 
 /// The study over its two axes; `name` is the picture's in plots/. The command of a point repeats it; to what
-/// it sets it also sets what is `sought`, if anything, to the point's number of it.
+/// it sets it also sets what is `sought`, if anything, to the point's number of it; where nothing is, marks
+/// stand between points that hold and those that fail.
 renders::ReportMap map_of(const Studied& study, const std::string& name, const std::string& title,
                           const std::string& caption, const TunedParameter* sought, OutputFolder& folder);
 
@@ -66,7 +67,8 @@ renders::Curve curve_of(const Studied& study, std::size_t column, const std::str
 /// The columns that are worth a curve: margins are in the table, and number and mean length of the pieces say
 /// nothing about a machine that works.
 std::vector<std::string> curve_columns(const Studied& study);
-/// "rms torque [N m]" as title and unit. From 0 where nothing is below it.
+/// "rms torque [N m]" as title and unit. From 0 where nothing is below it; up to 1e-4 at least, for what is
+/// less is the noise of numbers.
 renders::Panel panel_of(const std::string& heading, std::vector<renders::Curve> curves);
 
 }  // namespace drycut::sim::studies

@@ -22,6 +22,8 @@ namespace {
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr auto* figure_option = "--figure";
 constexpr std::array<std::string_view, 5> verdicts = {"passed", "failed", "refused", "diverged", "lost"};
+constexpr std::array<std::string_view, 5> verdict_notes = {
+    "", "", " (input wrong, not simulated)", " (the simulation stopped)", " (whoever ran it died)"};
 
 std::vector<Metric> metrics_of(const PointQuestion& question, Problems& problems) {
   std::vector<Metric> metrics;
@@ -165,14 +167,15 @@ void add_drive(const std::string& drive, const std::vector<loop::DriveVerdict>& 
                std::vector<double>& numbers) {
   const auto found = std::find_if(judged.begin(), judged.end(),
                                   [&](const loop::DriveVerdict& verdict) { return verdict.drive == drive; });
-  for (const auto* name : {"rms torque", "peak torque"}) {
-    double value = no_number;
+  const auto figure = [&](std::string_view name) {
     if (found != judged.end())
-      for (const auto& figure : found->figures)
-        if (figure.name == name) value = figure.value;
-    numbers.push_back(value);
-  }
-  numbers.push_back(found == judged.end() ? no_number : found->energy);
+      for (const auto& one : found->figures)
+        if (one.name == name && one.judged) return one.value;
+    return no_number;
+  };
+  numbers.push_back(figure("rms torque"));
+  numbers.push_back(figure("peak torque"));
+  numbers.push_back(std::isnan(numbers[numbers.size() - 2]) ? no_number : found->energy);  // both of a cycle
 }
 
 /// The check that gave way first; those that are judged at the end come last, in the scenario's order.
@@ -186,12 +189,35 @@ const loop::CheckResult* first_failed(const std::vector<loop::CheckResult>& chec
 }
 
 PointRow row_without_run(PointRow::Verdict verdict, std::string limit, const PointQuestion& question) {
-  return {verdict, std::move(limit), std::vector<double>(question.columns.size(), no_number)};
+  return {verdict, std::move(limit), {}, std::vector<double>(question.columns.size(), no_number)};
 }
 
 }  // namespace
 
 std::string_view name_of(PointRow::Verdict verdict) { return verdicts.at(static_cast<std::size_t>(verdict)); }
+
+std::string region_of(const PointRow& row) {
+  if (row.verdict != PointRow::Verdict::failed || row.limit.empty()) return std::string(name_of(row.verdict));
+  const auto rating = row.rating.substr(0, row.rating.find(": "));
+  return rating.empty() ? row.limit : fmt::format("{}: {}", row.limit, rating);
+}
+
+std::string limit_of(const PointRow& row) {
+  if (row.verdict == PointRow::Verdict::failed)
+    return row.rating.empty() ? row.limit : fmt::format("{} ({})", row.limit, row.rating);
+  return row.limit.empty() ? std::string(name_of(row.verdict))
+                           : fmt::format("{}: {}", name_of(row.verdict), row.limit);
+}
+
+std::string counts_of(const std::vector<PointRow::Verdict>& all) {
+  std::string text;
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    const auto count = std::count(all.begin(), all.end(), static_cast<PointRow::Verdict>(i));
+    if (count > 0)
+      text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", count, verdicts[i], verdict_notes[i]);
+  }
+  return text;
+}
 
 void prepare(PointQuestion& question, Problems& problems) {
   const auto before = problems.size();
@@ -276,6 +302,7 @@ PointRow run_point(const PointQuestion& question, const PointScenario& point) {
   if (const auto* failed = first_failed(outcome.checks)) {
     row.verdict = Verdict::failed;
     row.limit = failed->name;
+    if (failed->name == ratings_check) row.rating = failed_rating(outcome.drives);
   }
   return row;
 }
@@ -298,7 +325,7 @@ std::string with_check_names(const PointQuestion& question, const std::string& t
 std::string row_text(const PointRow& row) {
   auto limit = row.limit;
   std::replace(limit.begin(), limit.end(), '\n', ' ');
-  auto text = fmt::format("{},{}", name_of(row.verdict), csv_cell(limit));
+  auto text = fmt::format("{},{},{}", name_of(row.verdict), csv_cell(limit), csv_cell(row.rating));
   for (const double number : row.numbers)
     text += std::isnan(number) ? std::string(",") : fmt::format(",{:.9g}", number);
   return text;
@@ -310,11 +337,14 @@ std::optional<PointRow> parse_row(std::string_view text) {
   const auto line = std::string(text) + "\n";
   CsvRows rows(line, broken);
   CsvRow cells;
-  if (!rows.next(cells) || cells.cells.size() < 2) return {};
+  if (!rows.next(cells) || cells.cells.size() < 3) return {};
   const auto verdict = std::find(verdicts.begin(), verdicts.end(), cells.cells[0].text);
   if (verdict == verdicts.end()) return {};
-  PointRow row{static_cast<PointRow::Verdict>(verdict - verdicts.begin()), cells.cells[1].text, {}};
-  for (std::size_t i = 2; i < cells.cells.size(); ++i)
+  PointRow row{static_cast<PointRow::Verdict>(verdict - verdicts.begin()),
+               cells.cells[1].text,
+               cells.cells[2].text,
+               {}};
+  for (std::size_t i = 3; i < cells.cells.size(); ++i)
     row.numbers.push_back(number_of(cells.cells[i].text).value_or(no_number));
   return row;
 }

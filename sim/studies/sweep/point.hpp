@@ -56,10 +56,18 @@ struct PointRow {
     lost       ///< whoever ran it, on a cluster, died of it
   };
   Verdict verdict = Verdict::passed;
-  std::string limit;            ///< what gave way first; "" if nothing did
+  std::string limit;            ///< what failed first, or why there is no run; "" if nothing did
+  std::string rating = {};      ///< "brake resistor: 110 of 100 W" where a drive's ratings are the limit
   std::vector<double> numbers;  ///< in the order of the columns; NaN = there is none
 };
 std::string_view name_of(PointRow::Verdict verdict);
+/// What is the limit of a row, without figures: "drive within its ratings: brake resistor", "refused".
+std::string region_of(const PointRow& row);
+/// The same with all that is known of it: "drive within its ratings (brake resistor: 110 of 100 W)".
+std::string limit_of(const PointRow& row);
+/// How many rows have each verdict, those that some have: "12 passed, 8 failed, 180 refused (input wrong, not
+/// simulated)".
+std::string counts_of(const std::vector<PointRow::Verdict>& verdicts);
 
 /// Finds out what the scenario can be asked and tells everything wrong with it and the figures.
 void prepare(PointQuestion& question, Problems& problems);
@@ -77,7 +85,7 @@ PointRow run_point(const PointQuestion& question, const PointScenario& point);
 /// "checks[cut length].from" in place of "checks.0.from".
 std::string with_check_names(const PointQuestion& question, const std::string& text);
 
-/// A row's cells behind the point's own: "passed,,0.04,...", always the same way and back; nothing if `text`
+/// A row's cells behind the point's own: "passed,,,0.04,...", always the same way and back; nothing if `text`
 /// is no such row.
 std::string row_text(const PointRow& row);
 std::optional<PointRow> parse_row(std::string_view text);

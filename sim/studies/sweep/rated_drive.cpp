@@ -63,6 +63,19 @@ std::size_t rating_index(std::string_view name) {
   return static_cast<std::size_t>(found - ratings.begin());
 }
 
+std::string failed_rating(const std::vector<loop::DriveVerdict>& drives) {
+  const loop::DriveVerdict* worst = nullptr;
+  for (const auto& drive : drives)
+    if (!drive.holds() && (worst == nullptr || drive.tightest().share > worst->tightest().share))
+      worst = &drive;
+  if (worst == nullptr) return "";
+  const auto& figure = worst->tightest();
+  return (drives.size() > 1 ? worst->drive + " " : "") +
+         (worst->trips.empty()
+              ? fmt::format("{}: {:.4g} of {:.4g} {}", figure.name, figure.value, figure.rating, figure.unit)
+              : fmt::format("trip: {}", worst->trips.front()));
+}
+
 std::vector<std::string> rated_columns(const std::string& drive) {
   std::vector<std::string> columns;
   for (const auto& [name, unit] : ratings) {

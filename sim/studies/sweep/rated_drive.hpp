@@ -29,6 +29,12 @@ inline constexpr std::array<RatingName, 10> ratings = {{{"rms torque", "N m"},
 /// The place of a rating in that list. Throws std::logic_error if there is none of that name.
 std::size_t rating_index(std::string_view name);
 
+/// The check that judges them.
+inline constexpr std::string_view ratings_check = "drive within its ratings";
+/// What of the drives fails it most: "brake resistor: 110 of 100 W", "trip: overload at 3.2 s"; of several
+/// drives with the name of the one in front. "" if all hold.
+std::string failed_rating(const std::vector<loop::DriveVerdict>& drives);
+
 struct RatedDrive {
   struct Figure {
     double value = 0;  ///< in the rating's unit; NaN = there is none

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 #include "sim/report/report.hpp"
 #include "sim/studies/sweep/page.hpp"
@@ -19,7 +21,7 @@ Studied studied(const PointQuestion& question, const SweepAxes& axes, const std:
                 const std::vector<PointRow>& rows) {
   Studied study{question.file.stem().string(), question, axes, points, axis_headings(question, axes)};
   study.columns = question.columns;
-  study.headings.insert(study.headings.end(), {"verdict", "limit"});
+  study.headings.insert(study.headings.end(), {"verdict", "limit", "rating"});
   study.headings.insert(study.headings.end(), question.columns.begin(), question.columns.end());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& row = rows[i];
@@ -27,12 +29,11 @@ Studied studied(const PointQuestion& question, const SweepAxes& axes, const std:
     auto& cells = study.cells.emplace_back(short_point(points[i]));
     cells.emplace_back(name_of(row.verdict));
     cells.push_back(row.limit);
+    cells.push_back(row.rating);
     for (const double number : row.numbers) cells.push_back(short_text(number));
     study.good.push_back(good);
     study.kept.push_back(good);
-    study.region.emplace_back(row.verdict == PointRow::Verdict::failed && !row.limit.empty()
-                                  ? row.limit
-                                  : std::string(name_of(row.verdict)));
+    study.region.push_back(region_of(row));
     study.numbers.push_back(good ? row.numbers : std::vector<double>(question.columns.size(), unknown));
   }
   return study;
@@ -83,49 +84,50 @@ std::vector<renders::MapLines> lines_of(const Studied& study) {
   return lines;
 }
 
-/// The values of the one axis in order, and whether all holds there.
-std::vector<std::pair<double, bool>> sorted_axis(const Studied& study) {
-  std::vector<std::pair<double, bool>> order;
-  order.reserve(study.points.size());
-  for (std::size_t i = 0; i < study.points.size(); ++i)
-    order.emplace_back(number_in(study.points[i][0]), study.good[i]);
-  std::sort(order.begin(), order.end());
+/// The points in the order of the one axis.
+std::vector<std::size_t> sorted_points(const Studied& study) {
+  std::vector<std::size_t> order(study.points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return number_in(study.points[a][0]) < number_in(study.points[b][0]);
+  });
   return order;
 }
 
-/// The stretches of the one axis where all holds.
-std::vector<renders::Zone> good_zones(const Studied& study) {
-  const auto order = sorted_axis(study);
-  std::vector<renders::Zone> zones;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const auto& [here, good] = order[k];
-    if (!good) continue;
-    const double from = k > 0 ? (order[k - 1].first + here) / 2 : here;
-    const double until = k + 1 < order.size() ? (here + order[k + 1].first) / 2 : here;
-    if (!zones.empty() && zones.back().to >= from)
-      zones.back().to = until;
-    else
-      zones.push_back({from, until, true});
-  }
-  return zones;
+/// The last of the first points that pass one after the other, and the one behind it that does not: the bound
+/// lies between them, as drycut envelope has it. Nothing where there is none.
+std::optional<std::pair<std::size_t, std::size_t>> first_bound(const Studied& study) {
+  const auto order = sorted_points(study);
+  for (std::size_t k = 0; k + 1 < order.size(); ++k)
+    if (study.good[order[k]] && !study.good[order[k + 1]]) return std::pair(order[k], order[k + 1]);
+  return {};
 }
 
-/// ": 60 to 120, 140 m/min", the values of the one axis that hold; "" if none does.
-std::string stretches_text(const Studied& study) {
-  const auto order = sorted_axis(study);
+std::string shown_value(const Studied& study, std::size_t point) {
+  return short_text(number_in(study.points[point][0]));
+}
+
+/// ": 60 to 120, 140 m/min; at 130 m/min follows the cam fails", of the values of the one axis; "" if none
+/// passes.
+std::string stretches_text(const Studied& study, const std::vector<PointRow>& rows) {
+  const auto order = sorted_points(study);
   std::string text;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    if (!order[k].second) continue;
+    if (!study.good[order[k]]) continue;
     const auto first = k;
-    while (k + 1 < order.size() && order[k + 1].second) ++k;
+    while (k + 1 < order.size() && study.good[order[k + 1]]) ++k;
     text += text.empty() ? ": " : ", ";
-    text += first == k ? fmt::format("{:g}", order[k].first)
-                       : fmt::format("{:g} to {:g}", order[first].first, order[k].first);
+    text += shown_value(study, order[first]);
+    if (k > first) text += " to " + shown_value(study, order[k]);
   }
-  const auto& heading = study.headings[0];
-  const auto bracket = heading.rfind(" [");
-  if (text.empty() || bracket == std::string::npos) return text;
-  return text + " " + heading.substr(bracket + 2, heading.size() - bracket - 3);
+  if (text.empty()) return text;
+  const auto& unit = study.axes[0].parameter.unit;
+  const auto in_unit = [&](const std::string& number) { return unit.empty() ? number : number + " " + unit; };
+  text = in_unit(text);
+  if (const auto bound = first_bound(study))
+    text += fmt::format("; then at {}: {}", in_unit(shown_value(study, bound->second)),
+                        limit_of(rows[bound->second]));
+  return text;
 }
 
 /// Where a check fails a figure may be out of all proportion: what is many times what holds is left to the
@@ -142,31 +144,68 @@ void leave_out_of_proportion(const renders::Curve& holds, renders::Curve& all) {
     if (y < most * low || y > most * high) y = unknown;
 }
 
-/// Every figure over the one axis; `rows` has those of points that fail too.
+/// Every figure over the one axis, a dot a run.
 renders::Plot curves_of(const Studied& study, const std::vector<PointRow>& rows, const std::string& title) {
   renders::Plot plot{"curves", title, study.headings[0], {}};
   plot.panel_height = 240;
-  plot.zones = good_zones(study);
-  auto every = study;
-  for (std::size_t i = 0; i < rows.size(); ++i) every.numbers[i] = rows[i].numbers;
+  if (const auto bound = first_bound(study)) {
+    plot.marks = {{number_in(study.points[bound->first][0]), "passes at " + shown_value(study, bound->first)},
+                  {number_in(study.points[bound->second][0]),
+                   fmt::format("{} at {}",
+                               rows[bound->second].verdict == PointRow::Verdict::failed
+                                   ? "fails"
+                                   : name_of(rows[bound->second].verdict),
+                               shown_value(study, bound->second)),
+                   true}};
+  }
   const auto has_points = [](const renders::Curve& curve) {
     return std::any_of(curve.y.begin(), curve.y.end(), [](double y) { return std::isfinite(y); });
   };
+  auto failing = study;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    failing.numbers[i] =
+        study.good[i] ? std::vector<double>(rows[i].numbers.size(), unknown) : rows[i].numbers;
   for (const auto& name : curve_columns(study)) {
     const auto column = static_cast<std::size_t>(std::find(study.columns.begin(), study.columns.end(), name) -
                                                  study.columns.begin());
-    auto holds = curve_of(study, column, "all holds");
-    auto all = curve_of(every, column, "beyond: a check fails");
-    if (!has_points(all)) continue;
-    leave_out_of_proportion(holds, all);
-    std::vector<renders::Curve> curves;
-    const bool fails = std::count(study.good.begin(), study.good.end(), false) > 0;
-    if (fails) curves.push_back(std::move(all));
-    if (has_points(holds)) curves.push_back(std::move(holds));
-    if (fails && curves.size() == 2) curves.front().faint = true;
-    plot.panels.push_back(panel_of(name, std::move(curves)));
+    auto passes = curve_of(study, column, "passes");
+    auto fails = curve_of(failing, column, "fails");
+    leave_out_of_proportion(passes, fails);
+    // What joins the dots is a guide for the eye; pale, and without a name.
+    auto joined = passes;
+    joined.label.clear();
+    joined.faint = true;
+    for (std::size_t i = 0; i < joined.y.size(); ++i)
+      if (std::isnan(joined.y[i])) joined.y[i] = fails.y[i];
+    if (!has_points(joined)) continue;
+    // In this order red and green are theirs; who has no dot has no name.
+    for (auto* curve : {&fails, &passes}) {
+      curve->style = renders::Curve::Style::points;
+      if (!has_points(*curve)) curve->label.clear();
+    }
+    plot.panels.push_back(panel_of(name, {std::move(joined), std::move(fails), std::move(passes)}));
   }
   return plot;
+}
+
+/// The points that did not pass, by verdict; "" if there are none.
+std::string others_text(const std::vector<PointRow>& rows) {
+  std::vector<PointRow::Verdict> others;
+  for (const auto& row : rows)
+    if (row.verdict != PointRow::Verdict::passed) others.push_back(row.verdict);
+  return counts_of(others);
+}
+
+/// The first that failed, else the first that ran.
+std::optional<std::size_t> point_to_repeat(const std::vector<PointRow>& rows) {
+  using Verdict = PointRow::Verdict;
+  const auto first = [&](const std::vector<Verdict>& of) -> std::optional<std::size_t> {
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (std::find(of.begin(), of.end(), rows[i].verdict) != of.end()) return i;
+    return {};
+  };
+  const auto failed = first({Verdict::failed, Verdict::diverged, Verdict::lost});
+  return failed ? failed : first({Verdict::passed});
 }
 
 }  // namespace
@@ -177,28 +216,35 @@ void write_sweep_report(const PointQuestion& question, const SweepAxes& axes,
   auto study = studied(question, axes, points, rows);
   study.lines = lines_of(study);
   const auto title = "Sweep of " + study.scene;
+  const auto passed = std::count(study.good.begin(), study.good.end(), true);
   renders::Report report;
   report.title = title;
   report.scenario = question.file.filename().string();
   report.passed = true;
-  report.word = fmt::format("{}", points.size());
-  report.verdict =
-      fmt::format("points, {} of them passed{}", std::count(study.good.begin(), study.good.end(), true),
-                  over_axes(study, 1) ? stretches_text(study) : "");
+  report.word = fmt::format("{} of {}", passed, points.size());
+  report.verdict = "points passed" + (over_axes(study, 1) ? stretches_text(study, rows) : "");
+  if (const auto others = others_text(rows); !others.empty()) report.verdict += "; " + others;
   report.facts = facts_of({&study});
-  report.summary = {counts_of(study, "What gives way first")};
+  report.summary = {counts_of(study, "What fails first")};
   report.tables = {rows_of(study, "Every point")};
   std::vector<renders::Plot> plots;
+  constexpr auto* between = "What lies between the points was not run: drycut envelope finds the bound.";
   if (over_axes(study, 2)) {
-    const auto caption =
-        "Green: every check and every rating holds. The other colours say what gives way first." +
-        dust_of(study);
+    const auto caption = fmt::format(
+        "A dot a run: round and green where every check and every rating holds; the other colours say what "
+        "fails first. {} Lines of equal value are drawn between points that pass.{}",
+        between, dust_of(study));
     report.maps.push_back(map_of(study, "map", title, caption, nullptr, folder));
-  } else if (!points.empty()) {
-    report.texts.push_back(
-        {"The command that repeats the first point with pictures", point_command(study, points.front())});
+  } else if (const auto point = point_to_repeat(rows)) {
+    report.texts.push_back({rows[*point].verdict == PointRow::Verdict::passed
+                                ? "The first point, once more with pictures"
+                                : "The first point that failed, once more with pictures",
+                            point_command(study, points[*point])});
   }
-  if (over_axes(study, 1)) plots.push_back(curves_of(study, rows, title + "; green: all holds"));
+  if (over_axes(study, 1)) {
+    plots.push_back(curves_of(study, rows, title));
+    report.notes.emplace_back(std::string("A dot is a run. ") + between);
+  }
   std::erase_if(plots, [](const renders::Plot& plot) { return plot.panels.empty(); });
   report::write_report(std::move(report), std::move(plots), folder);
 }

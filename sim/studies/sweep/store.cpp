@@ -86,7 +86,9 @@ std::vector<PointRow> PointStore::rows(const PointQuestion& question, const std:
     const std::lock_guard lock(mutex);
     if (!answer.lost.empty()) {
       rows[i] =
-          PointRow{PointRow::Verdict::lost, answer.lost,
+          PointRow{PointRow::Verdict::lost,
+                   answer.lost,
+                   {},
                    std::vector<double>(question.columns.size(), std::numeric_limits<double>::quiet_NaN())};
       std::string what;
       for (const auto& override : points[i]) what += fmt::format("{}={} ", override.path, override.value);
@@ -97,7 +99,7 @@ std::vector<PointRow> PointStore::rows(const PointQuestion& question, const std:
     rows[i] = parse_row(answer.text).value();
     rows_.emplace(keys[i], answer.text);
     stream_ << proven(fmt::format("{:0{}x},{}", keys[i], key_digits, answer.text)) + '\n' << std::flush;
-    ++simulated_;
+    ++(rows[i].verdict == PointRow::Verdict::refused ? refused_ : simulated_);
     progress(++done, points.size());
   };
   workers_.run({"point", text_of(question), points.size(), ask, take});

@@ -31,8 +31,9 @@ class PointStore {
   std::vector<PointRow> rows(const PointQuestion& question,
                              const std::vector<std::vector<scenario::Override>>& points,
                              const StudyProgress& progress);
-  /// Rows that were not in the file.
+  /// Rows that were not in the file: runs, and points that no run was made of.
   [[nodiscard]] std::size_t simulated() const { return simulated_; }
+  [[nodiscard]] std::size_t refused() const { return refused_; }
   /// Why each row that was lost was: "variables.end=9 s was lost: whoever ran it died, 3 times: ..."
   [[nodiscard]] const std::vector<std::string>& lost() const { return lost_; }
 
@@ -41,6 +42,7 @@ class PointStore {
   std::unordered_map<std::uint64_t, std::string> rows_;
   std::ofstream stream_;
   std::size_t simulated_ = 0;
+  std::size_t refused_ = 0;
   std::vector<std::string> lost_;
 };
 

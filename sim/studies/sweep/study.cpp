@@ -194,7 +194,7 @@ std::string csv_heading(const PointQuestion& question, const SweepAxes& axes, co
 
 std::string sweep_csv(const PointQuestion& question, const SweepAxes& axes,
                       const std::vector<SweepPoint>& points, const std::vector<PointRow>& rows) {
-  auto text = csv_heading(question, axes, "verdict,limit");
+  auto text = csv_heading(question, axes, "verdict,limit,rating");
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (const auto& value : points[i]) text += value + ",";
     text += row_text(rows[i]) + "\n";

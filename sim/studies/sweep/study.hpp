@@ -31,20 +31,21 @@ std::string sweep_csv(const PointQuestion& question, const SweepAxes& axes,
 /// A value of the sought parameter that was looked at.
 struct Look {
   double value = 0;
-  bool holds = false;
+  PointRow::Verdict verdict = PointRow::Verdict::passed;
 };
 
-/// The largest value of a parameter up to which every check and every rating holds.
+/// The largest value of a parameter up to which every check and every rating holds, or the smallest down to
+/// which: what is said of the largest is then meant the other way round.
 struct Bound {
   enum class Kind {
-    found,       ///< it holds up to `value`, and `tolerance` above it does not
+    found,       ///< it holds up to `value`, and no more than `tolerance` above it does not
     throughout,  ///< it holds up to the end of the range
     nowhere      ///< it holds at none of the values that were looked at
   };
   Kind kind = Kind::nowhere;
   double value = 0;  ///< NaN = nowhere
   double from = 0;   ///< the least value looked at that holds, as all do from there to `value`; NaN = nowhere
-  std::string limit;                            ///< what gives way behind the bound
+  PointRow beyond;   ///< the row just above the bound, or of a value that fails
   std::vector<double> numbers;                  ///< of the row at `value`
   std::vector<std::pair<double, double>> gaps;  ///< beyond the bound: fails from here to there, then holds
   std::optional<double> again;                  ///< beyond the bound it holds again, here
@@ -56,9 +57,12 @@ std::string_view name_of(Bound::Kind kind);
 struct BoundRequest {
   TunedParameter parameter;
   double tolerance = 0;  ///< in the parameter's unit
+  bool least = false;    ///< the smallest value is sought, else the largest
 };
+/// The decimal that a tolerance warrants: 0.1 of 0.9, 1 of 5.
+double warranted_step(double tolerance);
 /// Reads PATH=LO..HI UNIT[:TOLERANCE]; the tolerance is a two-hundredth of the range unless it is given.
-std::optional<BoundRequest> parse_bound(const std::string& text, const std::string& option,
+std::optional<BoundRequest> parse_bound(const std::string& text, const std::string& option, bool least,
                                         Problems& problems);
 
 /// What is sought of one scene, and what was found.
@@ -80,7 +84,8 @@ std::vector<SweepPoint> planned(Envelope& envelope, Problems& problems);
 /// Looks at nine values from end to end, at 17 and 33 where none of them holds, and halves the interval in
 /// which what held first gives way. Then it looks below the bound: no stretch stays that is wider than a
 /// sixteenth of the range, or than a quarter of what lies between its lower end and the bound, so that what
-/// an offer would use is looked at closest. What fails there is the end of a lower bound, and so on.
+/// an offer would use is looked at closest. What fails there is the end of a lower bound, and so on. Of a
+/// smallest value all this is the other way round.
 inline constexpr int scanned_values = 9;
 inline constexpr double widest_share = 1.0 / 16;   ///< of the range
 inline constexpr double distance_share = 1.0 / 4;  ///< of the way to the bound

@@ -10,6 +10,8 @@
 
 #include "renders/process.hpp"
 #include "sim/cli/sweep_command.hpp"
+#include "sim/studies/sweep/point.hpp"
+#include "sim/studies/sweep/rated_drive.hpp"
 #include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim::cli {
@@ -75,10 +77,75 @@ TEST_F(SweepCommand, ARowAPointWithWhatGaveWay) {
                           "80,125,failed,slow enough", "120,5,failed,fast enough", "120,45,passed,",
                           "120,85,passed,", "120,125,failed,slow enough"));
   const auto text = text_of(folder / "sweep/sweep.csv");
-  EXPECT_THAT(text, HasSubstr("limit,margin of slow enough [m/min],margin of fast enough [m/min],peak\n"));
-  EXPECT_THAT(text, HasSubstr("120,85,passed,,35,75,85\n"));
+  EXPECT_THAT(text,
+              HasSubstr("limit,rating,margin of slow enough [m/min],margin of fast enough [m/min],peak\n"));
+  EXPECT_THAT(text, HasSubstr("120,85,passed,,,35,75,85\n"));
+  EXPECT_THAT(out, AllOf(HasSubstr("3 failed: slow enough"), HasSubstr("\n8 points, 3 passed, 5 failed: "),
+                         HasSubstr("\n8 runs simulated now\n")));
+}
+
+// A value that the scenario does not take is no run, and says so wherever points are counted.
+TEST_F(SweepCommand, WhatIsRefusedIsNoRun) {
+  sweep.over = {"plants.web.speed=50,150,1e6,2e6,3e6 m/min"};
+  ASSERT_EQ(run_sweep(), all_passed) << err;
+  EXPECT_THAT(out,
+              AllOf(HasSubstr("       3 refused, the first: plants.web.speed is 1000000 m/min"),
+                    HasSubstr("\n5 points, 1 passed, 1 failed, 3 refused (input wrong, not simulated): "),
+                    HasSubstr("\n2 runs simulated now, 3 refused\n")));
+  ASSERT_EQ(run_sweep(), all_passed) << err;
+  EXPECT_THAT(out, HasSubstr("\n0 runs simulated now\n"));
+}
+
+// Which rating of the drive fails is named, with its figures.
+TEST_F(SweepCommand, TheRatingThatFailsIsNamed) {
+  sweep.scenario = source_root / "scenes/rotary_knife.yaml";
+  sweep.set = {"scene.duration=8 s"};
+  sweep.over = {"plants.knife.servo.rated_torque=1,9.5 N m"};
+  ASSERT_EQ(run_sweep(), all_passed) << err;
   EXPECT_THAT(
-      out, AllOf(HasSubstr("3 failed: slow enough"), HasSubstr("3 passed"), HasSubstr("8 runs simulated")));
+      text_of(folder / "sweep/sweep.csv"),
+      testing::ContainsRegex("\n1,failed,drive within its ratings,\"?rms [a-z, ]+: [0-9.]+ of [0-9.]+ "
+                             "(N m|A)\"?,"));
+  EXPECT_THAT(rows("sweep/sweep.csv", 4)[2], "9.5,passed,,");
+  EXPECT_THAT(out, HasSubstr("1 failed: drive within its ratings: "));
+}
+
+TEST(FailedRating, IsTheWorstOfTheDriveThatNeedsMost) {
+  loop::DriveVerdict knife;
+  knife.drive = "knife.servo";
+  knife.figures = {{.name = "rms torque", .value = 9, .rating = 9.5, .unit = "N m", .share = 0.947},
+                   {.name = "brake resistor", .value = 110, .rating = 100, .unit = "W", .share = 1.1},
+                   {.name = "told only", .value = 9, .rating = 1, .unit = "K", .share = 9, .judged = false}};
+  EXPECT_EQ(studies::failed_rating({knife}), "brake resistor: 110 of 100 W");
+  auto saw = knife;
+  saw.drive = "saw.servo";
+  saw.figures[0].share = 1.2;
+  saw.figures[0].value = 11.4;
+  EXPECT_EQ(studies::failed_rating({knife, saw}), "saw.servo rms torque: 11.4 of 9.5 N m");
+  saw.trips = {"overload at 3.200 s"};
+  EXPECT_EQ(studies::failed_rating({saw}), "trip: overload at 3.200 s");
+  knife.figures.pop_back();
+  knife.figures.pop_back();
+  EXPECT_EQ(studies::failed_rating({knife}), "");
+  // Points of one rating are of one region, whatever their figures.
+  const studies::PointRow row{
+      studies::PointRow::Verdict::failed, "drive within its ratings", "brake resistor: 110 of 100 W", {}};
+  EXPECT_EQ(region_of(row), "drive within its ratings: brake resistor");
+  EXPECT_EQ(limit_of(row), "drive within its ratings (brake resistor: 110 of 100 W)");
+}
+
+// Without a cut there is no cycle of the machine: its rms torque and energy are unknown, not 0.
+TEST_F(SweepCommand, WhatIsUnknownIsEmpty) {
+  sweep.scenario = source_root / "scenes/rotary_knife.yaml";
+  sweep.set = {"scene.duration=0.5 s"};
+  sweep.over = {"variables.length=700,800 mm"};
+  ASSERT_EQ(run_sweep(), all_passed) << err;
+  const auto lines = rows("sweep/sweep.csv", 11);
+  EXPECT_THAT(lines[0],
+              HasSubstr("knife.servo rms torque [N m],knife.servo peak torque [N m],knife.servo energy a "
+                        "cycle [J]"));
+  for (const std::size_t i : {1U, 2U})
+    EXPECT_THAT(lines[i], testing::MatchesRegex("[78]00,failed,[^,]*,,0,,,,,[0-9.]+,")) << lines[i];
 }
 
 TEST_F(SweepCommand, TheFirstInTimeIsTheLimit) {
@@ -268,10 +335,10 @@ TEST_F(SweepCommand, AnEnvelopeIsWhereTheLimitIs) {
   envelope.over = {"variables.limit=40..290 m/min:3"};
   envelope.find_max = {"variables.speed=5..300 m/min:0.25"};
   ASSERT_EQ(run_envelope(), all_passed) << err;
-  const auto lines = rows("envelope/envelope.csv", 7);
+  const auto lines = rows("envelope/envelope.csv", 8);
   ASSERT_EQ(lines.size(), 4U);
   EXPECT_EQ(lines[0],
-            "variables.limit [m/min],variables.speed [m/min],verdict,limit,holds from [m/min],"
+            "variables.limit [m/min],variables.speed [m/min],verdict,limit,rating,holds from [m/min],"
             "fails at [m/min],holds again at [m/min]");
   const std::vector<double> limits = {40, 165, 290};
   for (std::size_t i = 0; i < limits.size(); ++i) {
@@ -282,7 +349,7 @@ TEST_F(SweepCommand, AnEnvelopeIsWhereTheLimitIs) {
     EXPECT_EQ(limit, limits[i]);
     EXPECT_LE(speed, limit);
     EXPECT_GT(speed, limit - 0.25);
-    EXPECT_THAT(line, HasSubstr(i == 0 ? ",found,slow enough,23.4375,," : ",found,slow enough,41.875,,"));
+    EXPECT_THAT(line, HasSubstr(i == 0 ? ",found,slow enough,,23.4375,," : ",found,slow enough,,41.875,,"));
   }
   const auto text = text_of(folder / "envelope/envelope.csv");
   envelope.jobs = 3;
@@ -296,7 +363,110 @@ TEST_F(SweepCommand, AnEnvelopeMayHaveNoEnd) {
   envelope.find_max = {"variables.speed=20..200 m/min:1"};
   ASSERT_EQ(run_envelope(), all_passed) << err;
   EXPECT_THAT(rows("envelope/envelope.csv", 6)[1], "5,,nowhere,slow enough,,");
-  EXPECT_THAT(rows("envelope/envelope.csv", 6)[2], "300,200,throughout,,20,");
+  EXPECT_THAT(rows("envelope/envelope.csv", 6)[2], "300,200,throughout,,,20");
+}
+
+// What a user asked for stands on the console, a line a point: on the side that holds.
+TEST_F(SweepCommand, AnEnvelopeAnswersOnTheConsole) {
+  envelope.over = {"variables.limit=5,105.87,300 m/min"};
+  envelope.find_max = {"variables.speed=20..200 m/min:0.9"};
+  ASSERT_EQ(run_envelope(), all_passed) << err;
+  double speed = 0;
+  ASSERT_EQ(
+      std::sscanf(out.c_str(),
+                  "  5 m/min: fails everywhere: slow enough\n  105.87 m/min: %lf m/min, then slow enough\n",
+                  &speed),
+      1)
+      << out;
+  EXPECT_LE(speed, 105.87);
+  EXPECT_GT(speed, 105.87 - 1);
+  EXPECT_NEAR(10 * speed, std::rint(10 * speed), 1e-9) << "in digits that the tolerance warrants";
+  EXPECT_THAT(
+      out,
+      AllOf(HasSubstr("\n  300 m/min: holds throughout to 200 m/min\n"),
+            HasSubstr(fmt::format("\nLargest variables.speed: {} to 200 m/min over 3 points (± 0.9 m/min, "
+                                  "rounded down); above it fails: slow enough (1 of 3 points); holds "
+                                  "throughout to 200 m/min (1 of 3 points); fails everywhere (1 of 3 "
+                                  "points)\n",
+                                  speed))));
+  // The row has what was found, to the last digit: what is told is not above it.
+  EXPECT_LE(speed, std::stod(rows("envelope/envelope.csv", 2)[2].substr(7)));
+}
+
+TEST_F(SweepCommand, AnEnvelopeOfOnePointIsOneSentence) {
+  envelope.set = {"variables.limit=105.87 m/min"};
+  envelope.find_max = {"variables.speed=5..200 m/min:0.9"};
+  ASSERT_EQ(run_envelope(), all_passed) << err;
+  EXPECT_THAT(
+      out, testing::ContainsRegex(
+               "^Largest variables.speed: 105[.][0-9] m/min \\(± 0.9 m/min, rounded down\\); above it fails: "
+               "slow enough; holds from [0-9.]+ m/min, not below\n1 point, [0-9]+ values tried, [0-9]+ "
+               "passed, [0-9]+ failed: "));
+}
+
+TEST_F(SweepCommand, AnEnvelopeTellsWhatIsRefusedFromWhatFails) {
+  envelope.set = {"variables.limit=1e9 m/min"};
+  envelope.find_max = {"plants.web.speed=600..2400 m/min:100"};
+  ASSERT_EQ(run_envelope(), all_passed) << err;
+  EXPECT_THAT(out, AllOf(HasSubstr("it fails: refused: plants.web.speed is "), HasSubstr("out of range"),
+                         HasSubstr(" refused (input wrong, not simulated): "), HasSubstr(" refused\n")));
+}
+
+// The shortest piece at a speed is such a question: the least speed that is fast enough.
+TEST_F(SweepCommand, TheSmallestValueIsFoundAsTheLargestIs) {
+  envelope.over = {"variables.least=40,105.87,165,290,400 m/min"};
+  envelope.set = {"variables.limit=300 m/min"};
+  envelope.find_min = {"variables.speed=5..310 m/min:0.25"};
+  ASSERT_EQ(run_envelope(), all_passed) << err;
+  const auto lines = rows("envelope/envelope.csv", 6);
+  ASSERT_EQ(lines.size(), 6U);
+  EXPECT_EQ(lines[0],
+            "variables.least [m/min],variables.speed [m/min],verdict,limit,rating,holds to [m/min]");
+  const std::vector<double> least = {40, 105.87, 165, 290};
+  for (std::size_t i = 0; i < least.size(); ++i) {
+    double limit = 0;
+    double speed = 0;
+    double upper = 0;
+    ASSERT_EQ(std::sscanf(lines[i + 1].c_str(), "%lf,%lf,found,fast enough,,%lf", &limit, &speed, &upper), 3)
+        << lines[i + 1];
+    EXPECT_GE(speed, least[i]);
+    EXPECT_LT(speed, least[i] + 0.25);
+    EXPECT_LE(upper, 300);
+  }
+  EXPECT_EQ(lines[5], "400,,nowhere,fast enough,,");
+  double told = 0;
+  const auto at = out.find("  105.87 m/min: ");
+  ASSERT_NE(at, std::string::npos) << out;
+  ASSERT_EQ(std::sscanf(out.c_str() + at, "  105.87 m/min: %lf m/min, then fast enough; holds up to ", &told),
+            1)
+      << out;
+  EXPECT_GE(told, 105.87) << "rounded up";
+  EXPECT_LT(told, 105.87 + 0.35);
+  EXPECT_THAT(out, AllOf(HasSubstr("\nSmallest variables.speed: "),
+                         HasSubstr("(± 0.25 m/min, rounded up); below it fails: fast enough")));
+  const auto text = text_of(folder / "envelope/envelope.csv");
+  envelope.jobs = 3;
+  ASSERT_EQ(run_envelope(), all_passed);
+  EXPECT_EQ(text_of(folder / "envelope/envelope.csv"), text);
+}
+
+// A controller's length in whole tenths takes no half of a range: the value is asked for in the digits that
+// the tolerance warrants, and what is refused for its digits bounds nothing.
+TEST_F(SweepCommand, ValuesThatMustBeWholeAreTriedWhole) {
+  envelope.scenarios = {source_root / "scenes/envelope/rotary_knife_camming4.yaml"};
+  envelope.find_min = {"variables.length=700..901 mm:20"};
+  ASSERT_EQ(run_envelope(), all_passed) << err;
+  const auto line = rows("envelope/envelope.csv", 2)[1];
+  double length = 0;
+  ASSERT_EQ(std::sscanf(line.c_str(), "%lf,", &length), 1) << line;
+  EXPECT_THAT(out, testing::Not(HasSubstr("refused (input wrong"))) << "no value of those that count";
+}
+
+TEST_F(SweepCommand, TheSmallestValueMayBeTheEndOfTheRange) {
+  envelope.find_min = {"variables.speed=50..90 m/min:1"};
+  ASSERT_EQ(run_envelope(), all_passed) << err;
+  EXPECT_EQ(rows("envelope/envelope.csv", 5)[1], "50,throughout,,,90");
+  EXPECT_THAT(out, HasSubstr("Smallest variables.speed: 50 m/min; holds throughout to 50 m/min\n"));
 }
 
 struct Resonance {
@@ -321,10 +491,10 @@ struct EnvelopeSearch : SweepCommand {
     envelope.set = {"variables.limit=131 m/min"};
     envelope.find_max = {"variables.speed=20..300 m/min:0.5"};
     EXPECT_EQ(run_envelope(), all_passed) << err;
-    const auto line = rows("envelope/envelope.csv", 6)[1];
+    const auto line = rows("envelope/envelope.csv", 7)[1];
     Found found;
     std::array<char, 64> limit{};
-    const int read = std::sscanf(line.c_str(), "%lf,found,%63[^,],20,%lf..%lf,%lf", &found.bound,
+    const int read = std::sscanf(line.c_str(), "%lf,found,%63[^,],,20,%lf..%lf,%lf", &found.bound,
                                  limit.data(), &found.fails_from, &found.fails_to, &found.again);
     EXPECT_GE(read, 2) << line;
     found.limit = limit.data();
@@ -342,7 +512,29 @@ TEST_F(EnvelopeSearch, AnEnvelopeTellsThatItHoldsAgain) {
   EXPECT_LT(found.fails_to, 120);
   EXPECT_GE(found.again, 120);
   EXPECT_LE(found.again, 125);
-  EXPECT_THAT(out, HasSubstr("1 holds again beyond the bound"));
+  EXPECT_THAT(out, testing::ContainsRegex("above it fails: no resonance; holds again at 12[0-9.]+ m/min"));
+}
+
+// The same from above: what fails over the smallest value is found, and where it holds again below.
+TEST_F(EnvelopeSearch, ASmallestValueTellsThatItHoldsAgain) {
+  folder.file("web.yaml", scenario + "  - {name: no resonance, always: abs(web.speed - 60) >= 4}\n");
+  envelope.find_min = {"variables.speed=5..95 m/min:0.5"};
+  ASSERT_EQ(run_envelope(), all_passed) << err;
+  double bound = 0;
+  double from = 0;
+  double to = 0;
+  double again = 0;
+  const auto line = rows("envelope/envelope.csv", 7)[1];
+  ASSERT_EQ(std::sscanf(line.c_str(), "%lf,found,no resonance,,95,%lf..%lf,%lf", &bound, &from, &to, &again),
+            4)
+      << line;
+  EXPECT_GE(bound, 64);
+  EXPECT_LT(bound, 64.5);
+  EXPECT_GT(from, 56);
+  EXPECT_LE(from, to);
+  EXPECT_LT(to, 64);
+  EXPECT_LE(again, 56);
+  EXPECT_GT(again, 40);
 }
 
 // What is said of the search: no stretch stays unlooked at that is wider than a sixteenth of the range (17.5
@@ -436,6 +628,17 @@ TEST_F(SweepCommand, BadScenesAreTold) {
     EXPECT_THAT(err, HasSubstr(told));
     EXPECT_FALSE(fs::exists(envelope.out));
   }
+  // The largest and the smallest are not sought at once, and each is told by its option.
+  envelope.scenarios = {folder / "web.yaml"};
+  envelope.over.clear();
+  envelope.find_max = envelope.find_min = {speed};
+  EXPECT_EQ(run_envelope(), bad_input);
+  EXPECT_THAT(err, HasSubstr("--find-max:1:1: --find-max and --find-min for web; one for all"));
+  envelope.find_max.clear();
+  envelope.find_min = {"variables.speed=20..18 m/min"};
+  EXPECT_EQ(run_envelope(), bad_input);
+  EXPECT_THAT(err, HasSubstr("--find-min:1:17: the range 20..18 m/min is empty"));
+  envelope.find_min.clear();
   // What is wrong for all of them is told once.
   envelope.scenarios = {folder / "web.yaml", folder / "saw.yaml"};
   envelope.over = {"variables.limit=1,,2 m/min"};

@@ -1,7 +1,9 @@
 // The pages of drycut sweep and drycut envelope: a map over two axes, curves over one, a table of anything.
 #include <fmt/format.h>
 
+#include <cstring>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "sim/cli/sweep_command.hpp"
@@ -42,6 +44,35 @@ checks:
     return nlohmann::json::parse(text.substr(from, text.find("</script>", from) - from)).at(0);
   }
 
+  /// What the browser draws its plots from.
+  nlohmann::json plot_data() const {
+    const auto text = page();
+    const std::string begin = "id=\"plot-data\">";
+    const auto from = text.find(begin) + begin.size();
+    return nlohmann::json::parse(text.substr(from, text.find("</script>", from) - from));
+  }
+  nlohmann::json plots() const { return plot_data().at("plots"); }
+  /// The y of a curve.
+  std::vector<float> y_of(const nlohmann::json& curve) const {
+    const auto column = plot_data().at("columns").at(curve.at("y").get<std::size_t>());
+    EXPECT_EQ(column.at("type"), "f4");
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    unsigned bits = 0;
+    int count = 0;
+    for (const char c : column.at("base64").get<std::string>()) {
+      if (c == '=') break;
+      bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+      count += 6;
+      if (count < 8) continue;
+      count -= 8;
+      bytes.push_back(static_cast<char>(bits >> count & 0xff));
+    }
+    std::vector<float> numbers(bytes.size() / sizeof(float));
+    std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(float));
+    return numbers;
+  }
+
   TestFolder folder;
   SweepOptions sweep;
   EnvelopeOptions envelope;
@@ -73,7 +104,8 @@ TEST_F(SweepReport, OverTwoAxesItIsAMap) {
                 fmt::format("' --set 'scene.seed=3' --set 'variables.limit={{{}}} m/min' --set "
                             "'variables.speed={{{}}} m/min'",
                             told, told + 1));
-  EXPECT_THAT(page(), HasSubstr("points, 5 of them passed"));
+  EXPECT_THAT(page(), HasSubstr("<strong>5 of 12</strong> <span>points passed; 7 failed</span>"));
+  EXPECT_THAT(page(), HasSubstr("What lies between the points was not run"));
 }
 
 // A third of a range has no end: the page says six digits, the command all of them.
@@ -100,7 +132,8 @@ TEST_F(SweepReport, ChecksGoByTheirNames) {
   fs::remove_all(folder / "out");
   ASSERT_EQ(captured([&] { return envelope_scenario(envelope); }), all_passed) << err;
   EXPECT_THAT(page(), HasSubstr("Largest checks[fast enough].from [ms]"));
-  EXPECT_THAT(out, HasSubstr("2 points, checks[fast enough].from to 10 ms"));
+  EXPECT_THAT(out,
+              HasSubstr("Largest checks[fast enough].from: 50 ms over 2 points; holds throughout to 50 ms"));
 }
 
 TEST_F(SweepReport, OverOneAxisItIsCurves) {
@@ -112,10 +145,71 @@ TEST_F(SweepReport, OverOneAxisItIsCurves) {
   const auto text = page();
   EXPECT_THAT(text, Not(HasSubstr("id=\"map-data\"")));
   EXPECT_THAT(text, HasSubstr("peak"));
-  EXPECT_THAT(text, HasSubstr("variables.speed=5 m/min"));
-  // Where a check fails the figures go on, up to the end of the axis.
-  EXPECT_THAT(text, HasSubstr("beyond: a check fails"));
-  EXPECT_THAT(text, HasSubstr("points, 4 of them passed: 25 to 85 m/min"));
+  EXPECT_THAT(
+      text, HasSubstr("<strong>4 of 7</strong> <span>points passed: 25 to 85 m/min; then at 105 m/min: slow "
+                      "enough; 3 failed</span>"));
+  // A dot a run and no ground painted between; the bound lies between two marks, the axis ends at what was
+  // asked.
+  const auto plot = plots()[0];
+  EXPECT_THAT(plot["zones"], testing::IsEmpty());
+  ASSERT_EQ(plot["marks"].size(), 2U);
+  EXPECT_EQ(plot["marks"][0]["x"], 85);
+  EXPECT_EQ(plot["marks"][0]["label"], "passes at 85");
+  EXPECT_EQ(plot["marks"][1]["x"], 105);
+  EXPECT_EQ(plot["marks"][1]["label"], "fails at 105");
+  EXPECT_EQ(plot["panels"].back()["title"], "peak");
+  const auto& curves = plot["panels"].back()["curves"];
+  ASSERT_EQ(curves.size(), 3U);
+  EXPECT_EQ(curves[1]["label"], "fails");
+  EXPECT_EQ(curves[2]["label"], "passes");
+  for (const auto& dots : {curves[1], curves[2]}) EXPECT_EQ(dots["style"], "points");
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THAT(y_of(curves[1]), testing::Pointwise(testing::NanSensitiveFloatEq(),
+                                                  std::vector<float>{5, none, none, none, none, 105, 125}));
+  EXPECT_THAT(y_of(curves[2]), testing::Pointwise(testing::NanSensitiveFloatEq(),
+                                                  std::vector<float>{none, 25, 45, 65, 85, none, none}));
+}
+
+// What a sweep shows of a bound is what an envelope of the same line finds.
+TEST_F(SweepReport, ASweepDoesNotContradictTheEnvelope) {
+  for (const double limit : {45.0, 66.6, 110.0}) {
+    sweep.set = envelope.set = {fmt::format("variables.limit={} m/min", limit)};
+    sweep.over = {"variables.speed=20..140 m/min:7"};
+    fs::remove_all(folder / "out");
+    ASSERT_EQ(captured([&] { return sweep_scenario(sweep); }), all_passed) << err;
+    const auto marks = plots()[0]["marks"];
+    envelope.find_max = {"variables.speed=20..140 m/min:0.5"};
+    envelope.out = folder / "bound";
+    ASSERT_EQ(captured([&] { return envelope_scenario(envelope); }), all_passed) << err;
+    double bound = 0;
+    ASSERT_EQ(std::sscanf(out.c_str(), "Largest variables.speed: %lf m/min", &bound), 1) << out;
+    ASSERT_EQ(marks.size(), 2U);
+    EXPECT_LE(marks[0]["x"].get<double>(), bound);
+    EXPECT_GT(marks[1]["x"].get<double>(), bound);
+  }
+}
+
+// The command that is offered repeats what a reader asks about: the first point that failed.
+TEST_F(SweepReport, OffersTheFirstPointThatFailed) {
+  sweep.over = {"variables.speed=1e6,45,105,125 m/min"};
+  ASSERT_EQ(captured([&] { return sweep_scenario(sweep); }), all_passed) << err;
+  EXPECT_THAT(page(), HasSubstr("The first point that failed, once more with pictures"));
+  EXPECT_THAT(page(), HasSubstr("variables.speed=105 m/min&#39;</pre>"));
+  // What was refused is no verdict: not among the dots, and counted for itself.
+  EXPECT_THAT(page(),
+              HasSubstr("<strong>1 of 4</strong> <span>points passed: 45 m/min; then at 105 m/min: slow "
+                        "enough; 2 failed, 1 refused (input wrong, not simulated)</span>"));
+  sweep.over = {"variables.speed=45,65 m/min"};
+  ASSERT_EQ(captured([&] { return sweep_scenario(sweep); }), all_passed) << err;
+  EXPECT_THAT(page(), HasSubstr("The first point, once more with pictures"));
+}
+
+// Numbers are noisy in their last digits: an axis does not make a mountain of 2e-8 mm.
+TEST_F(SweepReport, NoAxisIsMadeOfNoise) {
+  sweep.over = {"variables.speed=25..85 m/min:4"};
+  sweep.figures = {"dust=max(abs(web.speed*1e-12))"};
+  ASSERT_EQ(captured([&] { return sweep_scenario(sweep); }), all_passed) << err;
+  EXPECT_EQ(plots()[0]["panels"].back()["least"][1], 1e-4);
 }
 
 TEST_F(SweepReport, OfWordsSamplesAndThreeAxesItIsATable) {
@@ -141,7 +235,14 @@ TEST_F(SweepReport, AnEnvelopeShowsItsBoundAndWhatGivesWay) {
   EXPECT_TRUE(fs::exists(folder / "out/plots/envelope.png"));
   EXPECT_THAT(page(), HasSubstr("slow enough"));
   // What was looked at, and the command of the first bound.
-  EXPECT_THAT(page(), HasSubstr("looked at, fails"));
+  const auto bounds = plots()[0]["panels"][0];
+  EXPECT_EQ(bounds["curves"][1]["label"], "fails");
+  EXPECT_EQ(bounds["curves"][2]["label"], "holds");
+  EXPECT_EQ(bounds["least"][0], 20) << "the axis is not longer than the range that was asked";
+  EXPECT_LE(bounds["least"][1], 300);
+  EXPECT_THAT(page(),
+              testing::ContainsRegex("<strong>FOUND</strong> <span>Largest variables.speed: 39[.][0-9] to "
+                                     "119[.][0-9] m/min over 5 points"));
   EXPECT_THAT(page(), HasSubstr("variables.limit=40 m/min"));
   EXPECT_THAT(page(), testing::ContainsRegex("variables.speed=(39[.][5-9][0-9]*|40) m/min"));
   envelope.over.emplace_back("plants.web.thickness=1,2 mm");
@@ -175,7 +276,8 @@ TEST_F(SweepReport, AnEnvelopeSaysWhereItHoldsNowhereAndToTheEnd) {
   const auto text = page();
   for (const auto* region : {"holds nowhere", "slow enough", "nothing, to the end of the range"})
     EXPECT_THAT(text, HasSubstr(fmt::format("<td class=\"number\">1</td><td>{}</td>", region)));
-  EXPECT_THAT(text, HasSubstr("gives way: slow enough"));
+  EXPECT_THAT(text, HasSubstr("fails above it: slow enough"));
+  EXPECT_EQ(plots()[0]["panels"][0]["least"][1], 300) << "the end of the range";
   // It begins at 10 m/min: what lies below fails, and the table says so.
   EXPECT_THAT(text, HasSubstr("holds from "));
 }
@@ -187,12 +289,7 @@ TEST_F(SweepReport, EnvelopesOfSeveralScenesLieOverEachOther) {
   envelope.find_max = {"variables.speed=20..300 m/min:0.5"};
   ASSERT_EQ(captured([&] { return envelope_scenario(envelope); }), all_passed) << err;
   EXPECT_TRUE(fs::exists(folder / "out/plots/envelope.png"));
-  const auto text = page();
-  const auto from = text.find("id=\"plot-data\">");
-  ASSERT_NE(from, std::string::npos);
-  const auto begin = from + 15;
-  const auto data = nlohmann::json::parse(text.substr(begin, text.find("</script>", begin) - begin));
-  const auto& panels = data["plots"][0]["panels"];
+  const auto panels = plots()[0]["panels"];
   ASSERT_EQ(panels.size(), 3U);  // over each other, then each alone
   ASSERT_EQ(panels[0]["curves"].size(), 2U);
   EXPECT_EQ(panels[0]["curves"][0]["label"], "it's web");
@@ -205,6 +302,31 @@ TEST_F(SweepReport, EnvelopesOfSeveralScenesLieOverEachOther) {
   EXPECT_FALSE(fs::exists(folder / "out/plots/envelope.png"));
   EXPECT_TRUE(fs::exists(folder / "out/plots/envelope_1.png"));
   EXPECT_TRUE(fs::exists(folder / "out/plots/envelope_2.png"));
+}
+
+// What is refused is no dot of a verdict, neither among those that hold nor among those that fail.
+TEST_F(SweepReport, RefusedValuesOfAnEnvelopeAreNoDots) {
+  envelope.over = {"variables.limit=400,500 m/min"};
+  envelope.find_max = {"plants.web.speed=200..2000 m/min:50"};
+  ASSERT_EQ(captured([&] { return envelope_scenario(envelope); }), all_passed) << err;
+  std::size_t dots = 0;
+  for (const auto& curve : plots()[0]["panels"][0]["curves"]) {
+    for (const float y : y_of(curve)) EXPECT_LE(y, 1000) << curve["label"];
+    dots += y_of(curve).size();
+  }
+  EXPECT_GT(dots, 10U);
+}
+
+TEST_F(SweepReport, TheSmallestIsHeadedSo) {
+  envelope.over = {"variables.limit=80,120 m/min"};
+  envelope.find_min = {"variables.speed=5..75 m/min:0.5"};
+  ASSERT_EQ(captured([&] { return envelope_scenario(envelope); }), all_passed) << err;
+  const auto text = page();
+  for (const auto* words : {"<h1>Envelope of it&#39;s web: smallest variables.speed</h1>",
+                            "Smallest variables.speed over variables.limit", "fails below it: fast enough",
+                            "(± 0.5 m/min, rounded up); below it fails: fast enough"})
+    EXPECT_THAT(text, HasSubstr(words));
+  EXPECT_THAT(text, Not(HasSubstr("argest")));
 }
 
 }  // namespace
