@@ -271,19 +271,21 @@ py::dict tune(const studies::TuneRequest& request, const Settings& set, const st
     evaluations = sim::read_file(out / studies::evaluations_file, problems).value_or("");
     if (tuned->spread) spread = sim::read_file(out / studies::spread_file, problems);
   }
-  const auto& best = tuned->best();
+  const auto& found = tuned->found;
   py::dict values;
-  for (std::size_t i = 0; i < plan->vary.size(); ++i) values[py::str(plan->vary[i].path)] = best.point[i];
   Settings settings;
-  for (const auto& override : studies::overrides_of(plan->vary, best.point))
-    settings[override.path] = override.value;
+  if (const auto answer = found.answer()) {  // present values that only the program knows stay as they are
+    for (std::size_t i = 0; i < plan->vary.size(); ++i) values[py::str(plan->vary[i].path)] = (*answer)[i];
+    for (const auto& override : studies::overrides_of(plan->vary, *answer))
+      settings[override.path] = override.value;
+  }
   py::dict units;
   for (const auto& parameter : plan->vary) units[py::str(parameter.path)] = parameter.unit;
-  return py::dict(
-      "passed"_a = best.verdict.feasible(), "values"_a = values, "units"_a = units, "settings"_a = settings,
-      "metric"_a = best.verdict.metric, "metric_before"_a = tuned->found.before.metric,
-      "summary"_a = studies::summary_text(tuned->found), "patch"_a = studies::patch_text(tuned->found),
-      "evaluations"_a = evaluations, "spread"_a = spread, "simulated"_a = tuned->trials->simulated());
+  return py::dict("passed"_a = found.after().feasible(), "values"_a = values, "units"_a = units,
+                  "settings"_a = settings, "metric"_a = found.after().metric,
+                  "metric_before"_a = found.before.metric, "summary"_a = studies::summary_text(found),
+                  "patch"_a = studies::patch_text(found), "evaluations"_a = evaluations, "spread"_a = spread,
+                  "simulated"_a = tuned->trials->simulated());
 }
 
 }  // namespace

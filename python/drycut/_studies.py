@@ -50,7 +50,7 @@ class Tuning:
     """What drycut.tune() gives.
 
     passed         the best values keep all limits
-    values         the best, by path, in `units`
+    values         the best, by path, in `units`; empty where the present ones stay and the program sets them
     units          of `values`, "" = a pure number or the parameter's own
     settings       the best values with their units, for `set` of another call
     metric         with the best values; NaN = not measured
@@ -161,7 +161,7 @@ def envelope(file: Path, over: Axes, find_max: Mapping[str, str] | None = None, 
 
 def tune(files: Path | Sequence[Path], vary: Mapping[str, str], minimise: str, *, constraints: Sequence[str] = (),
          set: Settings | None = None, start: str = "0 s", ignore_checks: bool = False, wire: str = "",
-         at: str | None = None, amplitude: float = 0.1, budget: int = 100, seed: int = 1,
+         at: str | None = None, amplitude: float = 0.1, budget: int = 200, seed: int = 1,
          spread: Mapping[str, str] | None = None, spread_runs: int = 20, jobs: int = 1, out: Path | None = None,
          progress: Progress = None) -> Tuning:
     """Finds the values with the least metric that keep all limits.
@@ -174,10 +174,10 @@ def tune(files: Path | Sequence[Path], vary: Mapping[str, str], minimise: str, *
     start          metric and constraints look from this time on
     ignore_checks  the scenarios' failed checks do not count
     wire, at, amplitude   how margins are measured, as of bode()
-    budget         simulated runs of the search; the surroundings of the best come on top
+    budget         simulated runs of all parts together, as `drycut tune` splits them
     seed           of the search and the spread
     spread         the best values are tried on machines that differ, {"plants.knife.drum_inertia": "±30%"}
-    spread_runs    so many of them
+    spread_runs    so many of them; fewer where the budget has no room
     set, jobs, out, progress as of sweep(); progress counts runs of the budget
 
     The numbers are those of `drycut tune`. Raises BadInput with all problems.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
 
 #include "sim/cli/arguments.hpp"
@@ -30,24 +31,49 @@ void check_options(const BodeOptions& options, Problems& problems) {
                 {options.force, studies::bode_csv_header}, problems);
 }
 
+/// What a limit is held against.
+struct Known {
+  std::optional<studies::AtFrequency> margin;
+  std::string why_not;  ///< it is not known
+};
+
+Known known_phase(const studies::LoopResult& result) {
+  if (!studies::loop_doubts(result).empty()) return {{}, "what was measured is not to be trusted"};
+  return {result.margins.phase, "it lies outside these frequencies"};
+}
+
+/// With play the least of all amplitudes counts.
+Known known_gain(const studies::LoopResult& result, const studies::LimitCycle* cycle) {
+  if (cycle != nullptr && cycle->from()) {
+    const auto& sines = cycle->least;
+    const bool pushed = cycle->hunting && cycle->hunting->from;
+    const double frequency = pushed ? cycle->hunting->frequency : cycle->margins[*sines].gain->frequency;
+    return {studies::AtFrequency{frequency, 20 * std::log10(*cycle->from())}, ""};
+  }
+  if (!studies::loop_doubts(result).empty()) return {{}, "what was measured is not to be trusted"};
+  if (result.play.empty()) return {result.margins.gain, "it lies outside these frequencies"};
+  return {result.least_gain(), "with " + result.play + " it is the least over all amplitudes"};
+}
+
 /// The limits of the options and what there is.
-std::vector<loop::CheckResult> judged(const BodeOptions& options, const studies::Margins& margins) {
+std::vector<loop::CheckResult> judged(const BodeOptions& options, const studies::LoopResult& result,
+                                      const studies::LimitCycle* cycle) {
   std::vector<loop::CheckResult> checks;
-  const auto judge = [&](const char* name, const std::optional<double>& limit,
-                         const std::optional<studies::AtFrequency>& margin, const char* unit) {
+  const auto judge = [&](const char* name, const std::optional<double>& limit, const Known& known,
+                         const char* unit) {
     if (!limit) return;
     loop::CheckResult check{name, fmt::format("{} >= {:g} {}", name, *limit, unit), false, {}, unit, {}, ""};
-    if (margin) {
+    if (const auto& margin = known.margin) {
       check.passed = margin->value >= *limit;
       check.margin = margin->value - *limit;
       check.detail = fmt::format("{:.2f} {} at {:.4g} Hz", margin->value, unit, margin->frequency);
     } else {
-      check.detail = "not known: it lies outside these frequencies";
+      check.detail = "not known: " + known.why_not;
     }
     checks.push_back(std::move(check));
   };
-  judge("phase margin", options.min_phase_margin, margins.phase, "deg");
-  judge("gain margin", options.min_gain_margin, margins.gain, "dB");
+  judge("phase margin", options.min_phase_margin, known_phase(result), "deg");
+  judge("gain margin", options.min_gain_margin, known_gain(result, cycle), "dB");
   return checks;
 }
 
@@ -108,7 +134,7 @@ int measure_bode(const BodeOptions& options) {
     return bad_input;
   }
   const auto doubts = studies::loop_doubts(*result);
-  const auto checks = judged(options, result->margins);
+  const auto checks = judged(options, *result, cycle ? &*cycle : nullptr);
   std::vector<std::string> faults;
   auto text = studies::bode_report(*result);
   if (cycle) text += '\n' + studies::limit_cycle_text(*cycle);
@@ -119,8 +145,8 @@ int measure_bode(const BodeOptions& options) {
   // A response on standard output is for a program: it must find nothing else there.
   fmt::print(options.csv == "-" ? stderr : stdout, "{}", text);
   // Where play makes a limit cycle, small motions do not answer: that is what was looked for.
-  if (!cycle || !cycle->least) faults.insert(faults.begin(), doubts.begin(), doubts.end());
-  if (cycle && !cycle->least) faults.emplace_back("no gain margin was found at any amplitude");
+  if (!cycle || !cycle->from()) faults.insert(faults.begin(), doubts.begin(), doubts.end());
+  if (cycle && !cycle->from()) faults.emplace_back("no gain margin was found at any amplitude");
   write(options, scenario, *result, cycle ? &*cycle : nullptr, faults, checks, folder ? &*folder : nullptr);
   if (!options.out.empty())
     fmt::print(options.csv == "-" ? stderr : stdout, "report: {}\n", (options.out / "report.html").string());

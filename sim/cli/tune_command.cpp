@@ -33,15 +33,14 @@ int tune(const TuneOptions& options, const studies::TunePlan& plan, OutputFolder
   const auto now = trials->simulated() + (spread ? spread->simulated() : 0);
   fmt::print("\n{} sets of values tried, {} simulated now; {}\n", trials->trials().size(), now,
              (options.out / studies::evaluations_file).string());
-  fmt::print("simulated runs: search {}, surroundings {}{}\n", tuned.searched,
-             trials->runs() - tuned.searched, spread ? fmt::format(", spread {}", spread->runs()) : "");
+  fmt::print("simulated runs: {}\n", studies::runs_text(tuned.found));
   if (tuned.has_report) fmt::print("report: {}\n", (options.out / "report.html").string());
-  const auto& best = tuned.best().verdict;
+  const auto& after = tuned.found.after();
   auto lost = trials->lost();
   if (spread) lost.insert(lost.end(), spread->lost().begin(), spread->lost().end());
   for (const auto& text : lost) fmt::print(stderr, "{}\n", printable(text));
-  if (best.stopped || !lost.empty()) return simulation_failed;
-  return best.feasible() ? all_passed : check_failed;
+  if (after.stopped || !lost.empty()) return simulation_failed;
+  return after.feasible() && !tuned.found.unmeasurable ? all_passed : check_failed;
 }
 
 }  // namespace
@@ -93,9 +92,11 @@ void add_tune(CLI::App& app, int& status) {
   tune->add_option("--from", options.from, "Metric and constraints look from this time on")
       ->capture_default_str();
   tune->add_flag("--ignore-checks", options.ignore_checks, "The scenarios' failed checks do not count");
-  tune->add_option("--budget", options.budget,
-                   "Simulated runs of the search; the surroundings of the optimum come on top.\n"
-                   "A margin takes two more, of the values that keep all other limits")
+  tune->add_option(
+          "--budget", options.budget,
+          "Simulated runs of all parts together: present values, search, surroundings of the optimum, "
+          "spread, pictures.\nMargins take two more, pushes where there is play another two, of the values "
+          "that keep all other limits")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   tune->add_option("--jobs", options.jobs, "Runs at the same time; the result is the same")
@@ -105,7 +106,8 @@ void add_tune(CLI::App& app, int& status) {
   tune->add_option("--spread", options.spread,
                    "PATH=±30% or PATH=LO..HI: try the tuned values on machines that differ; may be repeated")
       ->allow_extra_args(false);
-  tune->add_option("--spread-runs", options.spread_runs, "How many such machines")
+  tune->add_option("--spread-runs", options.spread_runs,
+                   "How many such machines; fewer where the budget has no room")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   add_on(*tune, options.cluster);

@@ -465,7 +465,7 @@ class TuneTest(unittest.TestCase):
         told = []
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([PROGRAM, "tune", KNIFE, "--minimise", "rms(AxisX.follerr)", "--from", "3 s", "--budget",
-                            "8", "--spread-runs", "3", "--spread", "plants.knife.drum_inertia=±30%", "--set",
+                            "60", "--spread-runs", "3", "--spread", "plants.knife.drum_inertia=±30%", "--set",
                             "scene.duration=5 s", "--no-pictures", "--out", folder,
                             *(f"--vary={path}={span}" for path, span in vary.items())], check=False,
                            capture_output=True)
@@ -473,10 +473,10 @@ class TuneTest(unittest.TestCase):
             for name in ("evaluations.csv", "spread.csv", "patch.txt"):
                 with open(os.path.join(folder, name), encoding="utf-8") as file:
                     tables[name] = file.read()
-            tuning = drycut.tune(KNIFE, vary, "rms(AxisX.follerr)", start="3 s", budget=8, spread=spread, spread_runs=3,
+            tuning = drycut.tune(KNIFE, vary, "rms(AxisX.follerr)", start="3 s", budget=60, spread=spread, spread_runs=3,
                                  set=SHORT, jobs=2, progress=lambda done, of: told.append((done, of)))
             for simulated in (tuning.simulated, 0):
-                kept = drycut.tune([KNIFE], vary, "rms(AxisX.follerr)", start="3 s", budget=8, spread=spread,
+                kept = drycut.tune([KNIFE], vary, "rms(AxisX.follerr)", start="3 s", budget=60, spread=spread,
                                    spread_runs=3, set=SHORT, out=folder)
                 self.assertEqual(kept.simulated, simulated)
                 self.assertEqual((kept.patch, kept.summary), (tuning.patch, tuning.summary))
@@ -496,7 +496,7 @@ class TuneTest(unittest.TestCase):
         self.assertEqual(set(tuning.settings), set(vary))
         self.assertEqual({path: float(value) for path, value in tuning.settings.items()}, tuning.values)
         self.assertIn("Before and after", tuning.summary)
-        self.assertEqual(told[-1], (8, 8))
+        self.assertEqual(told[-1], (60, 60))
         # The settings are those of another call.
         run = drycut.run(KNIFE, set={**SHORT, **tuning.settings})
         later = run.trace["AxisX.follerr"][run.trace["time"] >= 3]

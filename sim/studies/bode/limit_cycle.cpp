@@ -38,6 +38,16 @@ void find_least(LimitCycle& cycle) {
 
 }  // namespace
 
+double LimitCycle::unknown_below() const {
+  if (!least || *least == 0 || margins[*least - 1].gain) return 0;
+  return margins[*least].amplitude();
+}
+
+std::optional<double> LimitCycle::from() const {
+  if (hunting && hunting->from) return hunting->from;
+  return least ? std::optional(factor_of(*margins[*least].gain)) : std::nullopt;
+}
+
 double factor_of(const AtFrequency& margin) { return std::pow(10, margin.value / 20); }
 
 std::optional<LimitCycle> find_limit_cycle(const scenario::Scenario& scenario, const LoopRequest& request,
@@ -47,6 +57,7 @@ std::optional<LimitCycle> find_limit_cycle(const scenario::Scenario& scenario, c
   const auto measure_at = [&](double amplitude) {
     auto at = request;
     at.amplitude = amplitude;
+    at.pushes = false;
     const auto before = static_cast<double>(cycle.margins.size());
     auto result = measure_loop(scenario, at, problems, [&](double done) {
       if (progress) progress((before + done) / all);
@@ -72,6 +83,8 @@ std::optional<LimitCycle> find_limit_cycle(const scenario::Scenario& scenario, c
               [](const auto& a, const auto& b) { return a.amplitude() < b.amplitude(); });
     find_least(cycle);
   }
+  const double period = cycle.least ? 1 / cycle.margins[*cycle.least].gain->frequency : 0;
+  cycle.hunting = push_loop(scenario, request, period, problems);
   return cycle;
 }
 

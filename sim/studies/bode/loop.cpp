@@ -110,6 +110,12 @@ std::optional<SweepPlan> plan_of(const LoopRequest& request, const scenario::Sce
   return plan;
 }
 
+/// Of the oscillation that more gain would make [s], 0 = not known.
+double period_of(const Margins& margins) {
+  if (margins.gain) return 1 / margins.gain->frequency;
+  return margins.phase ? 1 / margins.phase->frequency : 0;
+}
+
 void disarm(loop::Simulation& simulation) {
   for (const auto& [name, plant] : simulation.plants())
     for (const auto& drive : plant->drives()) drive.stage->disarm();
@@ -169,7 +175,35 @@ std::optional<LoopResult> measure_loop(const scenario::Scenario& scenario, const
   if (!result.speed.empty()) result.speed_unit = prepared.excited->names().reading(result.speed)->unit;
   result.sweep = measure(*prepared.excited, *prepared.still, result.plan, progress);
   result.margins = margins_of(result.sweep.points);
+  result.play = play_of(scenario, result.wire);
+  if (request.pushes && !result.play.empty() && result.sweep.failure.empty())
+    result.hunting = push_loop(scenario, request, period_of(result.margins), problems);
   return result;
+}
+
+std::optional<Hunting> push_loop(const scenario::Scenario& scenario, const LoopRequest& request,
+                                 double period, Problems& problems) {
+  const auto prepared = prepare(scenario, request, problems);
+  if (!prepared.still) return {};
+  const auto& plan = *prepared.plan;
+  return find_hunting(*prepared.excited, *prepared.still, plan.wire, plan.at, plan.sampling, period);
+}
+
+std::optional<std::string> wire_of(const scenario::Scenario& scenario, const LoopRequest& request) {
+  Problems problems;
+  const auto prepared = prepare(scenario, request, problems);
+  if (!prepared.plan) return {};
+  return prepared.excited->bus().analogue_wires()[prepared.plan->wire].plug;
+}
+
+std::optional<AtFrequency> LoopResult::least_gain() const {
+  if (play.empty()) return margins.gain;
+  if (!hunting || !hunting->failure.empty()) return {};
+  std::optional<AtFrequency> least = margins.gain;
+  if (!hunting->from) return least;
+  const double gain = 20 * std::log10(*hunting->from);
+  if (!least || gain < least->value) least = {hunting->frequency, gain};
+  return least;
 }
 
 std::optional<LoopResult> measure_both(scenario::Scenario& scenario, const LoopRequest& request,
@@ -189,8 +223,8 @@ std::vector<std::string> loop_doubts(const LoopResult& result) {
   if (result.sweep.loop == Sweep::Loop::open)
     doubts.push_back(
         fmt::format("{} does not answer to {} V at {} s: either the loop is open there (let the program do "
-                    "REGON before, or choose another --at), or the axis sits in play or stiction (take more "
-                    "--amplitude)",
+                    "REGON before, or choose another --at), or the axis sits in play or stiction (a larger "
+                    "--amplitude would answer, but it hides the play: see drycut bode --limit-cycle)",
                     result.terminal, result.plan.amplitude, loop::seconds_text(result.plan.at)));
   if (result.sweep.loop == Sweep::Loop::restless)
     doubts.push_back(
@@ -218,11 +252,15 @@ std::vector<std::string> loop_doubts(const LoopResult& result) {
   };
   tell(result.terminal + " stood at its limit of 10 V: take less --amplitude",
        [](const BodePoint& point) { return point.saturated; });
-  tell(result.terminal + " does not answer: the motion stays in play or stiction; take more --amplitude",
+  tell(result.terminal +
+           " does not answer: the motion stays in play or stiction; a larger --amplitude would answer, but "
+           "it hides "
+           "the play: see drycut bode --limit-cycle",
        [](const BodePoint& point) { return point.silent; });
   tell(fmt::format(
            "the answer is lost in what else moves (error above {:.0f} %): measure while the axis stands or "
-           "runs evenly (--at), or with another --amplitude",
+           "runs evenly (--at); a line that never stands: a scenario of its own that extends this one, with "
+           "timeline: []; else another --amplitude",
            bode_error_limit * 100),
        [](const BodePoint& point) { return !point.silent && !(point.doubt() <= bode_error_limit); });
   return doubts;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sim/scenario/scenario.hpp"
+#include "sim/studies/bode/hunting.hpp"
 #include "sim/studies/bode/sweep.hpp"
 
 namespace drycut::sim::studies {
@@ -18,6 +19,7 @@ struct LoopRequest {
   int points = 40;
   double amplitude = 0.1;  ///< [V]
   double settle = 0.5;     ///< [s]
+  bool pushes = true;      ///< where there is play or stiction: whether it hunts after a push
 };
 
 /// A measurement with what its text needs.
@@ -32,6 +34,12 @@ struct LoopResult {
   Sweep sweep;
   Margins margins;
   std::optional<Margins> without_computing;  ///< the same with compute_time 0, where the scenario has one
+  std::string play;                          ///< of the plant at the wire: "axis.gap 0.4 mm", "" = none
+  std::optional<Hunting> hunting;            ///< where there is play, if it was asked for
+
+  /// The least gain margin over all amplitudes, if it is known: with play an oscillation may keep itself up
+  /// at less gain than one sine shows.
+  [[nodiscard]] std::optional<AtFrequency> least_gain() const;
 };
 
 /// Doubt of a point (BodePoint::doubt) above which it is not to be trusted.
@@ -44,7 +52,14 @@ void check_loop(const scenario::Scenario& scenario, const LoopRequest& request, 
 /// The same with the controller's compute_time set to 0 besides, where the scenario has one.
 std::optional<LoopResult> measure_both(scenario::Scenario& scenario, const LoopRequest& request,
                                        Problems& problems, const std::function<void(double)>& progress = {});
-/// Runs `scenario` twice and measures; nullopt and problems if the request does not fit it.
+/// Pushes the loop of `scenario`: from which gain on it hunts. `period` is about that of an oscillation [s],
+/// 0 = not known. nullopt and problems if the request does not fit.
+std::optional<Hunting> push_loop(const scenario::Scenario& scenario, const LoopRequest& request,
+                                 double period, Problems& problems);
+/// The plug at which `request` measures, nullopt if it is not clear which.
+std::optional<std::string> wire_of(const scenario::Scenario& scenario, const LoopRequest& request);
+/// Runs `scenario` twice, and twice more where play asks for pushes, and measures; nullopt and problems if
+/// the request does not fit it.
 std::optional<LoopResult> measure_loop(const scenario::Scenario& scenario, const LoopRequest& request,
                                        Problems& problems, const std::function<void(double)>& progress = {});
 /// "12.34 Hz".

@@ -55,9 +55,26 @@ Table table_of(const LoopResult& result) {
   return table;
 }
 
+/// From which gain on a loop with play keeps an oscillation up.
+std::string pushes_text(const Hunting& hunting) {
+  if (!hunting.failure.empty()) return "not known: " + hunting.failure;
+  if (!hunting.from)
+    return fmt::format("not found: pushes of {} to {} V died out up to {:.3g} times the gain", least_push,
+                       largest_push, hunting.tried);
+  return fmt::format("from {:.3g} times the gain on ({}), {} with {:.2g} V at the drive", *hunting.from,
+                     hunting.hunts_now() ? "it hunts as it stands" : "below, pushes die out",
+                     hertz_text(hunting.frequency), hunting.amplitude);
+}
+
+std::string hunting_text(const LoopResult& result) {
+  return fmt::format("{}; with {} the margins above hold for this amplitude only",
+                     result.hunting ? pushes_text(*result.hunting) : "not known", result.play);
+}
+
 /// What the loop is judged by: name and value in words.
 std::vector<renders::ReportRow> margin_rows(const LoopResult& result) {
   const auto& margins = result.margins;
+  if (!loop_doubts(result).empty()) return {{{"margins", "not known, for the reason above"}}};
   const std::string absent = "not between these frequencies";
   const auto factor = [](const AtFrequency& margin) { return std::pow(10, margin.value / 20); };
   std::vector<renders::ReportRow> rows;
@@ -69,6 +86,7 @@ std::vector<renders::ReportRow> margin_rows(const LoopResult& result) {
                                                 margins.gain->value, hertz_text(margins.gain->frequency),
                                                 factor(*margins.gain))
                                   : absent);
+  if (!result.play.empty()) row("hunting", hunting_text(result));
   if (margins.gain_down)
     row("gain margin downwards",
         fmt::format("{:.2f} dB at {}: unstable below {:.3g} times the gain", margins.gain_down->value,
@@ -143,14 +161,23 @@ std::string subject(const LoopResult& result) {
                      plan.amplitude, loop::seconds_text(plan.at));
 }
 
-/// Where a limit cycle begins, in a sentence.
-std::string verdict_of(const LimitCycle& cycle) {
-  if (!cycle.least) return "Limit cycle: no gain margin was found at any amplitude.";
+/// What the sines say of it.
+std::string sines_text(const LimitCycle& cycle) {
+  if (!cycle.least) return "no gain margin was found at any amplitude.";
   const auto& least = cycle.margins[*cycle.least];
-  return fmt::format(
-      "Limit cycle from {:.3g} times the gain on: {} at about {:.2g} V; a smaller disturbance may die out.{}",
-      factor_of(*least.gain), hertz_text(least.gain->frequency), least.amplitude(),
-      cycle.at_end ? " This lies at an end of the amplitudes: beyond it may be less." : "");
+  auto text = fmt::format("at most {:.3g} times, {} at about {:.2g} V", factor_of(*least.gain),
+                          hertz_text(least.gain->frequency), least.amplitude());
+  if (const double below = cycle.unknown_below(); below > 0)
+    return text + fmt::format("; below {:.2g} V not measured, the bound may be lower.", below);
+  return text + (cycle.at_end ? "; this lies at an end of the amplitudes: beyond it may be less."
+                              : "; a smaller disturbance may die out.");
+}
+
+/// Where a limit cycle begins, in a sentence or two.
+std::string verdict_of(const LimitCycle& cycle) {
+  const auto sines = "By sines: " + sines_text(cycle);
+  return cycle.hunting ? fmt::format("Limit cycle {}. {}", pushes_text(*cycle.hunting), sines)
+                       : "Limit cycle. " + sines;
 }
 
 renders::ReportTable amplitude_table(const LimitCycle& cycle) {
@@ -166,7 +193,7 @@ renders::ReportTable amplitude_table(const LimitCycle& cycle) {
 renders::Plot amplitude_plot(const LimitCycle& cycle) {
   const auto& least = cycle.margins[*cycle.least];
   renders::Plot plot{"limit_cycle",
-                     fmt::format("Limit cycle from {:.3g} times the gain on", factor_of(*least.gain)),
+                     fmt::format("Limit cycle from {:.3g} times the gain on", *cycle.from()),
                      "amplitude of the sine [V]",
                      {}};
   plot.log_x = true;
@@ -180,7 +207,11 @@ renders::Plot amplitude_plot(const LimitCycle& cycle) {
     curve.y.push_back(margin.gain->value);
   }
   panel.curves.push_back(std::move(curve));
-  plot.marks.push_back({least.amplitude(), "least margin"});
+  plot.marks.push_back({least.amplitude(), "least of the sines"});
+  if (cycle.hunting && cycle.hunting->from) {
+    const double gain = 20 * std::log10(*cycle.hunting->from);
+    panel.bands.push_back({fmt::format("hunts from {:.1f} dB on", gain), gain, gain});
+  }
   plot.panels.push_back(std::move(panel));
   return plot;
 }
@@ -205,13 +236,14 @@ constexpr std::string_view reading =
 
 std::string bode_report(const LoopResult& result) {
   auto text = subject(result) + '\n';
+  // First what is not to be trusted: no number then stands without its reason.
+  for (const auto& doubt : loop_doubts(result)) text += doubt + '\n';
   if (!heard(result).empty()) {
     text += '\n' + table_text(result) + '\n';
     for (const auto& row : margin_rows(result)) text += fmt::format("{:<24}{}\n", row.cells[0], row.cells[1]);
     if (result.sweep.faded_from > 0) text += fmt::format("{}\n", faded_text(result));
     text += fmt::format("{}\n", reading);
   }
-  for (const auto& doubt : loop_doubts(result)) text += doubt + '\n';
   return text;
 }
 
@@ -234,7 +266,7 @@ void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
   // A page without a limit judges nothing: who reads PASS would think that it had.
   if (faults.empty() && checks.empty()) report.word = "MEASURED";
   report.verdict = !faults.empty()  ? fmt::format("{}", fmt::join(faults, "; "))
-                   : checks.empty() ? "no limits were given; nothing speaks against what was measured"
+                   : checks.empty() ? "no limit given, so no verdict"
                                     : limits_text(checks);
   report::add_checks(checks, report);
   report.facts = {
@@ -298,7 +330,7 @@ renders::Plot bode_plot(const LoopResult& result, const std::string& name) {
   draw("position loop", table.closed, 0);
   if (!result.speed.empty()) draw("speed loop", table.speed, table.speed.gain.front());
   plot.panels = {gain, phase};
-  const auto& margins = result.margins;
+  const auto margins = loop_doubts(result).empty() ? result.margins : Margins{};
   if (margins.phase)
     plot.marks.push_back({margins.phase->frequency, fmt::format("margin {:.1f}°", margins.phase->value)});
   if (margins.gain)

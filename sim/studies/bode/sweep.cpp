@@ -5,49 +5,11 @@
 #include <numeric>
 #include <span>
 
+#include "sim/studies/bode/twins.hpp"
+
 namespace drycut::sim::studies {
 
 namespace {
-
-/// The two runs of a scenario in step, and what they differ by at the wire.
-class Twins {
- public:
-  Twins(loop::Simulation& excited, loop::Simulation& still, const SweepPlan& plan)
-      : excited_(excited),
-        still_(still),
-        wire_(excited.bus().analogue_wires().at(plan.wire)),
-        still_wire_(still.bus().analogue_wires().at(plan.wire)) {
-    if (plan.speed.empty()) return;
-    speed_ = excited.names().reading(plan.speed)->read;
-    still_speed_ = still.names().reading(plan.speed)->read;
-  }
-
-  /// One step with `volts` added to the wire of the excited one.
-  bool advance(double volts) {
-    wire_.added = volts;
-    const bool whole = excited_.advance();
-    return still_.advance() && whole;
-  }
-  [[nodiscard]] Time time() const { return excited_.time(); }
-  [[nodiscard]] double output() const { return wire_.output() - still_wire_.output(); }  ///< [V]
-  [[nodiscard]] double total() const { return wire_.total() - still_wire_.total(); }     ///< [V]
-  [[nodiscard]] double plug() const { return wire_.to->volts - still_wire_.to->volts; }  ///< [V]
-  [[nodiscard]] bool has_speed() const { return static_cast<bool>(speed_); }
-  [[nodiscard]] double speed() const { return speed_() - still_speed_(); }
-  [[nodiscard]] double own() const { return still_wire_.output(); }  ///< undisturbed output [V]
-  [[nodiscard]] bool saturated() const { return std::abs(wire_.from->word) >= devices::dac_full_scale; }
-  [[nodiscard]] std::string failure() const {
-    return excited_.failure().empty() ? still_.failure() : excited_.failure();
-  }
-
- private:
-  loop::Simulation& excited_;
-  loop::Simulation& still_;
-  loop::Bus::AnalogueWire& wire_;
-  loop::Bus::AnalogueWire& still_wire_;
-  std::function<double()> speed_;
-  std::function<double()> still_speed_;
-};
 
 constexpr double nothing = 1e-9;      // far below a step of the DAC [V]
 constexpr double output_limit = 9.9;  // from here on an output stands at its end [V]
@@ -209,15 +171,10 @@ std::vector<Tone> plan_tones(double from, double to, int points, Time sampling, 
 Sweep measure(loop::Simulation& excited, loop::Simulation& still, const SweepPlan& plan,
               const std::function<void(double)>& progress) {
   Sweep sweep;
-  Twins twins(excited, still, plan);
-  // Everything begins at a sampling instant, so that the sine changes when the controller's output does.
-  const auto wait_for_sampling = [&](Time from) {
-    while (twins.failure().empty() && (twins.time() < from || twins.time() % plan.sampling != 0))
-      (void)twins.advance(0);
-  };
-  wait_for_sampling(plan.at);
+  Twins twins(excited, still, plan.wire, plan.speed);
+  twins.wait_for_sampling(plan.at, plan.sampling);
   if (twins.failure().empty()) sweep.loop = push(twins, plan, sweep.waited);
-  wait_for_sampling(0);
+  twins.wait_for_sampling(0, plan.sampling);
   sweep.failure = twins.failure();
   if (!sweep.failure.empty() || sweep.loop != Sweep::Loop::closed) return sweep;
   for (const auto& tone : plan.tones) {

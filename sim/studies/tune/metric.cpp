@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/text.hpp"
 #include "sim/report/statistics.hpp"
 #include "sim/scenario/expression_scan.hpp"
 
@@ -41,6 +42,7 @@ class Metric::Compiler {
   std::optional<Metric> run() {
     const auto before = faults_.size();
     metric_.kind_ = kind_;
+    metric_.text_ = text_;
     metric_.formula_ = scenario::Expression::compile(
         text_, [this](const std::string& name) { return outside(name); }, {}, faults_,
         kind_ == Kind::number ? scenario::Expression::Kind::number : scenario::Expression::Kind::limit,
@@ -201,6 +203,21 @@ void Metric::take(Time now) {
     for (auto* slot : terms_[i]) slot->number = *slot->followed;
     formula_->take(i, seconds(now));
   }
+}
+
+std::string Metric::unit() const {
+  auto head = trimmed(text_);
+  if (head.starts_with('-')) head = trimmed(head.substr(1));
+  const auto is_all = [&](std::string_view term) {
+    if (!head.starts_with(term)) return false;
+    const auto rest = trimmed(head.substr(term.size()));
+    return rest.empty() || ((rest[0] == '<' || rest[0] == '>') && rest.find("&&") == std::string_view::npos);
+  };
+  for (const auto& statistic : formula_->statistics())
+    if (is_all(statistic.text)) return statistic.unit;
+  for (const auto& figure : figure_names)
+    if (is_all(figure.name)) return figure.unit;
+  return "";
 }
 
 bool Metric::needs_loop() const { return !figures_.empty(); }

@@ -64,6 +64,9 @@ class Metric {
   [[nodiscard]] bool needs_loop() const;
   /// Every name, once.
   [[nodiscard]] std::vector<MetricName> names() const;
+  /// Of a number: its unit. Of a limit: that of the room left. "" where none can be said, as in a formula of
+  /// several terms.
+  [[nodiscard]] std::string unit() const;
 
  private:
   struct Slot {
@@ -80,6 +83,7 @@ class Metric {
   void take(std::size_t term, const loop::Recording& recording, Time from);
   [[nodiscard]] bool follows(std::size_t term) const { return terms_[term][0]->followed != nullptr; }
 
+  std::string text_;
   std::deque<Slot> slots_;
   std::vector<std::vector<Slot*>> terms_;  ///< what each statistic of the formula looks at
   std::deque<Figure> figures_;

@@ -165,6 +165,24 @@ std::string value_text(const TunedParameter& parameter, double value) {
   return parameter.unit.empty() ? fmt::format("{}", value) : fmt::format("{} {}", value, parameter.unit);
 }
 
+const std::string& shown_unit(const TunedParameter& parameter) {
+  return parameter.unit.empty() ? parameter.own_unit : parameter.unit;
+}
+
+std::string shown_value(const TunedParameter& parameter, double value) {
+  const auto& unit = parameter.unit;
+  return fmt::format("{:.6g}{}{}", value, unit.empty() ? "" : " ", unit);
+}
+
+std::string shown_range(const TunedParameter& parameter) {
+  return fmt::format("{:.6g}..{}", parameter.low, shown_value(parameter, parameter.high));
+}
+
+std::string shown_heading(const TunedParameter& parameter) {
+  const auto& unit = shown_unit(parameter);
+  return unit.empty() ? short_name(parameter) : fmt::format("{} [{}]", short_name(parameter), unit);
+}
+
 std::vector<scenario::Override> overrides_of(const TunedParameters& parameters, const Point& point) {
   std::vector<scenario::Override> overrides;
   for (std::size_t i = 0; i < parameters.size(); ++i)
@@ -211,6 +229,7 @@ void check_against_controller(TunedParameter& parameter, const scenario::Scenari
   const auto preset = preset_name(parameter.path);
   if (!preset) return;
   const auto [controller, value] = value_at_start(scenario, preset->value);
+  if (value) parameter.own_unit = value->unit;
   if (!value || !value->write || !value->range) return;
   parameter.integer = parameter.integer || value->range->whole;
   for (const bool upper : {false, true}) {

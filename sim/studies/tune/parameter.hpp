@@ -20,7 +20,8 @@ struct TunedParameter {
   int low_column = 1;       ///< of the argument
   int high_column = 1;
   std::optional<double> relative =
-      {};  ///< --spread PATH=±30%: the fraction; low and high follow from the scenario
+      {};                     ///< --spread PATH=±30%: the fraction; low and high follow from the scenario
+  std::string own_unit = {};  ///< of a controller's value that is written without it, for tables: "0.01/s"
 };
 using TunedParameters = std::vector<TunedParameter>;
 /// A value for each parameter, in its unit.
@@ -33,6 +34,13 @@ std::optional<TunedParameter> parse_parameter(const std::string& text, const std
 
 /// "87", "250 rad/s": as `--set` and the scenario take it.
 std::string value_text(const TunedParameter& parameter, double value);
+/// The unit in which tables show it, "" = none.
+const std::string& shown_unit(const TunedParameter& parameter);
+/// "87.3 rad/s", to six digits, and "20..250 1/s", for people.
+std::string shown_value(const TunedParameter& parameter, double value);
+std::string shown_range(const TunedParameter& parameter);
+/// "knife.servo.speed_gain [rad/s]": a column's heading.
+std::string shown_heading(const TunedParameter& parameter);
 /// `point` as overrides of the scenario.
 std::vector<scenario::Override> overrides_of(const TunedParameters& parameters, const Point& point);
 /// A value of the controller that a path names: below the `set` of its section.

@@ -48,8 +48,8 @@ std::vector<Entry> entries_of(const Tuning& tuning) {
   const auto& parameters = tuning.trials.parameters();
   const auto& point = tuning.trials.at(tuning.best).point;
   std::vector<Entry> entries;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const auto& before = tuning.present[i];
+  for (std::size_t i = 0; i < parameters.size() && !tuning.stays; ++i) {
+    const auto& before = tuning.present[i].value;
     entries.push_back({parameters[i].path, value_text(parameters[i], point[i]),
                        before ? fmt::format("drycut tune; before: {}", value_text(parameters[i], *before))
                               : std::string("drycut tune")});
@@ -88,10 +88,11 @@ std::string qcl_line(std::string name, double value) {
 
 std::string patch_text(const Tuning& tuning) {
   auto entries = entries_of(tuning);
+  const bool has_any = !entries.empty();
   std::string arguments = "#  ";
   for (const auto& entry : entries) arguments += fmt::format(" --set \"{}={}\"", entry.path, entry.value);
   std::string qcl;
-  for (std::size_t i = 0; i < tuning.trials.parameters().size(); ++i) {
+  for (std::size_t i = 0; i < tuning.trials.parameters().size() && !tuning.stays; ++i) {
     const auto preset = preset_name(tuning.trials.parameters()[i].path);
     if (preset && preset->section == "qmove")
       qcl += qcl_line(preset->value, tuning.trials.at(tuning.best).point[i]);
@@ -107,6 +108,7 @@ std::string patch_text(const Tuning& tuning) {
     text += "# Into the scenario, beside what stands there\n" + yaml_of(std::move(entries));
   if (!others.empty()) text += "# In lists of the scenario, at these paths\n" + others;
   if (!qcl.empty()) text += "# Or in QCL, in the set-up of the axis\n" + qcl;
+  if (!has_any) return text + "# There is nothing to change\n";
   return text + "# Or for drycut run\n" + arguments + "\n";
 }
 

@@ -88,7 +88,7 @@ void try_bounds(const TunedParameter& parameter, const Study& study, const Study
   }
 }
 
-void check_parameter(TunedParameter& parameter, const Study& study, std::optional<double>& present,
+void check_parameter(TunedParameter& parameter, const Study& study, PresentValue& present,
                      Problems& problems) {
   const auto told = problems.size();
   for (const auto& entry : study.cases) {
@@ -97,7 +97,7 @@ void check_parameter(TunedParameter& parameter, const Study& study, std::optiona
     const auto scenario = scenario::read_scenario_text(entry.text, entry.file, study.set, ignored);
     if (!ignored.empty()) return;
     const bool bare = parameter.unit.empty() && !parameter.relative;
-    const auto value = present_value(parameter, scenario);
+    auto value = present_of(parameter, study, entry, scenario);
     if (bare && scenario::needs_unit(parameter.unit)) {
       problems.push_back({parameter.option, 1, parameter.low_column,
                           fmt::format("{} is {}, and no unit is given", parameter.path,
@@ -105,8 +105,8 @@ void check_parameter(TunedParameter& parameter, const Study& study, std::optiona
                           fmt::format("such as {}..{} {}", parameter.low, parameter.high, parameter.unit)});
       return;
     }
-    if (&entry == &study.cases.front()) present = value;
-    if (!place_relative(parameter, value, problems)) return;
+    if (!place_relative(parameter, value.value, problems)) return;
+    if (&entry == &study.cases.front()) present = std::move(value);
     try_bounds(parameter, study, entry, problems);
     if (problems.size() == before) check_against_controller(parameter, scenario, problems);
   }
@@ -116,16 +116,25 @@ void check_parameter(TunedParameter& parameter, const Study& study, std::optiona
                         "end the range at whole numbers"});
 }
 
-/// The scenario's own values as a place to start, where it says them all and they lie in the ranges.
+/// The present values, where all are known.
 std::optional<Point> start_of(const TunePlan& plan) {
   Point point;
-  for (std::size_t i = 0; i < plan.vary.size(); ++i) {
-    const auto& value = plan.present[i];
-    const auto& p = plan.vary[i];
-    if (!value || *value < p.low || *value > p.high || (p.integer && *value != std::rint(*value))) return {};
-    point.push_back(*value);
+  for (const auto& present : plan.present) {
+    if (!present.value) return {};
+    point.push_back(*present.value);
   }
   return point;
+}
+
+void check_budget(const TuneRequest& request, const TunePlan& plan, Problems& problems) {
+  const auto split = split_of(request, plan);
+  if (split.sum() <= request.budget) return;
+  problems.push_back(
+      {"--budget", 1, 1, fmt::format("{} simulated runs are too few", request.budget),
+       fmt::format("at least {}: present values {}, one set of values {}{}, pictures {}", split.sum(),
+                   split.present, split.search,
+                   split.spread > 0 ? fmt::format(", one machine of the spread {}", split.spread) : "",
+                   split.pictures)});
 }
 
 }  // namespace
@@ -141,7 +150,7 @@ TunePlan plan_tuning(const TuneRequest& request, std::vector<scenario::Override>
   plan.study.loop = request.loop;
   check_request(plan.study.loop, problems);
   prepare(plan.study, problems);
-  if (problems.empty() && !plan.study.needs_loop && !request.loop.wire.empty())
+  if (problems.empty() && !plan.study.needs_loop && !plan.study.loop.pushes && !request.loop.wire.empty())
     problems.push_back({"--wire", 1, 1, "no constraint is on the loop",
                         "add --constraint \"phase_margin >= 45\", or leave it out"});
   read_parameters(request.vary, "--vary", false, plan.vary, problems);
@@ -154,45 +163,84 @@ TunePlan plan_tuning(const TuneRequest& request, std::vector<scenario::Override>
   for (auto& parameter : plan.vary)
     check_parameter(parameter, plan.study, plan.present.emplace_back(), problems);
   for (auto& parameter : plan.spread) {
-    std::optional<double> ignored;
+    PresentValue ignored;
     check_parameter(parameter, plan.study, ignored, problems);
   }
+  if (problems.empty()) check_budget(request, plan, problems);
   return plan;
+}
+
+RunSplit split_of(const TuneRequest& request, const TunePlan& plan) {
+  const int set = plan.study.runs_of_a_trial();
+  RunSplit split;
+  split.present = set;
+  split.pictures = 2 * static_cast<int>(plan.study.cases.size());
+  const int left = std::max(0, request.budget - split.present - split.pictures);
+  if (!plan.spread.empty()) split.spread = std::clamp(left * 3 / 10 / set, 1, request.spread_runs) * set;
+  const int pair =
+      2 * static_cast<int>(plan.vary.size()) * set;  // each value a little less and a little more
+  split.around = std::min(left / 5 / pair, 3) * pair;
+  split.search = std::max(set, left - split.spread - split.around);
+  return split;
 }
 
 Tuned tune(const TunePlan& plan, const TuneRequest& request, const cluster::Workers& workers,
            OutputFolder& folder, const TuneProgress& progress) {
   folder.begin_aside({evaluations_file, spread_file});
   const auto& study = plan.study;
+  const auto split = split_of(request, plan);
   auto trials = std::make_unique<Trials>(
       study, plan.vary, std::vector<scenario::Override>{}, folder.add(evaluations_file), workers,
       [&](int runs) { progress("tuning", std::min(1.0, static_cast<double>(runs) / request.budget)); });
-  Tuning tuning{study, *trials, plan.present, measure(study, {}), 0, {}, nullptr, {}, {}};
-  tuning.best = search(*trials, start_of(plan), request.budget, request.seed);
-  const int searched = trials->runs();
-  tuning.slices = look_around(*trials, tuning.best);
+  Tuning tuning{study, *trials, plan.present, {}, 0,  start_of(plan), false,
+                false, {},      nullptr,      {}, {}, request.budget};
 
-  const auto best = overrides_of(plan.vary, trials->at(tuning.best).point);
+  tuning.spread_asked = request.spread_runs;
+
+  // The present values first: nothing worse is to take their place.
+  tuning.before =
+      tuning.start ? trials->at(trials->run("present", {*tuning.start})[0]).verdict : measure(study, {});
+  const int in_present = tuning.before.runs;
+  const int aside = tuning.start ? 0 : in_present;  // runs that `trials` do not count
+  search(*trials, trials->runs() + split.search, request.seed);
+  const int in_search = trials->runs() + aside - in_present;
+  tuning.unmeasurable = is_unmeasurable(*trials);
+  tuning.best = trials->best();
+  const auto stays = [&] { return tuning.before.rank() <= trials->at(tuning.best).verdict.rank(); };
+  const bool has_centre = tuning.start || !stays();
+  if (has_centre && !tuning.unmeasurable)
+    tuning.slices = look_around(*trials, tuning.best, request.budget - aside - split.spread - split.pictures);
+  tuning.stays = stays();
+  tuning.used = {{"present values", in_present},
+                 {"search", in_search},
+                 {"surroundings", trials->runs() + aside - in_present - in_search}};
+
+  const auto answer = tuning.answer();
+  const auto overrides = answer ? overrides_of(plan.vary, *answer) : std::vector<scenario::Override>{};
   std::unique_ptr<Trials> spread;
-  if (!plan.spread.empty()) {
-    const double all = request.spread_runs * study.runs_of_a_trial();
-    spread = std::make_unique<Trials>(study, plan.spread, best, folder.add(spread_file), workers,
-                                      [&](int runs) { progress("spreading", std::min(1.0, runs / all)); });
-    spread->run("spread", latin_hypercube(plan.spread, request.spread_runs,
-                                          plants::Random(request.seed, "drycut tune spread")));
+  if (!plan.spread.empty() && !tuning.unmeasurable) {
+    const int left = request.budget - aside - trials->runs() - split.pictures;
+    const int machines = std::min(request.spread_runs, left / study.runs_of_a_trial());
+    spread = std::make_unique<Trials>(
+        study, plan.spread, overrides, folder.add(spread_file), workers,
+        [&](int runs) { progress("spreading", std::min(1.0, static_cast<double>(runs) / left)); });
+    spread->run("spread",
+                latin_hypercube(plan.spread, machines, plants::Random(request.seed, "drycut tune spread")));
     tuning.spread = spread.get();
+    tuning.used.emplace_back("spread", spread->runs());
   }
+  const bool has_report = request.pictures && !tuning.after().stopped && !tuning.unmeasurable;
+  if (has_report) tuning.used.emplace_back("pictures", split.pictures);
   write_file(folder.add(patch_file), patch_text(tuning));
-  const bool has_report = request.pictures && !trials->at(tuning.best).verdict.stopped;
   if (has_report) {
     for (const auto& entry : study.cases) {
       tuning.runs_before.push_back(keep_run(study, entry, {}));
-      tuning.runs_after.push_back(keep_run(study, entry, best));
+      tuning.runs_after.push_back(keep_run(study, entry, overrides));
     }
     write_tuning_report(tuning, folder);
   }
   folder.finish();
-  return {std::move(trials), std::move(spread), searched, has_report, std::move(tuning)};
+  return {std::move(trials), std::move(spread), has_report, std::move(tuning)};
 }
 
 }  // namespace drycut::sim::studies

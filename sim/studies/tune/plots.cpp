@@ -62,9 +62,20 @@ renders::Plot before_after(const Tuning& tuning, std::size_t index) {
   return plot;
 }
 
+/// Green and vermilion by their place among the panel's curves: what keeps all limits, what does not. The
+/// first curve, blue, is `line`.
+void add_kept_and_beyond(renders::Panel& panel, renders::Curve line, renders::Curve kept,
+                         renders::Curve beyond) {
+  if (line.x.empty()) line.label.clear();  // nothing in the legend
+  if (!kept.x.empty()) kept.label = "kept all limits";
+  if (!beyond.x.empty()) beyond.label = "beyond a limit";
+  kept.style = beyond.style = renders::Curve::Style::points;
+  panel.curves = {std::move(line), std::move(beyond), std::move(kept)};
+}
+
 renders::Plot way(const Tuning& tuning) {
-  renders::Curve all{"kept all limits", {}, {}, renders::Curve::Style::points};
-  renders::Curve refused{"beyond a limit", {}, {}, renders::Curve::Style::points};
+  renders::Curve all;
+  renders::Curve refused;
   renders::Curve least{"best so far", {}, {}, renders::Curve::Style::steps};
   double best = std::numeric_limits<double>::infinity();
   double number = 0;
@@ -81,9 +92,8 @@ renders::Plot way(const Tuning& tuning) {
   }
   renders::Panel panel;
   panel.title = tuning.study.minimise;
-  panel.y_label = tuning.study.minimise;
-  for (const auto* curve : {&least, &all, &refused})
-    if (!curve->x.empty()) panel.curves.push_back(*curve);
+  panel.y_label = with_unit(tuning.study.minimise, tuning.study.metric_unit);
+  add_kept_and_beyond(panel, least, all, refused);
   // The first samples, far off, would press the rest flat.
   auto sorted = all.y;
   std::sort(sorted.begin(), sorted.end());
@@ -94,7 +104,7 @@ renders::Plot way(const Tuning& tuning) {
     if (room > 0) panel.y_range = {low - room, most + room};
   }
   renders::Plot plot{"search", "The way to the optimum", "trial", {}};
-  if (!panel.curves.empty()) plot.panels.push_back(std::move(panel));
+  if (!all.x.empty() || !refused.x.empty()) plot.panels.push_back(std::move(panel));
   return plot;
 }
 
@@ -104,7 +114,8 @@ renders::Plot surroundings(const Tuning& tuning) {
                      "change of the parameter [% of its range]",
                      {}};
   renders::Panel panel;
-  panel.title = panel.y_label = tuning.study.minimise;
+  panel.title = tuning.study.minimise;
+  panel.y_label = with_unit(tuning.study.minimise, tuning.study.metric_unit);
   const auto& optimum = tuning.trials.at(tuning.best);
   renders::Curve refused{"beyond a limit", {}, {}, renders::Curve::Style::points};
   for (std::size_t i = 0; i < tuning.trials.parameters().size(); ++i) {
@@ -128,7 +139,8 @@ renders::Plot surroundings(const Tuning& tuning) {
     }
     if (places.size() > 1) panel.curves.push_back(std::move(curve));
   }
-  if (!refused.x.empty()) panel.curves.push_back(std::move(refused));
+  if (!refused.x.empty() && !panel.curves.empty())  // the second is vermilion
+    panel.curves.insert(panel.curves.begin() + 1, std::move(refused));
   if (!optimum.verdict.stopped && !panel.curves.empty()) plot.panels.push_back(std::move(panel));
   return plot;
 }
@@ -141,18 +153,21 @@ renders::Plot spread(const Tuning& tuning) {
   for (const auto& trial : tuning.spread->trials())
     if (!trial.verdict.stopped) (trial.verdict.feasible() ? kept : refused).push_back(trial.verdict.metric);
   renders::Panel panel;
-  panel.title = panel.y_label = tuning.study.minimise;
+  panel.title = tuning.study.minimise;
+  panel.y_label = with_unit(tuning.study.minimise, tuning.study.metric_unit);
   double number = 0;
-  for (auto* numbers : {&kept, &refused}) {
-    std::sort(numbers->begin(), numbers->end());
-    renders::Curve curve{
-        numbers == &kept ? "kept all limits" : "beyond a limit", {}, *numbers, renders::Curve::Style::points};
-    for (std::size_t i = 0; i < numbers->size(); ++i) curve.x.push_back(++number);
-    if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
-  }
-  const auto& tuned = tuning.trials.at(tuning.best).verdict;
+  const auto sorted = [&](std::vector<double>& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    renders::Curve curve{"", {}, numbers};
+    for (std::size_t i = 0; i < numbers.size(); ++i) curve.x.push_back(++number);
+    return curve;
+  };
+  auto first = sorted(kept);
+  auto last = sorted(refused);
+  add_kept_and_beyond(panel, {}, std::move(first), std::move(last));
+  const auto& tuned = tuning.after();
   if (!tuned.stopped) panel.bands.push_back({"tuned, nominal", tuned.metric, tuned.metric});
-  if (!panel.curves.empty()) plot.panels.push_back(std::move(panel));
+  if (number > 0) plot.panels.push_back(std::move(panel));
   return plot;
 }
 

@@ -18,40 +18,57 @@ namespace {
 
 using renders::ReportTable;
 
+std::string with_space(const std::string& unit) { return unit.empty() ? "" : " " + unit; }
+
 std::string metric_text(const Verdict& verdict) {
   return std::isfinite(verdict.metric) ? fmt::format("{:.6g}", verdict.metric) : "none";
 }
 
-std::string room_text(double room) {
-  if (!std::isfinite(room)) return "not measured";
-  return room >= 0 ? fmt::format("{:.4g} left", room) : fmt::format("{:.4g} too far", -room);
+/// "rms(AxisX.follerr) [Count]".
+std::string metric_heading(const Tuning& tuning) {
+  const auto& unit = tuning.study.metric_unit;
+  return unit.empty() ? tuning.study.minimise : fmt::format("{} [{}]", tuning.study.minimise, unit);
 }
 
-/// For a cell: short. reason_text() has the sentence.
+/// "rms(AxisX.follerr) = 4.6 Count".
+std::string metric_equals(const Tuning& tuning, const std::string& value) {
+  return fmt::format("{} = {}{}", tuning.study.minimise, value, with_space(tuning.study.metric_unit));
+}
+
+std::string room_text(const Tuning& tuning, std::size_t constraint, double room) {
+  if (!std::isfinite(room)) return "not measured";
+  return fmt::format("{:.4g}{} {}", std::abs(room), with_space(tuning.study.room_units[constraint]),
+                     room >= 0 ? "left" : "too far");
+}
+
+/// Why the limits are not kept, "" where they are.
+std::string reason_text(const Verdict& verdict) {
+  if (verdict.feasible()) return "";
+  if (verdict.stopped) return "stopped: " + verdict.note;
+  if (verdict.unmeasured()) return "not measured: " + verdict.note;
+  return verdict.note.empty() ? "limits are not kept" : verdict.note;
+}
+
+/// The same in a word, for a cell whose reason stands elsewhere.
 std::string limits_text(const Verdict& verdict) {
   if (verdict.feasible()) return "kept";
   if (verdict.stopped) return "stopped";
-  if (verdict.unmeasured()) return "not measured";
-  return verdict.note.empty() ? "not kept" : verdict.note;
+  return verdict.unmeasured() ? "not measured" : "not kept";
 }
 
-/// Why there is no number, "" if there is one.
-std::string reason_text(const Verdict& verdict) {
-  return verdict.stopped || verdict.unmeasured() ? limits_text(verdict) + ": " + verdict.note : "";
-}
-
-std::string miss_of(const Verdict& verdict) {
-  const auto reason = reason_text(verdict);
-  return reason.empty() ? limits_text(verdict) : reason;
+/// For a cell of a table of trials: short where the reason is a sentence.
+std::string trial_text(const Verdict& verdict) {
+  return verdict.feasible() || verdict.stopped || verdict.unmeasured() ? limits_text(verdict)
+                                                                       : reason_text(verdict);
 }
 
 ReportTable before_after(const Tuning& tuning) {
-  const auto& after = tuning.trials.at(tuning.best).verdict;
+  const auto& after = tuning.after();
   ReportTable table{"Before and after", {"", "before", "after"}, {}};
-  table.rows.push_back({{tuning.study.minimise, metric_text(tuning.before), metric_text(after)}});
+  table.rows.push_back({{metric_heading(tuning), metric_text(tuning.before), metric_text(after)}});
   for (std::size_t i = 0; i < tuning.study.constraints.size(); ++i)
-    table.rows.push_back(
-        {{tuning.study.constraints[i], room_text(tuning.before.room[i]), room_text(after.room[i])}});
+    table.rows.push_back({{tuning.study.constraints[i], room_text(tuning, i, tuning.before.room[i]),
+                           room_text(tuning, i, after.room[i])}});
   if (!tuning.study.ignore_checks)
     table.rows.push_back({{"failed checks", fmt::format("{}", tuning.before.failed_checks),
                            fmt::format("{}", after.failed_checks)}});
@@ -59,14 +76,11 @@ ReportTable before_after(const Tuning& tuning) {
   return table;
 }
 
-/// The sentences for what the cells of before_after() call stopped or not measured, each once.
-std::string reasons(const Tuning& tuning) {
-  const auto before = reason_text(tuning.before);
-  const auto after = reason_text(tuning.trials.at(tuning.best).verdict);
-  std::string text;
-  if (!before.empty()) text += fmt::format("  {}{}\n", before == after ? "" : "before, ", before);
-  if (!after.empty() && after != before) text += fmt::format("  after, {}\n", after);
-  return text;
+/// What the first sentence has not said: why the values before did not keep the limits.
+std::string reason_before(const Tuning& tuning) {
+  if (tuning.stays || tuning.unmeasurable) return "";
+  const auto reason = reason_text(tuning.before);
+  return reason.empty() ? "" : fmt::format("  before: {}\n", reason);
 }
 
 /// The same for the report's tables of trials, with how many of them it befell.
@@ -84,23 +98,66 @@ ReportTable reasons_table(const Tuning& tuning) {
 }
 
 ReportTable values(const Tuning& tuning) {
-  ReportTable table{"Values", {"parameter", "range", "before", "after"}, {}};
+  ReportTable table{"Values", {"parameter", "range", "before", "set by", "after"}, {}};
   const auto& parameters = tuning.trials.parameters();
+  const auto answer = tuning.answer();
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto& p = parameters[i];
-    const auto shown = [&](double value) {
-      return fmt::format("{:.6g}{}{}", value, p.unit.empty() ? "" : " ", p.unit);
-    };
-    table.rows.push_back({{p.path, fmt::format("{}..{}", p.low, value_text(p, p.high)),
-                           tuning.present[i] ? shown(*tuning.present[i]) : "as the program sets it",
-                           shown(tuning.trials.at(tuning.best).point[i])}});
+    const auto& present = tuning.present[i];
+    table.rows.push_back({{p.own_unit.empty() ? p.path : fmt::format("{} [{}]", p.path, p.own_unit),
+                           shown_range(p), present.value ? shown_value(p, *present.value) : "not known",
+                           present.set_by, answer ? shown_value(p, (*answer)[i]) : "as before"}});
   }
   return table;
 }
 
+std::string hunts_from_text(double from) {
+  if (!std::isfinite(from)) return "at no gain that was tried";
+  return fmt::format("from {:.3g} times the gain on", from);
+}
+
+/// Where there is play: what became of pushes, for the answer and over the spread; "" where there is none.
+std::string pushes_text(const Tuning& tuning) {
+  const auto& cases = tuning.study.cases;
+  const auto played =
+      std::find_if(cases.begin(), cases.end(), [](const auto& entry) { return !entry.play.empty(); });
+  const double from = tuning.after().hunts_from;
+  if (played == cases.end()) return "";
+  if (std::isnan(from)) return fmt::format("{}: whether it hunts after a push is not known", played->play);
+  auto text =
+      fmt::format("{}: pushed at rest by {} to {} V it {}; it hunts {}", played->play, least_push,
+                  largest_push, from <= 1 ? "goes on hunting" : "comes to rest again", hunts_from_text(from));
+  if (tuning.spread == nullptr) return text;
+  double least = std::numeric_limits<double>::infinity();
+  int hunting = 0;
+  for (const auto& trial : tuning.spread->trials()) {
+    least = std::fmin(least, trial.verdict.hunts_from);
+    if (trial.verdict.hunts_from <= 1) ++hunting;
+  }
+  return text +
+         fmt::format("; over the spread {} machines hunt, the worst {}", hunting, hunts_from_text(least));
+}
+
+/// What the ranges leave out, a line each.
+std::string at_the_ends(const Tuning& tuning) {
+  std::string text;
+  const auto& parameters = tuning.trials.parameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto& p = parameters[i];
+    const auto& present = tuning.present[i];
+    if (!present.in_range(p))
+      text += fmt::format("{} is {} now: outside of the range {}\n", p.path, shown_value(p, *present.value),
+                          shown_range(p));
+    const double found = tuning.trials.at(tuning.best).point[i];
+    if (!tuning.stays && (found == p.low || found == p.high))
+      text += fmt::format("{} lies at an end of its range: beyond it may be better\n", p.path);
+  }
+  return text;
+}
+
 /// A row a parameter: the cost at each share of the range, and the most it rises: the parameter that matters.
 ReportTable around(const Tuning& tuning) {
-  ReportTable table{"Around the optimum: " + tuning.study.minimise + ", one parameter at a time",
+  ReportTable table{"Around the optimum: " + metric_heading(tuning) + ", one parameter at a time",
                     {"parameter", "least", "most", "worst change"},
                     {}};
   const double least_metric = tuning.trials.at(tuning.best).verdict.metric;
@@ -130,9 +187,8 @@ ReportTable around(const Tuning& tuning) {
 ReportTable spread_table(const Tuning& tuning) {
   const auto& trials = tuning.spread->trials();
   ReportTable table{"Spread of the machine, worst first", {}, {}};
-  for (const auto& p : tuning.spread->parameters())
-    table.headings.push_back(p.unit.empty() ? p.path : fmt::format("{} [{}]", p.path, p.unit));
-  table.headings.push_back(tuning.study.minimise);
+  for (const auto& p : tuning.spread->parameters()) table.headings.push_back(shown_heading(p));
+  table.headings.push_back(metric_heading(tuning));
   table.headings.emplace_back("limits");
   std::vector<std::size_t> order(trials.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -143,7 +199,7 @@ ReportTable spread_table(const Tuning& tuning) {
     renders::ReportRow row;
     for (const double value : trials[index].point) row.cells.push_back(fmt::format("{:.6g}", value));
     row.cells.push_back(metric_text(trials[index].verdict));
-    row.cells.push_back(limits_text(trials[index].verdict));
+    row.cells.push_back(trial_text(trials[index].verdict));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -151,15 +207,15 @@ ReportTable spread_table(const Tuning& tuning) {
 
 ReportTable trials_table(const Tuning& tuning) {
   ReportTable table{"All trials", {"trial", "phase"}, {}, true};
-  for (const auto& p : tuning.trials.parameters()) table.headings.push_back(short_name(p));
-  table.headings.push_back(tuning.study.minimise);
+  for (const auto& p : tuning.trials.parameters()) table.headings.push_back(shown_heading(p));
+  table.headings.push_back(metric_heading(tuning));
   table.headings.emplace_back("limits");
   std::size_t number = 0;
   for (const auto& trial : tuning.trials.trials()) {
     renders::ReportRow row{{fmt::format("{}", ++number), trial.phase}};
     for (const double value : trial.point) row.cells.push_back(fmt::format("{:.6g}", value));
     row.cells.push_back(metric_text(trial.verdict));
-    row.cells.push_back(limits_text(trial.verdict));
+    row.cells.push_back(trial_text(trial.verdict));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -187,10 +243,33 @@ double largest_metric(const Trials& spread) {
 }  // namespace
 
 std::string miss_text(const Tuning& tuning) {
-  const auto& best = tuning.trials.at(tuning.best).verdict;
-  if (best.feasible()) return "";
-  if (best.stopped) return "no values tried could be run to the end: " + best.note;
-  return "no values tried keep all limits; the best miss is " + miss_of(best);
+  const auto& after = tuning.after();
+  if (tuning.unmeasurable) {
+    const auto& trials = tuning.trials.trials();
+    const auto doubted = std::find_if(trials.begin(), trials.end(),
+                                      [](const Trials::Trial& trial) { return trial.verdict.doubtful; });
+    return fmt::format("Margins could not be measured, so nothing was searched: {}", doubted->verdict.note);
+  }
+  std::string text;
+  if (after.stopped)
+    text = "No values could be run to the end: " + after.note;
+  else if (!after.feasible())
+    text = "No values met all limits. Closest: " + reason_text(after);
+  if (!tuning.stays) return text;
+  return text + fmt::format("{}The present values stay: none of the {} others that were tried is better",
+                            text.empty() ? "" : ". ", tuning.trials.trials().size() - (tuning.start ? 1 : 0));
+}
+
+std::string runs_text(const Tuning& tuning) {
+  int sum = 0;
+  std::string parts;
+  for (const auto& [part, runs] : tuning.used) {
+    sum += runs;
+    parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", part, runs);
+  }
+  const int loops = tuning.trials.loop_runs() + (tuning.spread != nullptr ? tuning.spread->loop_runs() : 0);
+  return fmt::format("{} of at most {}: {}{}", sum, tuning.budget, parts,
+                     loops > 0 ? fmt::format("; {} of them at the loop", loops) : "");
 }
 
 std::size_t worst_of(const Trials& spread) {
@@ -202,56 +281,59 @@ std::size_t worst_of(const Trials& spread) {
 
 std::string summary_text(const Tuning& tuning) {
   std::string text;
-  if (auto miss = miss_text(tuning); !miss.empty()) {
-    miss.front() = 'N';
-    text = miss + "\n\n";
-  }
-  text += as_text(before_after(tuning)) + reasons(tuning) + "\n" + as_text(values(tuning)) + "\n" +
-          as_text(around(tuning));
+  if (const auto miss = miss_text(tuning); !miss.empty()) text = miss + "\n\n";
+  text += as_text(before_after(tuning)) + reason_before(tuning) + "\n" + as_text(values(tuning));
+  if (!tuning.slices.empty()) text += "\n" + as_text(around(tuning));
   if (tuning.spread != nullptr && !tuning.spread->trials().empty()) {
     const auto& worst = tuning.spread->at(worst_of(*tuning.spread));
     const auto& all = tuning.spread->trials();
     const auto beyond =
         std::count_if(all.begin(), all.end(), [](const auto& trial) { return !trial.verdict.feasible(); });
-    text += fmt::format("\nSpread of the machine: {} samples, {} beyond a limit; ", all.size(), beyond);
+    text += fmt::format("\nSpread of the machine: {} samples{}, {} beyond a limit; ", all.size(),
+                        static_cast<int>(all.size()) < tuning.spread_asked
+                            ? fmt::format(" of the {} asked for (--budget)", tuning.spread_asked)
+                            : "",
+                        beyond);
     if (beyond == 0) {
-      text += fmt::format("worst {} = {}\n", tuning.study.minimise, metric_text(worst.verdict));
+      text += fmt::format("worst {}\n", metric_equals(tuning, metric_text(worst.verdict)));
     } else {
-      text += fmt::format("worst of the limits: {} (there {} = {}; the largest of all: {:.6g})\n",
-                          miss_of(worst.verdict), tuning.study.minimise, metric_text(worst.verdict),
-                          largest_metric(*tuning.spread));
+      text += fmt::format("worst of the limits: {} (there {}; the largest of all: {:.6g}{})\n",
+                          reason_text(worst.verdict), metric_equals(tuning, metric_text(worst.verdict)),
+                          largest_metric(*tuning.spread), with_space(tuning.study.metric_unit));
     }
-    for (std::size_t i = 0; i < worst.point.size(); ++i)
-      text += fmt::format("  at {} = {:.4g}{}{}\n", tuning.spread->parameters()[i].path, worst.point[i],
-                          tuning.spread->parameters()[i].unit.empty() ? "" : " ",
-                          tuning.spread->parameters()[i].unit);
+    for (std::size_t i = 0; i < worst.point.size(); ++i) {
+      const auto& p = tuning.spread->parameters()[i];
+      text += fmt::format("  at {} = {}\n", p.path, shown_value(p, worst.point[i]));
+    }
     for (std::size_t i = 0; i < tuning.study.constraints.size(); ++i)
       text += fmt::format("  least room of {}: {}\n", tuning.study.constraints[i],
-                          room_text(least_room(*tuning.spread, i)));
+                          room_text(tuning, i, least_room(*tuning.spread, i)));
   }
-  for (std::size_t i = 0; i < tuning.trials.parameters().size(); ++i) {
-    const auto& p = tuning.trials.parameters()[i];
-    const double value = tuning.trials.at(tuning.best).point[i];
-    if (value == p.low || value == p.high)
-      text += fmt::format("\n{} lies at an end of its range: beyond it may be better\n", p.path);
-  }
+  if (const auto pushes = pushes_text(tuning); !pushes.empty()) text += fmt::format("\n{}\n", pushes);
+  if (const auto ends = at_the_ends(tuning); !ends.empty()) text += "\n" + ends;
   return text + "\n" + patch_text(tuning);
 }
 
 void write_tuning_report(const Tuning& tuning, OutputFolder& folder) {
-  const auto& after = tuning.trials.at(tuning.best).verdict;
+  const auto& after = tuning.after();
   renders::Report report;
   report.title = "Tuning: " + tuning.study.minimise;
   for (const auto& entry : tuning.study.cases)
     report.scenario += (report.scenario.empty() ? "" : ", ") + entry.file.filename().string();
   report.passed = after.feasible();
-  const auto miss = miss_text(tuning);
-  report.verdict =
-      fmt::format("{}{} from {} to {}; limits: {}", miss.empty() ? "" : miss + "; ", tuning.study.minimise,
-                  metric_text(tuning.before), metric_text(after), limits_text(after));
-  report.facts = {{{"trials", fmt::format("{}", tuning.trials.trials().size())}},
+  auto first = miss_text(tuning);
+  if (!first.empty()) first += ". ";
+  const auto unit = with_space(tuning.study.metric_unit);
+  const auto change = tuning.stays ? metric_equals(tuning, metric_text(after))
+                                   : fmt::format("{}: {}{} before, {}{} after", tuning.study.minimise,
+                                                 metric_text(tuning.before), unit, metric_text(after), unit);
+  report.verdict = first + change + (after.feasible() ? "; all limits kept" : "");
+  report.facts = {{{"sets of values tried", fmt::format("{}", tuning.trials.trials().size())}},
+                  {{"simulated runs", runs_text(tuning)}},
                   {{"measured from", fmt::format("{} s", loop::seconds_text(tuning.study.from))}},
                   {{"drycut", DRYCUT_VERSION}}};
+  if (const auto pushes = pushes_text(tuning); !pushes.empty()) report.facts.push_back({{"pushes", pushes}});
+  if (const auto ends = at_the_ends(tuning); !ends.empty()) report.facts.push_back({{"ranges", ends}});
   report::add_overrides(tuning.study.set, report);
   for (const auto& run : tuning.runs_after) {
     report::add_checks(run.outcome.checks, report);
@@ -259,7 +341,7 @@ void write_tuning_report(const Tuning& tuning, OutputFolder& folder) {
   }
   report.summary = {before_after(tuning), values(tuning)};
   report.texts = {{"To paste (also in patch.txt)", patch_text(tuning)}};
-  report.tables = {around(tuning)};
+  if (!tuning.slices.empty()) report.tables = {around(tuning)};
   if (tuning.spread != nullptr) report.tables.push_back(spread_table(tuning));
   if (auto why = reasons_table(tuning); !why.rows.empty()) report.tables.push_back(std::move(why));
   report.tables.push_back(trials_table(tuning));

@@ -54,6 +54,17 @@ void descend(Trials& trials, const Point& from, int budget) {
   }
 }
 
+/// A loop that gave all its figures, or of which nothing can be told.
+std::optional<std::size_t> first_judged(const Trials& trials) {
+  for (std::size_t i = 0; i < trials.trials().size(); ++i) {
+    const auto& verdict = trials.at(i).verdict;
+    const bool whole =
+        std::none_of(verdict.room.begin(), verdict.room.end(), [](double x) { return std::isnan(x); });
+    if (trials.has_loop(verdict) && (whole || verdict.doubtful)) return i;
+  }
+  return {};
+}
+
 double distance(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
@@ -62,45 +73,60 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-std::size_t search(Trials& trials, const std::optional<Point>& start, int budget, std::uint64_t seed) {
+void search(Trials& trials, int most_runs, std::uint64_t seed) {
   const auto& parameters = trials.parameters();
   const int least = static_cast<int>(2 * parameters.size()) + 2;
-  const int sets = std::max(1, budget / trials.runs_of_a_trial());
+  const int sets = std::max(1, (most_runs - trials.runs()) / trials.runs_of_a_trial());
   const int samples = std::clamp(sets * 2 / 5, std::min(least, sets), sets);
   auto points = latin_hypercube(parameters, samples, plants::Random(seed, "drycut tune"));
-  if (start) points.front() = *start;
-  const auto tried = trials.run("sample", points);
+  // One by one until a loop is measured: where nothing can be told of it, all others would be in vain.
+  auto rest = points.begin();
+  while (rest != points.end() && trials.measures_loop() && !first_judged(trials))
+    trials.run("sample", {*rest++});
+  if (is_unmeasurable(trials)) return;
+  trials.run("sample", {rest, points.end()});
 
-  std::vector<std::size_t> order = tried;
+  std::vector<std::size_t> order(trials.trials().size());
+  std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return trials.at(a).verdict.rank() < trials.at(b).verdict.rank();
   });
   constexpr double elsewhere = 0.1;  // of the range, in one parameter at least
   std::vector<std::vector<double>> begun;
   for (const auto index : order) {
-    if (trials.runs() + trials.runs_of_a_trial() > budget) break;
+    if (trials.runs() + trials.runs_of_a_trial() > most_runs) break;
     const Point point = trials.at(index).point;
     const auto unit = to_unit(parameters, point);
     if (std::any_of(begun.begin(), begun.end(),
                     [&](const auto& other) { return distance(unit, other) < elsewhere; }))
       continue;
     begun.push_back(unit);
-    descend(trials, point, budget);
+    descend(trials, point, most_runs);
     begun.push_back(to_unit(parameters, trials.at(trials.best()).point));
   }
-  return trials.best();
 }
 
-std::vector<Slice> look_around(Trials& trials, std::size_t& best) {
-  constexpr std::array<double, 6> shares = {-0.1, -0.05, -0.02, 0.02, 0.05, 0.1};
+bool is_unmeasurable(const Trials& trials) {
+  const auto judged = first_judged(trials);
+  return judged && trials.at(*judged).verdict.doubtful;
+}
+
+std::vector<Slice> look_around(Trials& trials, std::size_t& best, int most_runs) {
+  constexpr std::array<double, 3> half_widths = {0.05, 0.1, 0.02};
   constexpr int most_rounds = 8;
   const auto& parameters = trials.parameters();
-  for (int round = 1;; ++round) {
+  std::vector<Slice> slices;
+  for (int round = 1; round <= most_rounds; ++round) {
+    const int sets = (most_runs - trials.runs()) / trials.runs_of_a_trial();
+    const auto pairs = std::min<std::size_t>(
+        static_cast<std::size_t>(std::max(sets, 0)) / (2 * parameters.size()), half_widths.size());
+    if (pairs == 0) return slices;
     std::vector<Point> points;
-    std::vector<Slice> slices;
+    slices.clear();
     const auto centre = trials.at(best).point;
     for (std::size_t i = 0; i < parameters.size(); ++i) {
-      for (const double share : shares) {
+      for (std::size_t k = 0; k < 2 * pairs; ++k) {
+        const double share = k % 2 == 0 ? -half_widths[k / 2] : half_widths[k / 2];
         const double moved = centre[i] + share * (parameters[i].high - parameters[i].low);
         if (moved < parameters[i].low || moved > parameters[i].high) continue;
         auto point = centre;
@@ -112,10 +138,10 @@ std::vector<Slice> look_around(Trials& trials, std::size_t& best) {
     const auto tried = trials.run("around", points);
     for (std::size_t i = 0; i < tried.size(); ++i) slices[i].trial = tried[i];
     const auto found = trials.best();
-    const bool moved = trials.at(found).verdict.rank() < trials.at(best).verdict.rank();
-    if (!moved || round == most_rounds) return slices;
+    if (!(trials.at(found).verdict.rank() < trials.at(best).verdict.rank())) return slices;
     best = found;
   }
+  return slices;
 }
 
 }  // namespace drycut::sim::studies

@@ -80,7 +80,7 @@ void judge_checks(const loop::Outcome& outcome, Verdict& verdict) {
     if (check.passed) continue;
     ++verdict.failed_checks;
     verdict.violation += 1 + beyond(check.margin.value_or(-1));
-    if (verdict.note.empty()) verdict.note = "check failed: " + check.name;
+    if (verdict.note.empty()) verdict.note = fmt::format("check '{}' fails", check.name);
   }
 }
 
@@ -88,7 +88,37 @@ void judge_limit(const Gauge& gauge, double room, double& worst, Verdict& verdic
   worst = std::isnan(worst) ? room : std::min(worst, room);
   if (room >= 0) return;
   verdict.violation += 1 + beyond(room);
-  if (verdict.note.empty()) verdict.note = "beyond " + gauge.text;
+  if (!verdict.note.empty()) return;
+  const auto unit = gauge.metric.unit();
+  verdict.note = fmt::format("{} is missed by {:.4g}{}{}", gauge.text, -room, unit.empty() ? "" : " ", unit);
+}
+
+/// Takes what pushes have found: values that hunt after one are beyond every limit.
+void judge_pushes(const std::optional<Hunting>& hunting, Verdict& verdict) {
+  if (!hunting) return;
+  verdict.runs += 2;
+  if (!hunting->failure.empty()) return;
+  const double from = hunting->from.value_or(std::numeric_limits<double>::infinity());
+  verdict.hunts_from = std::isnan(verdict.hunts_from) ? from : std::min(verdict.hunts_from, from);
+  if (!hunting->hunts_now()) return;
+  verdict.violation += grossly_broken;
+  if (verdict.note.empty())
+    verdict.note = fmt::format("it hunts after a push: {}, {:.2g} V", hertz_text(hunting->frequency),
+                               hunting->amplitude);
+}
+
+/// True if other values would not help either: the machine's own motion or its play hides a quarter of the
+/// answer. They may close a loop that is open, need less of the output, or make an answer heard here and
+/// there.
+bool is_hopeless(const LoopResult& result) {
+  const auto& points = result.sweep.points;
+  if (!result.sweep.failure.empty()) return false;
+  if (result.sweep.loop == Sweep::Loop::open) return !result.play.empty();
+  if (result.sweep.loop != Sweep::Loop::closed) return false;
+  const auto hidden = std::count_if(points.begin(), points.end(), [](const BodePoint& point) {
+    return !point.saturated && (point.silent || !(point.doubt() <= bode_error_limit));
+  });
+  return 4 * hidden > static_cast<std::ptrdiff_t>(points.size());
 }
 
 /// Measures the loop and judges the constraints on it.
@@ -98,6 +128,8 @@ void judge_loop(const Study& study, const scenario::Scenario& scenario, std::vec
   const auto loop = measure_loop(scenario, study.loop, problems);
   if (!loop) return stop(verdict, to_string(problems.front()));
   verdict.runs += 2;
+  judge_pushes(loop->hunting, verdict);
+  if (!verdict.feasible()) return;
   const auto doubts = loop_doubts(*loop);
   if (!doubts.empty()) {
     const auto& sweep = loop->sweep;
@@ -107,13 +139,14 @@ void judge_loop(const Study& study, const scenario::Scenario& scenario, std::vec
     const bool wild =
         sweep.loop == Sweep::Loop::unstable || sweep.loop == Sweep::Loop::runaway || always_at_limit;
     verdict.violation += wild ? grossly_broken : unmeasured;
+    verdict.doubtful = is_hopeless(*loop);
     verdict.note = doubts.front();
     return;
   }
   LoopFigures figures;
   const auto& margins = loop->margins;
   if (margins.phase) figures.phase_margin = margins.phase->value;
-  if (margins.gain) figures.gain_margin = margins.gain->value;
+  if (const auto gain = loop->least_gain()) figures.gain_margin = gain->value;
   if (margins.sensitivity) figures.max_sensitivity = margins.sensitivity->value;
   for (std::size_t i = 0; i < verdict.room.size(); ++i) {
     auto& gauge = all[i + 1];
@@ -124,7 +157,10 @@ void judge_loop(const Study& study, const scenario::Scenario& scenario, std::vec
       continue;
     }
     verdict.violation += unmeasured;
-    if (verdict.note.empty()) verdict.note = "not met between the measured frequencies: " + gauge.text;
+    if (!verdict.note.empty()) continue;
+    const bool untold = loop->hunting && !loop->hunting->failure.empty();
+    verdict.note = untold ? fmt::format("{} with {}: {}", gauge.text, loop->play, loop->hunting->failure)
+                          : "not met between the measured frequencies: " + gauge.text;
   }
 }
 
@@ -156,14 +192,15 @@ void measure_case(const Study& study, const Study::Case& entry,
     judge_limit(gauge, room, verdict.room[i], verdict);
   }
   if (!study.ignore_checks) judge_checks(outcome, verdict);
-  if (study.needs_loop && verdict.feasible() && verdict.metric < to_beat)
-    judge_loop(study, scenario, all, recording, verdict);
+  if (!verdict.feasible() || !(verdict.metric < to_beat)) return;
+  if (study.needs_loop) return judge_loop(study, scenario, all, recording, verdict);
+  if (study.loop.pushes) judge_pushes(push_loop(scenario, study.loop, 0, problems), verdict);
 }
 
 }  // namespace
 
 bool Verdict::unmeasured() const {
-  return !stopped && violation > 0 && failed_checks == 0 &&
+  return !stopped && violation > 0 && failed_checks == 0 && !(hunts_from <= 1) &&
          std::none_of(room.begin(), room.end(), [](double left) { return left < 0; });
 }
 
@@ -208,6 +245,7 @@ std::vector<MetricName> names_of(const Study& study, const Study::Case& scenario
 }
 
 void prepare(Study& study, Problems& problems) {
+  study.loop.pushes = false;
   for (auto& entry : study.cases) {
     // As it stands first: everything that is wrong with the scenario itself.
     const auto before = problems.size();
@@ -227,11 +265,20 @@ void prepare(Study& study, Problems& problems) {
     record_names(measured, all);
     const loop::Simulation probe(measured, of_gauges);
     for (const auto& column : probe.recording().columns()) entry.units[column.name] = column.unit;
-    if (of_gauges.empty()) gauges(study, entry, of_gauges);  // now that units are known
+    if (of_gauges.empty()) {  // now that units are known
+      const auto known = gauges(study, entry, of_gauges);
+      if (of_gauges.empty() && &entry == &study.cases.front()) {
+        study.metric_unit = known.front().metric.unit();
+        for (auto gauge = known.begin() + 1; gauge != known.end(); ++gauge)
+          study.room_units.push_back(gauge->metric.unit());
+      }
+    }
     study.needs_loop = study.needs_loop || std::any_of(all.begin(), all.end(), [](const Gauge& gauge) {
                          return gauge.metric.needs_loop();
                        });
     if (study.needs_loop && of_gauges.empty()) check_loop(measured, study.loop, of_gauges);
+    if (const auto wire = wire_of(measured, study.loop)) entry.play = play_of(measured, *wire);
+    study.loop.pushes = study.loop.pushes || !entry.play.empty();
     for (auto& problem : of_gauges)
       if (std::none_of(problems.begin(), problems.end(),
                        [&](const auto& told) { return to_string(told) == to_string(problem); }))

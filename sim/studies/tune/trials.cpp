@@ -33,12 +33,13 @@ using Overrides = std::vector<scenario::Override>;
 std::string text_of(const Verdict& verdict) {
   auto row = fmt::format("{}", verdict.metric);
   for (const double room : verdict.room) row += fmt::format(",{}", room);
-  return row + fmt::format(",{},{},{},{},{}", verdict.failed_checks, verdict.violation,
-                           verdict.stopped ? 1 : 0, verdict.runs, csv_quoted(verdict.note));
+  return row + fmt::format(",{},{},{},{},{},{},{}", verdict.hunts_from, verdict.failed_checks,
+                           verdict.violation, verdict.stopped ? 1 : 0, verdict.doubtful ? 1 : 0, verdict.runs,
+                           csv_quoted(verdict.note));
 }
 
 std::optional<Verdict> verdict_of(std::span<const CsvRow::Cell> cells, std::size_t rooms) {
-  if (cells.size() != 1 + rooms + 5) return {};
+  if (cells.size() != 1 + rooms + 7) return {};
   std::vector<double> numbers;
   for (const auto& cell : cells.first(cells.size() - 1)) {
     const auto number = number_of(cell.text);
@@ -47,10 +48,12 @@ std::optional<Verdict> verdict_of(std::span<const CsvRow::Cell> cells, std::size
   }
   Verdict verdict;
   verdict.metric = numbers.front();
-  verdict.room.assign(numbers.begin() + 1, numbers.end() - 4);
-  verdict.failed_checks = static_cast<int>(numbers.end()[-4]);
-  verdict.violation = numbers.end()[-3];
-  verdict.stopped = numbers.end()[-2] != 0;
+  verdict.room.assign(numbers.begin() + 1, numbers.end() - 6);
+  verdict.hunts_from = numbers.end()[-6];
+  verdict.failed_checks = static_cast<int>(numbers.end()[-5]);
+  verdict.violation = numbers.end()[-4];
+  verdict.stopped = numbers.end()[-3] != 0;
+  verdict.doubtful = numbers.end()[-2] != 0;
   verdict.runs = static_cast<int>(numbers.end()[-1]);
   verdict.note = cells.back().text;
   return verdict;
@@ -116,7 +119,7 @@ Trials::Trials(const Study& study, TunedParameters parameters, std::vector<scena
 std::string Trials::fingerprint() const {
   Fingerprint hash;
   hash.add_program();
-  hash.add("violations 2");  // how they are counted: rows of another way do not compare
+  hash.add("violations 3");  // how they are counted: rows of another way do not compare
   hash.add(study_.minimise);
   for (const auto& text : study_.constraints) hash.add(text);
   hash.add(fmt::format("{} {}", study_.from, study_.ignore_checks));
@@ -137,7 +140,7 @@ std::string Trials::heading() const {
     line += "," + csv_quoted(p.unit.empty() ? p.path : fmt::format("{} [{}]", p.path, p.unit));
   line += "," + csv_quoted(study_.minimise);
   for (const auto& text : study_.constraints) line += "," + csv_quoted("room of " + text);
-  return line + ",failed_checks,violation,stopped,runs,note,checksum";
+  return line + ",hunts_from,failed_checks,violation,stopped,doubtful,runs,note,checksum";
 }
 
 // Takes what an earlier run of the same study left, but lines that are cut short or damaged.
@@ -242,6 +245,13 @@ std::vector<std::size_t> Trials::run(const std::string& phase, const std::vector
 int Trials::runs() const {
   return std::accumulate(trials_.begin(), trials_.end(), 0,
                          [](int sum, const Trial& trial) { return sum + trial.verdict.runs; });
+}
+
+int Trials::loop_runs() const {
+  const auto plain = static_cast<int>(study_.cases.size());
+  return std::accumulate(trials_.begin(), trials_.end(), 0, [&](int sum, const Trial& trial) {
+    return sum + std::max(0, trial.verdict.runs - plain);
+  });
 }
 
 std::size_t Trials::best() const {

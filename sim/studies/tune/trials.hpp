@@ -21,7 +21,7 @@ namespace drycut::sim::studies {
 class Trials {
  public:
   struct Trial {
-    std::string phase;  ///< "sample", "search", "around", "spread"
+    std::string phase;  ///< "present", "sample", "search", "around", "spread"
     Point point;
     Verdict verdict;
   };
@@ -48,6 +48,13 @@ class Trials {
   [[nodiscard]] int runs() const;
   /// Simulated runs that one more set of values may take.
   [[nodiscard]] int runs_of_a_trial() const { return study_.runs_of_a_trial(); }
+  [[nodiscard]] bool measures_loop() const { return study_.needs_loop; }
+  /// Whether the loop was measured for `verdict`.
+  [[nodiscard]] bool has_loop(const Verdict& verdict) const {
+    return verdict.runs > static_cast<int>(study_.cases.size());
+  }
+  /// Simulated runs that measured the loop.
+  [[nodiscard]] int loop_runs() const;
   /// Index of the best so far; the earlier of two equals. There must be a trial.
   [[nodiscard]] std::size_t best() const;
 

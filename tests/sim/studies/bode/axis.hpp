@@ -27,6 +27,13 @@ struct Folder : TestFolder {
            "CNTDIR Axis\nREGON Axis\nRESUME Axis\nWAIT NOT Axis:st_emrg\n" +
            loop + "MAIN:\nWAIT 1\nJUMP MAIN\nEND\n";
   }
+  /// The same, never at rest.
+  static std::string restless() {
+    return program(
+        "LOOPON Axis\nWAIT Axis:st_loopon\nAxis:setvel = 20000\nAGAIN:\nAxis:setpos = 2000\nSTART "
+        "Axis\nWAIT NOT Axis:st_still\nWAIT Axis:st_still\nAxis:setpos = 0\nSTART Axis\nWAIT NOT "
+        "Axis:st_still\nWAIT Axis:st_still\nJUMP AGAIN\n");
+  }
   /// The same loop round a servo motor with a ball screw: 2 um a count, 10 V is maxvel.
   static std::string screw() {
     return "scene: {step: 100 us, duration: 500 ms}\n"

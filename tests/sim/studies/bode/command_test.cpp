@@ -117,7 +117,8 @@ TEST_F(BodeCommand, FailsOnAnOpenLoop) {
   EXPECT_THAT(out,
               HasSubstr("2.AN01 does not answer to 1 V at 0.001 s: either the loop is open there (let the "
                         "program do REGON before, or choose another --at), or the axis sits in play or "
-                        "stiction (take more --amplitude)"));
+                        "stiction (a larger --amplitude would answer, but it hides the play: see drycut bode "
+                        "--limit-cycle)"));
 }
 
 TEST_F(BodeCommand, TakesATimeWithItsUnit) {
@@ -172,17 +173,59 @@ TEST_F(BodeCommand, SweepsTheAmplitudeForALimitCycle) {
   EXPECT_EQ(run(), cli::all_passed) << out << err;
   // A linear loop: the margin is that of any amplitude, a factor of 20 on pgain 100.
   EXPECT_THAT(out, HasSubstr("Gain margin over the amplitude of the sine"));
-  EXPECT_THAT(out, testing::ContainsRegex("Limit cycle from (19|20)"));
+  EXPECT_THAT(out,
+              testing::ContainsRegex("Limit cycle from (19|20)[.0-9]* times the gain on [(]below, pushes die "
+                                     "out[)].* By sines: at most (19|20)"));
   EXPECT_THAT(content(options.out / "report.html"), HasSubstr("Gain margin over the amplitude"));
   EXPECT_THAT(content(options.out / "plots/limit_cycle.png"), StartsWith("\x89PNG"));
 }
 
-TEST_F(BodeCommand, WithoutAnyMarginThereIsNoLimitCycle) {
+TEST_F(BodeCommand, PushesFindTheBoundWhereNoSineDoes) {
   options.limit_cycle = true;
   options.loop.to = 20;
   options.loop.points = 3;
+  options.min_gain_margin = 27;
   EXPECT_EQ(run(), cli::check_failed);
-  EXPECT_THAT(out, HasSubstr("Limit cycle: no gain margin was found at any amplitude."));
+  EXPECT_THAT(out, testing::ContainsRegex(
+                       "Limit cycle from (19|20).* By sines: no gain margin was found at any amplitude."));
+  EXPECT_THAT(out, testing::ContainsRegex("FAIL: the gain margin of 2[56][.0-9]+ dB is below 27 dB"));
+}
+
+/// The axis with a ball screw, an encoder on the motor, and play behind it.
+struct BodeCommandWithPlay : BodeCommand {
+  BodeCommandWithPlay() {
+    auto worn = bode_axis::Folder::screw();
+    worn.replace(worn.find("{type: linear_axis}"), 19, "{type: linear_axis, gear.backlash: 0.5 deg}");
+    folder.file("axis.yaml", worn);
+    options.loop.points = 20;
+  }
+};
+
+TEST_F(BodeCommandWithPlay, SaysFromWhichGainOnItHuntsAndJudgesByThat) {
+  options.min_gain_margin = 1;
+  EXPECT_EQ(run(), cli::all_passed) << out << err;
+  EXPECT_THAT(out, testing::ContainsRegex(
+                       "\nhunting +from [0-9.]+ times the gain on [(]below, pushes die out[)].*with "
+                       "axis.gear.backlash 0.5 deg the margins above hold for this amplitude only\n"));
+}
+
+// No number that is not to be trusted: first the reason.
+TEST_F(BodeCommand, AMeasurementThatIsNotTrustedHasNoMargin) {
+  folder.file("axis.mod", bode_axis::Folder::restless());
+  options.loop.amplitude = 0.004;
+  options.min_phase_margin = 10;
+  options.out = folder.path / "results";
+  EXPECT_EQ(run(), cli::check_failed);
+  const auto reason = out.find("the answer is lost in what else moves");
+  ASSERT_NE(reason, std::string::npos) << out;
+  EXPECT_LT(reason, out.find("frequency")) << "the reason comes first";
+  EXPECT_THAT(
+      out,
+      HasSubstr("a line that never stands: a scenario of its own that extends this one, with timeline: []"));
+  EXPECT_THAT(out, HasSubstr("margins                 not known, for the reason above\n"));
+  EXPECT_THAT(out, testing::Not(HasSubstr("deg at the crossover")));
+  EXPECT_THAT(out, HasSubstr("FAIL: the phase margin is not known: what was measured is not to be trusted"));
+  EXPECT_THAT(content(options.out / "report.html"), testing::Not(HasSubstr("deg at the crossover")));
 }
 
 TEST_F(BodeCommand, GoesDownToTheCrossover) {

@@ -69,7 +69,7 @@ struct Bench : CommandTest {
     options.scenarios = {test_folder.file("axis.yaml", scenario)};
     options.vary = {feedfw + "=700..1250"};
     options.minimise = "rms(AxisX.follerr)";
-    options.budget = 40;
+    options.budget = 60;
     options.pictures = false;
     options.out = folder / "out";
   }

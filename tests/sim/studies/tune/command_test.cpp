@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 #include <regex>
+#include <sstream>
 
 #include "sim/scenario/yaml_node.hpp"
+#include "sim/studies/tune/plots.hpp"
 #include "sim/studies/tune/study.hpp"
 #include "tests/sim/studies/tune/bench.hpp"
 
@@ -30,6 +32,78 @@ TEST_F(TuneCommand, FindsTheFeedForwardThatTheLawGives) {
   EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("AxisX:feedfw = 1000\n"));
   EXPECT_THAT(content(folder / "out/patch.txt"),
               HasSubstr("set:\n      AxisX.feedfw: 1000  # drycut tune; before: 900\n"));
+}
+
+TEST_F(TuneCommand, NothingWorseTakesThePlaceOfThePresentValues) {
+  at_rest();
+  options.set = {feedfw + "=1000"};
+  options.vary = {feedfw + "=700..900"};
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
+  EXPECT_THAT(out, testing::ContainsRegex(
+                       "^The present values stay: none of the [0-9]+ others that were tried is better\n"));
+  EXPECT_THAT(out, HasSubstr(feedfw + " is 1000 now: outside of the range 700..900\n"));
+  EXPECT_THAT(out, testing::ContainsRegex(feedfw + " .1/1000. +700..900 +1000 +--set +1000\n"));
+  const auto patch = content(folder / "out/patch.txt");
+  EXPECT_THAT(patch, HasSubstr("AxisX.feedfw: 1000  # --set\n"));
+  EXPECT_THAT(patch, Not(HasSubstr("# drycut tune;"))) << "there is nothing new";
+  EXPECT_THAT(patch, Not(HasSubstr("Or in QCL")));
+}
+
+// The present values may fail, too; what fails more does not take their place either.
+TEST_F(TuneCommand, WhereNothingKeepsTheLimitsTheClosestMayBeThePresentValues) {
+  at_rest();
+  options.constraints = {"max(axis.speed) >= 700"};
+  options.vary = {feedfw + "=700..800"};
+  EXPECT_EQ(run(), cli::check_failed) << out << err;
+  EXPECT_THAT(
+      out, testing::ContainsRegex("^No values met all limits. Closest: max.axis.speed. >= 700 is missed by "
+                                  "[0-9.]+ mm/s. The present values stay: "));
+  EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("# There is nothing to change\n"));
+}
+
+TEST_F(TuneCommand, ValuesThatTheProgramSetsStayUnderThatName) {
+  at_rest();
+  std::string own = scenario;
+  own.replace(own.find(", AxisX.feedfw: 900"), 19, "");
+  test_folder.file("axis.yaml", own);
+  test_folder.file("axis.mod", "AxisX:feedfw = 1000\n" + std::string(program));
+  options.vary = {feedfw + "=700..900"};
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
+  EXPECT_THAT(out, testing::StartsWith("The present values stay"));
+  EXPECT_THAT(out, testing::ContainsRegex(feedfw + " .1/1000. +700..900 +not known +program +as before\n"));
+  EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("# There is nothing to change\n"));
+}
+
+TEST_F(TuneCommand, TablesSayUnitsRangesAndWhoSetTheValue) {
+  options.set = {feedfw + "=1000"};
+  options.vary = {"plants.axis.speed_at_10v=0.5..1.6 m/s", feedfw + "=900..1100", pgain + "=0..20"};
+  options.constraints = {"max(axis.speed) <= 900"};
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
+  EXPECT_THAT(
+      out, testing::ContainsRegex("plants.axis.speed_at_10v +0.5..1.6 m/s +1 m/s +scenario +[0-9.]+ m/s\n"));
+  EXPECT_THAT(out, testing::ContainsRegex(feedfw + " .1/1000. +900..1100 +1000 +--set "));
+  EXPECT_THAT(out, testing::ContainsRegex(pgain + " .1/1000. +0..20 +0 +scenario "));
+  EXPECT_THAT(out, HasSubstr("rms(AxisX.follerr) ["));
+  EXPECT_THAT(out, testing::ContainsRegex("max.axis.speed. <= 900 +[0-9.]+ mm/s left +[0-9.]+ mm/s left\n"));
+}
+
+// The panel's first curve is blue, the second vermilion, the third green.
+TEST_F(TuneCommand, WhatKeepsTheLimitsIsGreen) {
+  options.constraints = {"max(axis.speed) <= 480"};
+  Problems problems;
+  const auto plan = plan_tuning(options, {}, problems);
+  OutputFolder results(options.out, "tune", tuning_files, problems);
+  ASSERT_TRUE(problems.empty());
+  const auto tuned = tune(plan, options, 1, results, [](const char*, double) {});
+  const auto plots = tuning_plots(tuned.found);
+  const auto search =
+      std::find_if(plots.begin(), plots.end(), [](const auto& plot) { return plot.name == "search"; });
+  ASSERT_NE(search, plots.end());
+  const auto& curves = search->panels.at(0).curves;
+  EXPECT_EQ(curves.at(1).label, "beyond a limit");
+  EXPECT_EQ(curves.at(2).label, "kept all limits");
+  EXPECT_GT(curves.at(1).x.size(), 2U);
+  EXPECT_GT(curves.at(2).x.size(), 2U);
 }
 
 TEST_F(TuneCommand, TunesThePlantAsWell) {
@@ -119,7 +193,8 @@ TEST_F(TuneCommand, AnEntryOfAListIsToldAsAPath) {
 struct TuneMargins : TuneCommand {
   TuneMargins() {
     options.vary = {pgain + "=10..900"};
-    options.budget = 60;
+    options.set = {pgain + "=100"};
+    options.budget = 120;
     options.loop.points = 8;
     options.loop.from = 5;
     options.loop.settle = 0.2;
@@ -128,6 +203,25 @@ struct TuneMargins : TuneCommand {
   [[nodiscard]] double tuned() const {
     const auto patch = content(folder / "out/patch.txt");
     return std::stod(patch.substr(patch.find("pgain = ") + 8));
+  }
+  [[nodiscard]] int runs_told() const {
+    const std::string words = "simulated runs: ";
+    const auto at = out.find(words);
+    return at == std::string::npos ? -1 : std::stoi(out.substr(at + words.size()));
+  }
+  /// The sum of the column `runs`, the third from the end where no note has a comma.
+  static int runs_in(const std::string& table) {
+    int sum = 0;
+    std::istringstream lines(table);
+    std::string line;
+    for (int row = 0; std::getline(lines, line); ++row) {
+      std::smatch found;
+      if (row >= 2 && std::regex_search(line, found, std::regex(",[01],[01],([0-9]+),[^0-9]")))
+        sum += std::stoi(found[1]);
+      if (row >= 2 && found.empty() && std::regex_search(line, found, std::regex(",[01],[01],([0-9]+),,")))
+        sum += std::stoi(found[1]);
+    }
+    return sum;
   }
 };
 
@@ -156,11 +250,41 @@ TEST_F(TuneMargins, TheBudgetIsOfSimulatedRunsMarginsIncluded) {
   options.constraints = {"phase_margin >= 80"};
   options.budget = 30;
   ASSERT_EQ(run(), cli::all_passed) << out << err;
-  const auto at = out.find("simulated runs: search ");
-  ASSERT_NE(at, std::string::npos) << out;
-  const int runs = std::stoi(out.substr(at + 23));
+  const int runs = runs_told();
   EXPECT_GT(runs, 20);
   EXPECT_LE(runs, 30);
+}
+
+// Search, surroundings, margins, spread: all of them, whatever the budget is.
+TEST_F(TuneMargins, NoPartComesOnTopOfTheBudget) {
+  options.constraints = {"phase_margin >= 80"};
+  options.vary.push_back(feedfw + "=900..1100");
+  options.spread = {"plants.axis.speed_at_10v=±10%"};
+  for (const int budget : {11, 40, 150}) {
+    options.budget = budget;
+    options.out = folder / std::to_string(budget);
+    run();
+    int sum = 0;
+    for (const auto* name : {"evaluations.csv", "spread.csv"}) sum += runs_in(content(options.out / name));
+    EXPECT_LE(sum, budget - 2) << "two are for the pictures";
+    EXPECT_GT(sum, budget / 2);
+    EXPECT_EQ(runs_told(), sum) << out;
+    EXPECT_THAT(out, HasSubstr(" of the 20 asked for (--budget), "));
+    EXPECT_THAT(out, HasSubstr(" of at most " + std::to_string(budget) + ": present values 3, search "));
+    EXPECT_THAT(out, testing::ContainsRegex("; [0-9]+ of them at the loop\n"));
+  }
+}
+
+TEST_F(TuneMargins, ABudgetThatNothingCanBeDoneWithIsRefused) {
+  options.constraints = {"phase_margin >= 80"};
+  options.spread = {"plants.axis.speed_at_10v=±10%"};
+  options.budget = 10;
+  EXPECT_EQ(run(), cli::bad_input);
+  EXPECT_EQ(
+      err,
+      "--budget:1:1: 10 simulated runs are too few; at least 11: present values 3, one set of values 3, one "
+      "machine of the spread 3, pictures 2\n");
+  EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
 TEST_F(TuneMargins, SameAnswerForAnyJobsAndWhenResumed) {
@@ -198,13 +322,13 @@ TEST_F(TuneMargins, AFlippedBitInTheTableCostsItsTrialAndNoOther) {
 }
 
 TEST_F(TuneMargins, AnUnstableLoopIsBeyondEveryMargin) {
+  options.set = {pgain + "=2200"};
   options.vary = {pgain + "=2200..3000"};
-  options.budget = 6;
+  options.budget = 40;
   options.constraints = {"phase_margin >= 1"};
   EXPECT_EQ(run(), cli::check_failed) << out << err;
-  EXPECT_THAT(out,
-              testing::StartsWith(
-                  "No values tried keep all limits; the best miss is not measured: the loop is not stable"));
+  EXPECT_THAT(out, testing::StartsWith("No values met all limits. Closest: not measured: "));
+  EXPECT_THAT(content(folder / "out/evaluations.csv"), HasSubstr("the loop is not stable"));
 }
 
 TEST_F(TuneMargins, AMarginThatIsNotMetIsNotKept) {
@@ -212,24 +336,26 @@ TEST_F(TuneMargins, AMarginThatIsNotMetIsNotKept) {
   options.constraints = {"gain_margin >= 1"};
   options.budget = 9;
   EXPECT_EQ(run(), cli::check_failed) << out << err;
-  EXPECT_THAT(
-      out,
-      HasSubstr("\n  after, not measured: not met between the measured frequencies: gain_margin >= 1\n"));
+  EXPECT_THAT(out, testing::StartsWith("No values met all limits. Closest: not measured: not met between the "
+                                       "measured frequencies: gain_margin >= 1"));
   EXPECT_THAT(out, testing::ContainsRegex("limits +not measured +not measured\n"));
 }
 
 TEST_F(TuneMargins, WhereNothingKeepsTheLimitsThePatchSaysSo) {
+  options.set = {pgain + "=500"};
   options.vary = {pgain + "=100..900"};
-  options.budget = 12;
+  options.budget = 60;
   options.constraints = {"phase_margin >= 170"};
   options.spread = {"plants.axis.speed_at_10v=±10%"};
   options.spread_runs = 3;
   EXPECT_EQ(run(), cli::check_failed) << out << err;
-  const std::string miss = "o values tried keep all limits; the best miss is beyond phase_margin >= 170\n";
-  EXPECT_THAT(out, testing::StartsWith("N" + miss));
-  EXPECT_THAT(content(folder / "out/patch.txt"), testing::StartsWith("# n" + miss));
-  EXPECT_THAT(out, HasSubstr("3 samples, 3 beyond a limit; worst of the limits: beyond phase_margin >= 170 "
-                             "(there rms(AxisX.follerr) = "));
+  const std::string miss =
+      "No values met all limits. Closest: phase_margin >= 170 is missed by [0-9.]+ deg\n";
+  EXPECT_THAT(out, testing::ContainsRegex("^" + miss));
+  EXPECT_THAT(content(folder / "out/patch.txt"), testing::ContainsRegex("^# " + miss));
+  EXPECT_THAT(
+      out, testing::ContainsRegex("3 samples, 3 beyond a limit; worst of the limits: phase_margin >= 170 is "
+                                  "missed by [0-9.]+ deg [(]there rms[(]AxisX.follerr[)] = "));
 }
 
 TEST_F(TuneMargins, AMarginWithoutANumberRanksBetweenNearlyKeptAndGrosslyBroken) {
@@ -264,7 +390,7 @@ TEST_F(TuneMargins, SpreadTellsTheLeastRoom) {
   options.spread_runs = 6;
   ASSERT_EQ(run(), cli::all_passed) << out << err;
   // Tuned to the very limit: a faster machine has less margin.
-  EXPECT_THAT(out, testing::ContainsRegex("least room of phase_margin >= 80: [0-9.]+ too far"));
+  EXPECT_THAT(out, testing::ContainsRegex("least room of phase_margin >= 80: [0-9.]+ deg too far"));
 }
 
 TEST_F(TuneMargins, RefusesWhatCannotBeMeasured) {
@@ -328,15 +454,19 @@ TEST_F(TuneCommand, AnotherProgramIsAnotherStudy) {
 
 TEST_F(TuneCommand, AConstraintMovesTheOptimum) {
   // At setvel half of maxvel the speed is feedfw / 2 mm/s.
+  options.set = {feedfw + "=950"};
   options.constraints = {"max(axis.speed) <= 450.2"};
   ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("AxisX:feedfw = 900\n"));
   options.constraints = {"max(axis.speed) <= 10"};
   EXPECT_EQ(run(), cli::check_failed);
-  EXPECT_THAT(out, HasSubstr("beyond max(axis.speed) <= 10"));
+  EXPECT_THAT(out,
+              testing::StartsWith("No values met all limits. Closest: max(axis.speed) <= 10 is missed by "));
+  EXPECT_THAT(out, HasSubstr(" mm/s\n"));
 }
 
 TEST_F(TuneCommand, AConstraintMayHaveUnits) {
+  options.set = {feedfw + "=950"};
   options.constraints = {"max(axis.speed) <= 0.4502 m/s"};
   ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("AxisX:feedfw = 900\n"));
@@ -351,6 +481,7 @@ TEST_F(TuneCommand, FailedChecksOfTheScenarioCount) {
   at_rest();
   std::ofstream(folder / "axis.yaml", std::ios::app)
       << "checks: [{name: slow, always: axis.speed <= 450.2}]\n";
+  options.set = {feedfw + "=950"};
   ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("AxisX:feedfw = 900\n"));
   options.ignore_checks = true;
