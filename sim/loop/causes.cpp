@@ -16,8 +16,8 @@ constexpr std::size_t most_causes = 200;  ///< of each kind
 bool is_among(std::string_view word, const auto& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
-constexpr std::array<std::string_view, 5> error_events = {"error", "errorstop", "block_error", "stopped",
-                                                          "trip"};
+constexpr std::array<std::string_view, 6> error_events = {"error", "errorstop", "block_error", "stopped",
+                                                          "trip", "pulled_out"};
 constexpr std::array<std::string_view, 7> warning_events = {
     "warning", "refused", "contradiction", "held_up", "overrun", "counts_lost", "pulse_lost"};
 

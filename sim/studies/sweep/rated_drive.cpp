@@ -73,7 +73,7 @@ std::string failed_rating(const std::vector<loop::DriveVerdict>& drives) {
   return (drives.size() > 1 ? worst->drive + " " : "") +
          (worst->trips.empty()
               ? fmt::format("{}: {:.4g} of {:.4g} {}", figure.name, figure.value, figure.rating, figure.unit)
-              : fmt::format("trip: {}", worst->trips.front()));
+              : worst->trips.front());
 }
 
 std::vector<std::string> rated_columns(const std::string& drive) {

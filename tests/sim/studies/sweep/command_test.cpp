@@ -123,7 +123,7 @@ TEST(FailedRating, IsTheWorstOfTheDriveThatNeedsMost) {
   saw.figures[0].value = 11.4;
   EXPECT_EQ(studies::failed_rating({knife, saw}), "saw.servo rms torque: 11.4 of 9.5 N m");
   saw.trips = {"overload at 3.200 s"};
-  EXPECT_EQ(studies::failed_rating({saw}), "trip: overload at 3.200 s");
+  EXPECT_EQ(studies::failed_rating({saw}), "overload at 3.200 s");
   knife.figures.pop_back();
   knife.figures.pop_back();
   EXPECT_EQ(studies::failed_rating({knife}), "");
