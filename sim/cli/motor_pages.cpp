@@ -22,9 +22,9 @@ std::string title_of(std::string_view kind) {
 
 // What the short table shows, where a motor of the kind has it.
 constexpr std::string_view told[] = {
-    "rated_power",        "rated_torque",      "stall_torque",     "peak_torque",     "pullout_torque",
-    "rated_speed",        "max_speed",         "rotor_inertia",    "torque_constant", "rated_current",
-    "winding_resistance", "stator_resistance", "amplifier_current"};
+    "rated_power",        "rated_torque",      "stall_torque",      "peak_torque",          "pullout_torque",
+    "rated_speed",        "max_speed",         "rotor_inertia",     "torque_constant",      "rated_current",
+    "winding_resistance", "stator_resistance", "amplifier_current", "largest_inertia_ratio"};
 
 // "9.55 N m" in two: number and unit.
 std::pair<std::string, std::string> split(const std::string& shown) {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/plain_text.hpp"
+#include "base/text.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/progress.hpp"
 #include "sim/file.hpp"
@@ -22,7 +23,7 @@ namespace {
 
 constexpr auto* size_file = "size.csv";
 constexpr auto* runs_file = "points.cache";  // goes on where it ended
-constexpr std::size_t most_told = 5;
+constexpr std::size_t most_told = 5;         // candidates
 
 /// The command line, read and found sound.
 struct SizePlan {
@@ -59,9 +60,9 @@ SizePlan read_size(const SizeOptions& options, Problems& problems) {
   studies::prepare(question, problems);
   if (problems.size() != before) return plan;
   const auto scenario = scenario::read_scenario_text(question.text, question.file, question.set, problems);
-  plan.choices = studies::read_choices({options.drive, options.motors, options.gears, options.resistors},
-                                       question, scenario, problems);
-  if (options.inertia_ratio > 0) plan.choices.most_inertia_ratio = options.inertia_ratio;
+  plan.choices = studies::read_choices(
+      {options.drive, options.motors, options.gears, options.resistors, options.inertia_ratio}, question,
+      scenario, problems);
   const auto& drive = plan.choices.drive;
   std::vector<std::string> sized;
   if (!drive.plant.empty()) {
@@ -87,19 +88,20 @@ SizePlan read_size(const SizeOptions& options, Problems& problems) {
   return plan;
 }
 
-void print_best(const SizePlan& plan, const std::vector<studies::Sized>& sized,
-                const std::vector<std::size_t>& order) {
-  using Kind = studies::Sized::Kind;
-  for (std::size_t rank = 0; rank < std::min(order.size(), most_told); ++rank) {
-    const auto& one = sized[order[rank]];
-    const auto name = printable(name_of(plan.candidates[order[rank]]));
-    if (one.kind == Kind::fits || one.kind == Kind::close)
-      fmt::print("{:>3}. {}: {:.0f} % left of {}, {}; motor's values {}\n", rank + 1, name, one.reserve,
-                 one.nearest, printable(one.hardest), plan.candidates[order[rank]].values);
-    else
-      fmt::print("{:>3}. {} {}: {}{}\n", rank + 1, name, name_of(one.kind), printable(one.reason),
-                 one.where.empty() ? "" : ", " + printable(one.where));
+void print_words(const studies::SizeResult& result) {
+  const auto fitting = count_fitting(result);
+  const auto best = printable(best_words(result));
+  if (fitting > 0)
+    fmt::print("{} of {} candidates fit at {}; {}\n", fitting, result.sized.size(),
+               counted(std::ssize(result.corners), "corner"), best);
+  else
+    fmt::print("{}\n", best);
+  for (std::size_t rank = 0; rank < std::min(result.order.size(), most_told); ++rank) {
+    const auto which = result.order[rank];
+    fmt::print("{:>3}. {}\n", rank + 1,
+               printable(candidate_words(result.candidates[which], result.sized[which])));
   }
+  for (const auto& note : size_notes(result)) fmt::print("note: {}\n", printable(note));
 }
 
 }  // namespace
@@ -124,27 +126,25 @@ int size_drive(const SizeOptions& options) {
     folder->begin_aside({runs_file});
     studies::PointStore store(folder->add(runs_file), std::move(workers));
     Progress bar;
-    const auto sized = studies::size_drives(plan.question, plan.candidates, plan.corners, store,
-                                            [&](std::size_t done, std::size_t of) {
+    const auto sized = studies::size_drives(plan.question, plan.choices.drive, plan.candidates, plan.corners,
+                                            store, [&](std::size_t done, std::size_t of) {
                                               bar.show(fmt::format("sizing, run {} of {}", done, of),
                                                        static_cast<double>(done) / static_cast<double>(of));
                                             });
     bar.clear();
     const auto order = studies::ranked(plan.candidates, sized);
     write_file(folder->add(size_file), studies::size_csv(plan.candidates, sized, order));
-    studies::write_size_report(plan.question, plan.choices, plan.candidates, plan.corners, sized, order,
-                               *folder);
+    const studies::SizeResult result{plan.question, plan.choices, plan.candidates,
+                                     plan.corners,  sized,        order};
+    studies::write_size_report(result, *folder);
     folder->finish();
-    print_best(plan, sized, order);
-    const auto fitting = std::count_if(sized.begin(), sized.end(), [](const auto& one) {
-      return one.kind == studies::Sized::Kind::fits || one.kind == studies::Sized::Kind::close;
-    });
-    fmt::print("{} of {} candidates fit at {} corners: {}\nreport: {}\n{} runs simulated now\n", fitting,
-               sized.size(), plan.corners.size(), (options.out / size_file).string(),
-               (options.out / "report.html").string(), store.simulated());
+    print_words(result);
+    fmt::print("{}: {}\nreport: {}\n{} simulated now\n", counted(std::ssize(sized), "candidate"),
+               (options.out / size_file).string(), (options.out / "report.html").string(),
+               counted(static_cast<std::int64_t>(store.simulated()), "run"));
     for (const auto& lost : store.lost()) fmt::print(stderr, "{}\n", printable(lost));
     if (!store.lost().empty()) return simulation_failed;
-    return fitting > 0 ? all_passed : check_failed;
+    return count_fitting(result) > 0 ? all_passed : check_failed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}: {}\n", options.out.string(), drycut::words_of(error));
     return simulation_failed;
@@ -161,10 +161,10 @@ void add_size(CLI::App& app, int& status) {
       "the "
       "corners of what the line must do. It fits where every check and every rating holds at each of them.\n"
       "size.csv: a row a candidate, ranked: 10 % of reserve or more before less, then the smallest motor by "
-      "rated "
-      "power, the smallest brake resistor, the largest reserve, the least energy; why each other falls out, "
-      "and "
-      "where. Reserve: the least distance to a rating over all corners.\n"
+      "rated power, the smallest brake resistor, the largest reserve, the least energy; then what does not "
+      "fit, "
+      "why and where, what is short by the least first. Reserve: the least distance to a rating over all "
+      "corners.\n"
       "What was interrupted goes on where it was. Status 1: none fits.");
   size->add_option("scenario", options.scenario, "Scenario file (.yaml)")->required();
   size->add_option("--drive", options.drive,
@@ -185,11 +185,11 @@ void add_size(CLI::App& app, int& status) {
       "--resistors", options.resistors,
       "Brake resistors: \"100,200 W\", \"13 ohm 100 W, 6.7 ohm 3 kW\", none; it stays as it is if not "
       "given");
-  size->add_option("--inertia-ratio", options.inertia_ratio,
-                   "The largest of load over rotor inertia, such as the motor's maker recommends; above, a "
-                   "candidate is "
-                   "ruled out without a run")
-      ->check(CLI::Range(1e-6, 1e6));
+  size->add_option(
+      "--inertia-ratio", options.inertia_ratio,
+      "The largest of load over rotor inertia, such as 15; a candidate with more is ruled out without "
+      "a run. Without it what the motor's maker says in the catalogue, else 10, of servo motors; "
+      "off: any");
   size->add_option(
           "--at", options.at,
           "A corner of what the line must do: \"variables.length=500 mm,plants.web.speed=120 m/min\"; may be "

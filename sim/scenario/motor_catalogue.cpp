@@ -404,6 +404,10 @@ std::string motor_template(std::string_view kind) {
       "    # What is not given is estimated on the safe side, and marked so. From the sheet it is better:\n";
   text += fmt::format("    # rated_power: {{value: ___ {}, from: sheet}} # compared with torque and speed\n",
                       unit("rated_power"));
+  if (table.find("largest_inertia_ratio") != nullptr)
+    text +=
+        "    # largest_inertia_ratio: {value: ___, from: sheet} # load over rotor that the maker recommends; "
+        "drycut size goes by it\n";
   for (const auto& estimate : table.estimates())
     text += fmt::format("    # {}: {{value: ___ {}, from: sheet}} # else {}\n", estimate.parameter,
                         unit(estimate.parameter), estimate.why);

@@ -21,10 +21,9 @@ namespace drycut::sim::scenario {
 
 struct MotorModel {
   struct Value {
-    std::string
-        parameter;      ///< of the group: "rated_torque"; or "rated_power", which the name plate alone has
-    Text text;          ///< as the file says it, and where
-    std::string shown;  ///< in the parameter's unit: "9.55 N m"
+    std::string parameter;  ///< of the group: "rated_torque"; or "rated_power", which the sheet alone has
+    Text text;              ///< as the file says it, and where
+    std::string shown;      ///< in the parameter's unit: "9.55 N m"
     /// "checked 2026-11-24: ...", compared with that page on that day; "unchecked: ...", of a sheet, but not
     /// compared; "estimate: ..."
     std::string from;

@@ -52,9 +52,12 @@ std::vector<std::vector<std::string_view>> needed_values(std::string_view kind) 
 MotorTable::MotorTable(std::string_view kind) : is_servo_(kind == motor_kinds[0]) {
   rows = is_servo_ ? servo_parameters(servo_) : induction_motor_parameters(induction_motor_);
   rows.push_back(plants::row("rated_power", "kW", "power of the name plate", rated_power_, 1e-3, 1e4, ""));
-  if (is_servo_)
-    rows.push_back(
-        plants::row("rated_current", "A", "rms current at rated torque", rated_current_, 1e-3, 1e4, ""));
+  if (!is_servo_) return;
+  rows.push_back(
+      plants::row("rated_current", "A", "rms current at rated torque", rated_current_, 1e-3, 1e4, ""));
+  rows.push_back(plants::row("largest_inertia_ratio", "",
+                             "load over rotor inertia that its maker recommends or allows at most",
+                             largest_inertia_ratio_, 1e-3, 1e4, ""));
 }
 
 const plants::Parameter* MotorTable::find(std::string_view name) const {

@@ -21,6 +21,7 @@ namespace {
 constexpr double largest_inertia_ratio = 300;    // that servo.inertia_ratio takes
 constexpr std::size_t most_candidates = 20'000;  // each is put together once before any runs
 constexpr std::int64_t largest_gear_word = 16'777'216;
+constexpr std::int64_t most_dividing = 2'000;  // lines of an encoder are looked for up to a multiple of that
 
 /// A ratio of whole numbers, in lowest terms.
 using Fraction = std::pair<std::int64_t, std::int64_t>;
@@ -94,6 +95,51 @@ class CandidateMaker {
     if (choices.drive.is_servo()) set_up_ = present_set_up();
   }
 
+  /// What to do about gears behind which the controller would count something else; "" if there are none.
+  [[nodiscard]] std::string misfit_note() const {
+    std::vector<std::string> gears;
+    std::int64_t dividing = 1;
+    if (choices_.gears.empty() || choices_.gear_is_tied) return "";
+    const double present = *number_in(plant_, "gear.ratio");
+    for (const auto& gear : gears_) {
+      const double ratio = number_of_text(gear);
+      const auto behind = fraction_of(ratio);
+      const auto now = fraction_of(present);
+      // Lines behind it: as many as now, times now over then.
+      const auto share = behind && now ? product(*now, {behind->second, behind->first}) : std::nullopt;
+      dividing = share ? std::lcm(dividing, share->second) : most_dividing + 1;
+      dividing = std::min(dividing, most_dividing + 1);
+      if (const auto lines = broken_lines(ratio / present))
+        gears.push_back(fmt::format("{} ({:.6g} lines)", gear, *lines));
+    }
+    if (gears.empty()) return "";
+    const double lines = *number_in(plant_, "encoder.lines");
+    const double turn = lines * present;
+    const auto encoder = choices_.drive.path("encoder");
+    std::vector<std::string> ways;
+    if (number_in(plant_, "encoder.on_drum") && turn == std::rint(turn))
+      ways.push_back(
+          fmt::format("count an encoder on the drum, {}: {{on_drum: true, lines: {:.0f}}}, with one zero "
+                      "pulse a turn for homing",
+                      encoder, turn));
+    if (dividing <= most_dividing) {
+      const double other =
+          static_cast<double>(dividing) * std::max(1.0, std::rint(lines / static_cast<double>(dividing)));
+      ways.push_back(fmt::format("take {}: {{lines: {:.0f}}} and {} counts a turn of the load in the program",
+                                 encoder, other, number_text(4 * other * present)));
+    }
+    ways.push_back(
+        fmt::format("tie the program's counts a turn, 4 x {:.0f} x gear, to a variable and give --gears "
+                    "variables.gear=...; "
+                    "where a turn has no whole number of counts, give ten turns and ten times the counts",
+                    lines));
+    return fmt::format(
+        "gear {}: left out, for no whole number of encoder lines gives the controller its {} counts a turn "
+        "of "
+        "the load; {}",
+        fmt::join(gears, ", "), number_text(4 * turn), fmt::join(ways, "; or "));
+  }
+
   std::vector<Candidate> run() {
     std::vector<Candidate> candidates;
     candidates.reserve(choices_.motors.size() * gears_.size() * resistors_.size());
@@ -145,13 +191,28 @@ class CandidateMaker {
     }
     made.ratings = machine.drive->ratings;
     made.inertia_ratio = machine.drive->inertia_ratio;
-    if (made.unfit.empty() && made.inertia_ratio > choices_.most_inertia_ratio)
-      made.unfit = fmt::format("load over rotor inertia {:.3g}, at most {:.3g} is asked for",
-                               made.inertia_ratio, choices_.most_inertia_ratio);
+    limit_inertia(motor, made);
     if (drive.is_servo())
       made.overrides.push_back({inertia_ratio, number_text(std::clamp(set_up_ * (1 + made.inertia_ratio) - 1,
                                                                       0.0, largest_inertia_ratio))});
     return made;
+  }
+
+  void limit_inertia(const scenario::MotorModel& motor, Candidate& made) const {
+    const double makers = si_of(motor, "largest_inertia_ratio");
+    if (choices_.most_inertia_ratio) {
+      made.most_inertia_ratio = *choices_.most_inertia_ratio;
+      made.ratio_from = from_option;
+    } else if (makers > 0) {
+      made.most_inertia_ratio = makers;
+      made.ratio_from = from_maker;
+    } else if (choices_.drive.is_servo()) {
+      made.most_inertia_ratio = usual_inertia_ratio;
+      made.ratio_from = from_usage;
+    }
+    if (made.unfit.empty() && made.is_too_heavy())
+      made.unfit = fmt::format("load over rotor inertia {:.3g}, at most {:.3g} {}", made.inertia_ratio,
+                               made.most_inertia_ratio, made.ratio_from);
   }
 
   static double number_of_text(const std::string& text) { return scenario::parse_quantity(text)->number; }
@@ -188,22 +249,33 @@ class CandidateMaker {
         {choices_.drive.path("servo.pulses.gear_denominator"), std::to_string(gear->second)});
   }
 
-  void take_encoder(Candidate& made, double factor) const {
+  /// The lines of a motor's encoder behind a gear of so many times the present one, where the controller
+  /// counts it; nothing if it does not.
+  [[nodiscard]] std::optional<double> counted_lines(double factor) const {
     const auto lines = number_in(plant_, "encoder.lines");
-    if (!counts_ || !lines || number_in(plant_, "encoder.on_drum").value_or(0) != 0) return;
-    const double wanted = *lines / factor;
-    const double whole = std::rint(wanted);
-    if (whole >= 1 && std::abs(wanted - whole) <= 1e-9 * wanted) {
-      made.overrides.push_back({choices_.drive.path("encoder.lines"), number_text(whole)});
+    if (!counts_ || !lines || number_in(plant_, "encoder.on_drum").value_or(0) != 0) return {};
+    return *lines / factor;
+  }
+  static bool is_whole(double lines) {
+    return std::rint(lines) >= 1 && std::abs(lines - std::rint(lines)) <= 1e-9 * lines;
+  }
+  /// The same where it is no whole number.
+  [[nodiscard]] std::optional<double> broken_lines(double factor) const {
+    const auto lines = counted_lines(factor);
+    return lines && !is_whole(*lines) ? lines : std::nullopt;
+  }
+
+  void take_encoder(Candidate& made, double factor) const {
+    const auto counted = counted_lines(factor);
+    if (!counted) return;
+    const double wanted = *counted;
+    if (is_whole(wanted)) {
+      made.overrides.push_back({choices_.drive.path("encoder.lines"), number_text(std::rint(wanted))});
       return;
     }
-    const double turn = *lines * number_of_text(made.gear) / factor;  // lines for a turn of the load
-    const auto fitting = [&](double lines_of_motor) { return number_text(turn / lines_of_motor); };
     made.unfit = fmt::format(
-        "no whole number of lines of the motor's encoder gives the controller the same counts ({:.6g}); gear "
-        "{}{} "
-        "does, or tie the program's counts to a variable",
-        wanted, fitting(std::floor(wanted) + 1), wanted > 1 ? " or " + fitting(std::floor(wanted)) : "");
+        "no whole number of lines of the motor's encoder gives the controller the same counts ({:.6g})",
+        wanted);
   }
 
   Candidate with_resistor(Candidate made, const BrakeResistor& resistor) const {
@@ -299,7 +371,9 @@ std::vector<Candidate> candidates_of(SizeChoices& choices, const PointQuestion& 
   }
   check_resistors(choices, question, problems);
   if (problems.size() != before) return {};
-  return CandidateMaker(choices, question, scenario).run();
+  CandidateMaker maker(choices, question, scenario);
+  if (auto note = maker.misfit_note(); !note.empty()) choices.notes.push_back(std::move(note));
+  return maker.run();
 }
 
 }  // namespace drycut::sim::studies

@@ -1,5 +1,7 @@
 #pragma once
+#include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "plants/power_stage.hpp"
@@ -19,10 +21,18 @@ struct Candidate {
   /// Share of the bus voltage's way to its limit up to which the brake resistor holds it; 0 without one.
   double braked_share = 0;
   plants::DriveRatings ratings;
-  double inertia_ratio = 0;  ///< load over rotor
+  double inertia_ratio = 0;                                             ///< load over rotor
+  double most_inertia_ratio = std::numeric_limits<double>::infinity();  ///< that is taken
+  std::string ratio_from = {};                                          ///< who says so: one of these
+  [[nodiscard]] bool is_too_heavy() const { return inertia_ratio > most_inertia_ratio; }
   std::vector<scenario::Override> overrides;
   std::string unfit;  ///< why it cannot be set up at all; "" = it can be run
 };
+
+// Who says how large the inertia ratio may be, as a sentence about the limit ends.
+inline constexpr std::string_view from_option = "is asked for";
+inline constexpr std::string_view from_maker = "is what its maker allows";
+inline constexpr std::string_view from_usage = "is usual, and the catalogue has no value of its maker";
 
 /// "HG-SR202, gear 7, 13 ohm 100 W": without what stays as it is.
 std::string name_of(const Candidate& candidate);
@@ -30,7 +40,8 @@ std::string name_of(const Candidate& candidate);
 /// All of them: motors, of each its gears, of each its resistors. So that it is the same machine for the
 /// controller: a gear takes along the speed at 10 V or the electronic gear and, if the controller counts an
 /// encoder on the motor, its lines (a gear to which no whole number of lines belongs cannot be set up). A
-/// gear that the scenario ties takes along what the scenario says. The inertia ratio set in a servo amplifier
+/// gear that the scenario ties takes along what the scenario says; what to do about gears that cannot be set
+/// up goes to the notes of the choices. The inertia ratio set in a servo amplifier
 /// follows the machine's, so that the speed loop stays as quick as the scenario has it. Choices that no
 /// scenario takes are told in `problems`.
 std::vector<Candidate> candidates_of(SizeChoices& choices, const PointQuestion& question,

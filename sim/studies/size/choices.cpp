@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 #include "base/text.hpp"
@@ -249,6 +250,20 @@ void read_resistors(const std::string& text, const scenario::Scenario& scenario,
   choices.resistors = ResistorReader(text, problems).run();
 }
 
+void read_inertia_ratio(const std::string& text, SizeChoices& choices, Problems& problems) {
+  if (text.empty()) return;
+  if (text == "off") {
+    choices.most_inertia_ratio = std::numeric_limits<double>::infinity();
+    return;
+  }
+  const auto ratio = scenario::parse_quantity(text);
+  if (ratio && ratio->unit.empty() && ratio->number > 0)
+    choices.most_inertia_ratio = ratio->number;
+  else
+    problems.push_back({"--inertia-ratio", 1, 1, fmt::format("'{}' is no ratio of inertias", text),
+                        "load over rotor, above 0, such as 15; off: it is not judged"});
+}
+
 }  // namespace
 
 const scenario::PlantEntry& plant_of(const SizedDrive& drive, const scenario::Scenario& scenario) {
@@ -280,10 +295,12 @@ SizeChoices read_choices(const SizeTexts& texts, const PointQuestion& question,
   if (!drive) return choices;
   choices.drive = *drive;
   choices.motors = read_motors_of(texts.motors, choices.drive, question, problems);
+  choices.all_motors = texts.motors == "all";
   check_shared(choices.drive, scenario, problems);
   check_motor_values(choices.drive, choices.motors, scenario, problems);
   read_gears(texts.gears, scenario, choices, problems);
   read_resistors(texts.resistors, scenario, choices, problems);
+  read_inertia_ratio(texts.inertia_ratio, choices, problems);
   return choices;
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,22 +39,30 @@ struct BrakeResistor {
   std::optional<double> power;  ///< that it bears for ever [W]
 };
 
+/// Load over rotor inertia up to which a motor is taken whose sheet says nothing of it.
+inline constexpr double usual_inertia_ratio = 10;
+
 /// What is tried in place of what the scenario has.
 struct SizeChoices {
   SizedDrive drive;
   std::vector<scenario::MotorModel> motors;
-  SweepAxes gears;  ///< none: the gear stays; else one axis
+  bool all_motors = false;  ///< of the catalogue
+  SweepAxes gears;          ///< none: the gear stays; else one axis
   bool gear_is_tied =
       false;  ///< the axis is another value of the scenario, which ties to it what goes with it
-  std::vector<BrakeResistor> resistors;                                 ///< none: it stays
-  double most_inertia_ratio = std::numeric_limits<double>::infinity();  ///< load over rotor; above, ruled out
+  std::vector<BrakeResistor> resistors;  ///< none: it stays
+  /// Load over rotor inertia; a candidate with more is ruled out. Infinity: any. None: what its maker says,
+  /// else the usual one.
+  std::optional<double> most_inertia_ratio;
+  std::vector<std::string> notes = {};  ///< on gears that cannot be tried as the machine is: candidates_of()
 };
 
 struct SizeTexts {
-  std::string drive;      ///< "knife.servo"; "" = the only one
-  std::string motors;     ///< "all", "HG-SR202,HG-SR3*"
-  std::string gears;      ///< "5..20:16", "5,7,10", "variables.gear=5,7,10"; "" = as it is
-  std::string resistors;  ///< "100,200 W", "13 ohm 100 W, none"; "" = as it is
+  std::string drive;          ///< "knife.servo"; "" = the only one
+  std::string motors;         ///< "all", "HG-SR202,HG-SR3*"
+  std::string gears;          ///< "5..20:16", "5,7,10", "variables.gear=5,7,10"; "" = as it is
+  std::string resistors;      ///< "100,200 W", "13 ohm 100 W, none"; "" = as it is
+  std::string inertia_ratio;  ///< "15", "off"; "" = the maker's, else the usual one
 };
 
 /// Reads what is to be tried on `scenario`, which is that of the question. Gears are read and not tried yet.

@@ -150,7 +150,7 @@ std::vector<Corner> read_corners(const std::vector<std::string>& texts, const st
   if (problems.size() == before)
     for (std::size_t i = 0; i < corners.size(); ++i)
       check_corner(corners[i], i < typed ? at_option : file.string(), question, sized, problems);
-  if (texts.empty() && file.empty()) corners.push_back({"as the scenario is", {}});
+  if (texts.empty() && file.empty()) corners.push_back({std::string(scenario_itself), {}});
   return corners;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/problem.hpp"
@@ -13,6 +14,9 @@ struct Corner {
   std::string name;  ///< "length=500 mm, web.speed=120 m/min"
   std::vector<scenario::Override> overrides;
 };
+
+/// What the one corner is called where none is given.
+inline constexpr std::string_view scenario_itself = "as the scenario is";
 
 /// Reads each text of `--at`, PATH=VALUE with commas between, and the points of `file`, "" = none, an
 /// envelope.csv: of each the largest value found. Where neither gives one, the scenario as it is. A corner

@@ -24,18 +24,6 @@ constexpr std::size_t most_corners_drawn = 6;
 constexpr std::size_t most_curves = 6;
 constexpr std::size_t fewest_gears = 3;  // of which a curve is drawn
 
-/// A sizing as its page sees it.
-struct SizePage {
-  const PointQuestion& question;
-  const SizeChoices& choices;
-  const std::vector<Candidate>& candidates;
-  const std::vector<Corner>& corners;
-  const std::vector<Sized>& sized;
-  const std::vector<std::size_t>& order;
-};
-
-bool holds(Sized::Kind kind) { return kind == Sized::Kind::fits || kind == Sized::Kind::close; }
-
 std::string share_text(double share) { return std::isnan(share) ? "" : fmt::format("{:.0f}", share); }
 
 std::string share_of(const Sized& one, std::string_view rating) {
@@ -47,7 +35,7 @@ std::string ratio_text(const Candidate& candidate) {
 }
 
 /// `each`: every candidate that fits, else the best of each motor.
-renders::ReportTable what_fits(const SizePage& page, bool each) {
+renders::ReportTable what_fits(const SizeResult& page, bool each) {
   renders::ReportTable table{
       each ? "All that fit, in this order" : "What fits: the best of each motor, in this order",
       {"", "motor", "its values", "rated power [kW]"},
@@ -63,7 +51,7 @@ renders::ReportTable what_fits(const SizePage& page, bool each) {
   for (std::size_t rank = 0; rank < page.order.size() && table.rows.size() < most_rows_of_sizes; ++rank) {
     const auto& candidate = page.candidates[page.order[rank]];
     const auto& one = page.sized[page.order[rank]];
-    if (!holds(one.kind)) break;
+    if (!fits(one)) break;
     if (!seen.insert(candidate.motor).second && !each) continue;
     std::vector<std::string> cells = {std::to_string(rank + 1), candidate.motor, candidate.values,
                                       fmt::format("{:.3g}", candidate.rated_power / 1e3)};
@@ -78,50 +66,64 @@ renders::ReportTable what_fits(const SizePage& page, bool each) {
   return table;
 }
 
-renders::ReportTable what_falls_out(const SizePage& page) {
-  renders::ReportTable table{"What falls out and why, the nearest to its limits first",
-                             {"motor", "gear", "brake resistor", "why", "at", "rms torque [%]",
+/// "119 % of rms torque"; "" where nothing is short, "?" where nobody can say.
+std::string short_words(const Sized& one) {
+  const auto& distance = one.distance;
+  if (one.kind == Sized::Kind::does_not_fit && distance.unknown > 0) return "?";
+  return distance.short_by > 0 ? fmt::format("{:.3g} % of {}", distance.short_by, distance.rating) : "";
+}
+
+/// `each`: every candidate that does not fit, else the nearest of each motor.
+renders::ReportTable what_does_not_fit(const SizeResult& page, bool each) {
+  renders::ReportTable table{each ? "What does not fit and why, the nearest to fitting first"
+                                  : "What comes nearest: the best of each motor",
+                             {"motor", "gear", "brake resistor", "short by", "why", "at", "rms torque [%]",
                               "peak torque [%]", "largest speed [%]", "load / rotor inertia"},
                              {},
-                             true};
+                             each};
+  std::set<std::string> seen;
   std::size_t more = 0;
   for (const auto i : page.order) {
     const auto& candidate = page.candidates[i];
     const auto& one = page.sized[i];
-    if (holds(one.kind)) continue;
-    if (table.rows.size() == most_rows_of_sizes) {
+    if (fits(one) || (!seen.insert(candidate.motor).second && !each)) continue;
+    if (table.rows.size() == (each ? most_rows_of_sizes : most_motors_drawn)) {
       ++more;
       continue;
     }
     table.rows.push_back(
         {{candidate.motor, ratio_text(candidate),
-          candidate.resistor.text.empty() ? "as it is" : candidate.resistor.text, one.reason, one.where,
-          share_of(one, "rms torque"), share_of(one, "peak torque"), share_of(one, "largest speed"),
+          candidate.resistor.text.empty() ? "as it is" : candidate.resistor.text, short_words(one),
+          one.reason, one.where, share_of(one, "rms torque"), share_of(one, "peak torque"),
+          share_of(one, "largest speed"),
           candidate.inertia_ratio > 0 ? fmt::format("{:.3g}", candidate.inertia_ratio) : ""}});
   }
-  if (more > 0) table.title += fmt::format("; {} more are in size.csv", more);
+  if (more > 0 && each) table.title += fmt::format("; {} more are in size.csv", more);
   return table;
 }
 
-/// The first of each motor in the order, of those that have run at every corner.
-std::vector<std::size_t> best_of_motors(const SizePage& page) {
+/// The first of each motor in the order, of those that are known at one corner at least.
+std::vector<std::size_t> best_of_motors(const SizeResult& page) {
   std::set<std::string> seen;
   std::vector<std::size_t> best;
   for (const auto i : page.order)
-    if (page.sized[i].drives.size() == page.corners.size() && seen.insert(page.candidates[i].motor).second)
+    if (const auto& drives = page.sized[i].drives;
+        std::any_of(drives.begin(), drives.end(), [](const auto& drive) { return drive.has_value(); }) &&
+        seen.insert(page.candidates[i].motor).second)
       best.push_back(i);
   return best;
 }
 
-/// The corners in which most of a rating is used, the hardest first.
+/// The corners in which most of a rating is used, of those that are known.
 std::vector<std::size_t> hardest_corners(const Sized& one) {
   const auto used = [&](std::size_t corner) {
     double most = 0;
-    for (const auto& figure : one.drives[corner].figures) most = std::fmax(most, figure.share);
+    for (const auto& figure : one.drives[corner]->figures) most = std::fmax(most, figure.share);
     return most;
   };
-  std::vector<std::size_t> corners(one.drives.size());
-  std::iota(corners.begin(), corners.end(), std::size_t{0});
+  std::vector<std::size_t> corners;
+  for (std::size_t i = 0; i < one.drives.size(); ++i)
+    if (one.drives[i]) corners.push_back(i);
   std::stable_sort(corners.begin(), corners.end(),
                    [&](std::size_t a, std::size_t b) { return used(a) > used(b); });
   corners.resize(std::min(corners.size(), most_corners_drawn));
@@ -130,7 +132,7 @@ std::vector<std::size_t> hardest_corners(const Sized& one) {
 }
 
 /// Operating points of a candidate at its hardest corners, in the borders of its motor.
-renders::Plot operating_points(const SizePage& page, std::size_t rank, std::size_t which) {
+renders::Plot operating_points(const SizeResult& page, std::size_t rank, std::size_t which) {
   const auto& candidate = page.candidates[which];
   const auto& one = page.sized[which];
   renders::Plot plot;
@@ -140,14 +142,14 @@ renders::Plot operating_points(const SizePage& page, std::size_t rank, std::size
   plot.width = 760;
   plot.panel_height = 430;
   renders::Panel panel;
-  panel.title = holds(one.kind)
+  panel.title = fits(one)
                     ? fmt::format("{}: {:.0f} % left of {}", name_of(one.kind), one.reserve, one.nearest)
-                    : one.reason.substr(0, one.reason.find(';'));
+                    : "does not fit: " + one.reason.substr(0, one.reason.find_first_of(",;"));
   panel.y_label = "motor torque [N m]";
   bool both_ways = false;
   renders::Curve rms{"rms of the hardest cycle", {}, {}, renders::Curve::Style::points};
   for (const auto corner : hardest_corners(one)) {
-    const auto& drive = one.drives[corner];
+    const auto& drive = *one.drives[corner];
     renders::Curve points{page.corners[corner].name, {}, {}, renders::Curve::Style::points};
     for (const auto& [speed, torque] : drive.outline) {
       if (std::isnan(speed)) continue;
@@ -168,7 +170,7 @@ renders::Plot operating_points(const SizePage& page, std::size_t rank, std::size
   return plot;
 }
 
-renders::ReportSection operating_section(const SizePage& page, std::vector<renders::Plot>& plots) {
+renders::ReportSection operating_section(const SizeResult& page, std::vector<renders::Plot>& plots) {
   const auto best = best_of_motors(page);
   renders::ReportSection section;
   for (std::size_t rank = 0; rank < std::min(best.size(), most_motors_drawn); ++rank)
@@ -177,19 +179,20 @@ renders::ReportSection operating_section(const SizePage& page, std::vector<rende
   section.notes = {fmt::format(
       "The best gear and resistor of {} of {} motors, in the order of the table, then those that come "
       "nearest. At each speed the highest and the lowest "
-      "torque of the whole run, at {} of {} corners{}.",
+      "torque of the whole run, at {} of {} corners{}; none of a corner at which the run ended early.",
       plots.size(), best.size(), std::min(page.corners.size(), most_corners_drawn), page.corners.size(),
       page.corners.size() > most_corners_drawn ? ", those that use most" : "")};
   return section;
 }
 
 /// Reserve, torque and inertia over the gear, a curve a motor.
-std::optional<renders::Plot> over_gears(const SizePage& page) {
+std::optional<renders::Plot> over_gears(const SizeResult& page) {
   if (page.choices.gears.empty() || page.choices.gears.front().values.size() < fewest_gears) return {};
   renders::Plot plot;
   plot.name = "over_gears";
   plot.title =
-      "Over the gear's ratio, the best motors, at the hardest corner; without reserve a motor falls out";
+      "Over the gear's ratio, the best motors, at the hardest corner; a gap: not known, for a run ended "
+      "early";
   plot.x_label = "gear ratio";
   plot.panel_height = 260;
   plot.panels = {{"", "reserve [%]", {}, {}, std::pair(-50.0, 100.0)},
@@ -201,17 +204,20 @@ std::optional<renders::Plot> over_gears(const SizePage& page) {
     std::vector<std::size_t> same;
     for (std::size_t i = 0; i < page.candidates.size(); ++i)
       if (page.candidates[i].motor == page.candidates[best].motor &&
-          page.candidates[i].resistor.text == page.candidates[best].resistor.text &&
-          !std::isnan(page.sized[i].reserve))
+          page.candidates[i].resistor.text == page.candidates[best].resistor.text)
         same.push_back(i);
-    if (same.size() < 2) continue;
+    const bool any =
+        std::any_of(same.begin(), same.end(), [&](auto i) { return !std::isnan(page.sized[i].reserve); });
+    if (same.size() < 2 || !any) continue;
     std::sort(same.begin(), same.end(),
               [&](auto a, auto b) { return page.candidates[a].ratio < page.candidates[b].ratio; });
     std::array<renders::Curve, 3> curves;
     for (auto& curve : curves) curve.label = page.candidates[best].motor;
     for (const auto i : same) {
-      const std::array<double, 3> values = {std::max(-50.0, page.sized[i].reserve),
-                                            std::min(150.0, page.sized[i].shares.at(rms)),
+      const auto& one = page.sized[i];
+      const bool known = !std::isnan(one.reserve);
+      const std::array<double, 3> values = {known ? std::max(-50.0, one.reserve) : one.reserve,
+                                            known ? std::min(150.0, one.shares.at(rms)) : one.reserve,
                                             page.candidates[i].inertia_ratio};
       for (std::size_t k = 0; k < curves.size(); ++k) {
         curves.at(k).x.push_back(page.candidates[i].ratio);
@@ -226,7 +232,7 @@ std::optional<renders::Plot> over_gears(const SizePage& page) {
 }
 
 /// What the command changes beside motor, gear and resistor, as a fact.
-std::string taken_along(const SizePage& page) {
+std::string taken_along(const SizeResult& page) {
   std::string text =
       page.choices.drive.is_servo()
           ? "inertia ratio set in the amplifier: the speed loop stays as quick as the scenario has it"
@@ -245,17 +251,19 @@ std::string in_shell(const std::string& words) {
   return text + "'";
 }
 
-renders::Report size_page(const SizePage& page) {
+renders::Report size_page(const SizeResult& page) {
   renders::Report report;
-  const auto fitting = static_cast<std::size_t>(
-      std::count_if(page.sized.begin(), page.sized.end(), [](const auto& one) { return holds(one.kind); }));
+  const auto fitting = count_fitting(page);
   report.title =
       fmt::format("Sizing of {} in {}", page.choices.drive.full_name(), page.question.file.stem().string());
   report.scenario = page.question.file.filename().string();
   report.passed = fitting > 0;
-  report.word = fmt::format("{} FIT", fitting);
-  report.verdict = fmt::format("of {} at {}", counted(page.candidates.size(), "candidate"),
-                               counted(page.corners.size(), "corner"));
+  report.verdict = best_words(page);
+  if (fitting > 0) {
+    report.word = fmt::format("{} FIT", fitting);
+    report.verdict = fmt::format("of {} at {}; {}", counted(std::ssize(page.candidates), "candidate"),
+                                 counted(std::ssize(page.corners), "corner"), report.verdict);
+  }
   std::vector<std::string> names;
   for (const auto& corner : page.corners) names.push_back(corner.name);
   report.facts = {
@@ -276,20 +284,31 @@ renders::Report size_page(const SizePage& page) {
         fmt::format("a reserve of {:.0f} % or more before less; then the smallest motor by rated power, the "
                     "smallest brake resistor, the largest reserve, the least energy",
                     good_reserve)}},
+      {{"short by",
+        "the largest share of a rating beyond 100 %, over all corners; where a run ended early or at its "
+        "limit, "
+        "what a motor of that inertia without limits needs there"}},
       {{"set up with each", taken_along(page)}},
+      {{"as the scenario has it", "stiffness, play and friction of the gear, with every candidate"}},
       {{"drycut", DRYCUT_VERSION}}};
   report::add_overrides(page.question.set, report);
-  report.summary = {what_fits(page, false)};
-  report.tables = {what_fits(page, true), what_falls_out(page)};
+  report.notes = size_notes(page);
+  report.summary = {fitting > 0 ? what_fits(page, false) : what_does_not_fit(page, false)};
+  if (fitting > 0) report.tables.push_back(what_fits(page, true));
+  if (fitting < page.sized.size()) report.tables.push_back(what_does_not_fit(page, true));
   if (page.order.empty()) return report;
   const auto first = page.order.front();
-  if (page.sized[first].drives.size() != page.corners.size()) return report;
-  const auto hardest = std::find_if(page.corners.begin(), page.corners.end(), [&](const auto& corner) {
-    return corner.name == page.sized[first].hardest;
-  });
-  report.texts.push_back({"The command that runs the first of them at its hardest corner with pictures",
+  const auto& one = page.sized[first];
+  if (one.kind == Sized::Kind::ruled_out) return report;
+  const auto& hardest = !fits(one) && !one.distance.corner.empty() ? one.distance.corner : one.hardest;
+  const auto corner = std::find_if(page.corners.begin(), page.corners.end(),
+                                   [&](const auto& known) { return known.name == hardest; });
+  report.texts.push_back({fits(one)
+                              ? "The command that runs the first of them at its hardest corner with pictures"
+                              : fmt::format("The command that shows with pictures how {}, the nearest, fails",
+                                            name_of(page.candidates[first])),
                           command_for(page.question, page.candidates[first],
-                                      hardest == page.corners.end() ? page.corners.front() : *hardest)});
+                                      corner == page.corners.end() ? page.corners.front() : *corner)});
   return report;
 }
 
@@ -303,11 +322,7 @@ std::string command_for(const PointQuestion& question, const Candidate& candidat
   return text;
 }
 
-void write_size_report(const PointQuestion& question, const SizeChoices& choices,
-                       const std::vector<Candidate>& candidates, const std::vector<Corner>& corners,
-                       const std::vector<Sized>& sized, const std::vector<std::size_t>& order,
-                       OutputFolder& folder) {
-  const SizePage page{question, choices, candidates, corners, sized, order};
+void write_size_report(const SizeResult& page, OutputFolder& folder) {
   auto report = size_page(page);
   if (auto plot = over_gears(page)) report::add_plots({std::move(*plot)}, folder, report);
   std::vector<renders::Plot> small;

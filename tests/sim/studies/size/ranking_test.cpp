@@ -15,6 +15,13 @@ Candidate motor(const std::string& name, double power, double resistor = 0) {
   made.resistor_power = resistor;
   return made;
 }
+Sized short_by(double percent, std::size_t unknown = 0, std::size_t corners = 1) {
+  Sized made;
+  made.kind = Sized::Kind::does_not_fit;
+  made.reserve = NAN;
+  made.distance = {unknown, percent, "rms torque", "a corner", corners};
+  return made;
+}
 Sized result(Sized::Kind kind, double reserve, double energy = 1) {
   Sized made;
   made.kind = kind;
@@ -25,13 +32,34 @@ Sized result(Sized::Kind kind, double reserve, double energy = 1) {
 
 TEST(SizeRanking, IsTheOrderThatIsStated) {
   using Kind = Sized::Kind;
-  const std::vector<Candidate> candidates = {
-      motor("cannot", 1),    motor("far", 1),         motor("near", 9),
-      motor("close", 1),     motor("large", 3),       motor("small", 2, 100),
-      motor("less", 2, 100), motor("hungry", 2, 100), motor("warm", 2, 200)};
+  auto heavy = motor("heavy", 1);
+  heavy.inertia_ratio = 30;
+  heavy.most_inertia_ratio = 10;
+  auto less_heavy = heavy;
+  less_heavy.motor = "less heavy";
+  less_heavy.inertia_ratio = 11;
+  const std::vector<Candidate> candidates = {motor("cannot", 1),
+                                             heavy,
+                                             less_heavy,
+                                             motor("nobody knows", 1),
+                                             motor("far", 1),
+                                             motor("near", 9),
+                                             motor("not short", 9),
+                                             motor("near twice", 1),
+                                             motor("close", 1),
+                                             motor("large", 3),
+                                             motor("small", 2, 100),
+                                             motor("less", 2, 100),
+                                             motor("hungry", 2, 100),
+                                             motor("warm", 2, 200)};
   const std::vector<Sized> sized = {result(Kind::ruled_out, NAN, NAN),
-                                    result(Kind::falls_out, -50),
-                                    result(Kind::falls_out, -5),
+                                    result(Kind::ruled_out, NAN, NAN),
+                                    result(Kind::ruled_out, NAN, NAN),
+                                    short_by(2, 1),
+                                    short_by(50),
+                                    short_by(5),
+                                    short_by(0),
+                                    short_by(5, 0, 2),
                                     result(Kind::close, 9),
                                     result(Kind::fits, 80),
                                     result(Kind::fits, 30),
@@ -40,8 +68,9 @@ TEST(SizeRanking, IsTheOrderThatIsStated) {
                                     result(Kind::fits, 90)};
   std::vector<std::string> names;
   for (const auto i : ranked(candidates, sized)) names.push_back(candidates[i].motor);
-  EXPECT_THAT(names, testing::ElementsAre("small", "hungry", "less", "warm", "large", "close", "near", "far",
-                                          "cannot"));
+  EXPECT_THAT(names,
+              testing::ElementsAre("small", "hungry", "less", "warm", "large", "close", "not short", "near",
+                                   "near twice", "far", "nobody knows", "less heavy", "heavy", "cannot"));
 }
 
 // A row has every figure that the judge judges, and gives it back.

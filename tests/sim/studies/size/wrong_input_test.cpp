@@ -51,6 +51,11 @@ TEST_F(SizeCommand, BadInputIsToldBeforeAnythingRuns) {
       {"--resistors:1:1: '-5 W' is no brake resistor", [](auto& o) { o.resistors = "-5 W"; }},
       {"--resistors:1:1: '100' is no brake resistor", [](auto& o) { o.resistors = "100"; }},
       {"resistor_power", [](auto& o) { o.resistors = "1e9 W"; }},
+      {"--inertia-ratio:1:1: '-5' is no ratio of inertias", [](auto& o) { o.inertia_ratio = "-5"; }},
+      {"--inertia-ratio:1:1: '15 mm' is no ratio of inertias", [](auto& o) { o.inertia_ratio = "15 mm"; }},
+      {"--inertia-ratio:1:1: 'of' is no ratio of inertias; load over rotor, above 0, such as 15; off: it is "
+       "not judged",
+       [](auto& o) { o.inertia_ratio = "of"; }},
       {"--at:1:1: 'length' is no PATH=VALUE", [](auto& o) { o.at = {"length"}; }},
       {"--at:1:25: variables.length is given twice",
        [](auto& o) { o.at = {"variables.length=800 mm,variables.length=1 m"}; }},
