@@ -119,8 +119,8 @@ class CandidateMaker {
     std::vector<std::string> ways;
     if (number_in(plant_, "encoder.on_drum") && turn == std::rint(turn))
       ways.push_back(
-          fmt::format("count an encoder on the drum, {}: {{on_drum: true, lines: {:.0f}}}, with one zero "
-                      "pulse a turn for homing",
+          fmt::format("count an encoder on the drum, {}: {{on_drum: true, lines: {:.0f}}}, whose one zero "
+                      "pulse a turn may need another preset of homing",
                       encoder, turn));
     if (dividing <= most_dividing) {
       const double other =

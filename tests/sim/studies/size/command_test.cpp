@@ -258,7 +258,7 @@ TEST_F(SizeCommand, ACornerThatFailsIsNamed) {
   EXPECT_EQ(run(), check_failed) << err;
   const auto one = rows().front();
   EXPECT_EQ(one.at("verdict"), "does not fit");
-  EXPECT_EQ(one.at("reason"), "check 'cut length' failed, with a motor without limits too");
+  EXPECT_EQ(one.at("reason"), "check 'cut length' failed (with a motor without limits, too)");
   EXPECT_THAT(one.at("where"), HasSubstr(" and 1 more corner"));
   // It ran all the same.
   EXPECT_GT(number(one, "reserve [%]"), 0);
