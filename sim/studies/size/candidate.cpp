@@ -119,7 +119,9 @@ class CandidateMaker {
     std::vector<std::string> ways;
     if (number_in(plant_, "encoder.on_drum") && turn == std::rint(turn))
       ways.push_back(
-          fmt::format("count an encoder on the drum, {}: {{on_drum: true, lines: {:.0f}}}", encoder, turn));
+          fmt::format("count an encoder on the drum, {}: {{on_drum: true, lines: {:.0f}}}, whose one zero "
+                      "pulse a turn may need another preset of homing",
+                      encoder, turn));
     if (dividing <= most_dividing) {
       const double other =
           static_cast<double>(dividing) * std::max(1.0, std::rint(lines / static_cast<double>(dividing)));

@@ -28,7 +28,7 @@ std::vector<scenario::Override> without_limits(const SizedDrive& drive) {
 }
 
 std::array<RatedDrive::Figure, ratings.size()> needs_of(const RatedDrive& unlimited,
-                                                        const plants::DriveRatings& rated) {
+                                                        const plants::DriveRatings& rated, bool peaks) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   std::array<RatedDrive::Figure, ratings.size()> needs;
   needs.fill({none, none});
@@ -38,6 +38,7 @@ std::array<RatedDrive::Figure, ratings.size()> needs_of(const RatedDrive& unlimi
     needs.at(i) = {value, value / most};
   };
   need("rms torque", rated.continuous(unlimited.rms.first));
+  if (!peaks) return needs;
   need("peak torque", rated.peak_torque);
   need("largest speed", rated.max_speed * units::rpm);
   return needs;

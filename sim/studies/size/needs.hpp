@@ -17,8 +17,9 @@ namespace drycut::sim::studies {
 std::vector<scenario::Override> without_limits(const SizedDrive& drive);
 
 /// Torque and speed that were needed, in that run, beside what the candidate is rated for; the share of all
-/// other ratings is NaN. Peak torque is compared with that up to rated speed.
+/// other ratings is NaN. Peak torque is compared with that up to rated speed. Without `peaks` rms torque
+/// alone.
 std::array<RatedDrive::Figure, ratings.size()> needs_of(const RatedDrive& unlimited,
-                                                        const plants::DriveRatings& rated);
+                                                        const plants::DriveRatings& rated, bool peaks);
 
 }  // namespace drycut::sim::studies

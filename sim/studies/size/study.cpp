@@ -53,10 +53,11 @@ class CornerJudge {
  public:
   CornerJudge(const PointQuestion& question, const Candidate& candidate, const CornerRun& run)
       : question_(question), candidate_(candidate), run_(run), drive_(rated_drive(run.row.numbers)) {
-    if (run.unlimited == nullptr || !holds_without_limits()) return;
+    if (run.unlimited == nullptr || !has_run(*run.unlimited)) return;
     const auto unlimited = rated_drive(run.unlimited->numbers);
     if (!has_figures(unlimited)) return;
-    needs_ = needs_of(unlimited, candidate.ratings);
+    // Where a check fails all the same, its steady cycle says what is needed, and peaks may be of a crash.
+    needs_ = needs_of(unlimited, candidate.ratings, holds_without_limits());
     stopped_ = drive_.cycles < nearly_all * unlimited.cycles;
   }
 
@@ -73,7 +74,7 @@ class CornerJudge {
     for (std::size_t i = 0; i < ratings.size(); ++i) {
       if (needs_ && (*needs_)[i].share > needed.share) needed = {(*needs_)[i].share, i};
       const double share = used_share(candidate_, i, drive_.figures[i].share);
-      if (is_measured() && share > used.share) used = {share, i};
+      if ((is_measured() || !is_mean(ratings[i].name)) && share > used.share) used = {share, i};
     }
     return needed.share > 1 || used.share < needed.share ? needed : used;
   }
@@ -131,7 +132,9 @@ class CornerJudge {
   /// What is missing of machine cycles.
   [[nodiscard]] std::string end_text() const {
     if (drive_.cycles <= 0) return no_cycle();
-    if (stopped_) return fmt::format("the run ended early, after {:.0f} machine cycles", drive_.cycles);
+    if (stopped_)
+      return fmt::format("the run ended early, after {}",
+                         counted(std::lround(drive_.cycles), "machine cycle"));
     return drive_.steady > 0 ? "" : "no steady machine cycle was found: let the scenario run for longer";
   }
   /// Why no machine cycle has ended.

@@ -40,6 +40,7 @@ std::string inertia_note(const SizeResult& result) {
   std::set<std::string> usual;
   std::size_t heavy = 0;
   for (const auto& candidate : result.candidates) {
+    if (candidate.ratio_from.empty()) continue;
     motors.insert(candidate.motor);
     if (candidate.ratio_from == from_usage) usual.insert(candidate.motor);
     if (candidate.is_too_heavy()) ++heavy;
@@ -47,7 +48,7 @@ std::string inertia_note(const SizeResult& result) {
   if (usual.empty() && heavy == 0) return "";
   auto text = fmt::format("load over rotor inertia: at most what the maker allows");
   if (!usual.empty())
-    text += fmt::format("; {:.0f}, as usual, for {} of {} of which the catalogue does not have it",
+    text += fmt::format("; {:.0f}, as usual, for {} of {}, of which the catalogue has no such value",
                         usual_inertia_ratio, usual.size(), counted(std::ssize(motors), "motor"));
   if (heavy > 0)
     text += fmt::format("; {} beyond it", counted(static_cast<std::int64_t>(heavy), "candidate"));

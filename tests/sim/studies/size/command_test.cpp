@@ -84,7 +84,7 @@ TEST_F(SizeCommand, WithoutAnInertiaRatioTheMakersIsTakenElseTheUsual) {
   EXPECT_EQ(meldas.at("reason"), "load over rotor inertia 13.7, at most 5 is what its maker allows");
   EXPECT_THAT(out,
               HasSubstr("\nnote: load over rotor inertia: at most what the maker allows; 10, as usual, for "
-                        "2 of 3 motors of which the catalogue does not have it; 2 candidates beyond it; "
+                        "2 of 3 motors, of which the catalogue has no such value; 2 candidates beyond it; "
                         "--inertia-ratio 15 sets another limit, off none\n"));
   options.inertia_ratio = "off";
   ASSERT_EQ(run(), all_passed) << err;
@@ -114,6 +114,12 @@ TEST_F(SizeCommand, FiguresAreEmptyWhereARunEndedEarly) {
   EXPECT_THAT(one.at("short at"), HasSubstr("length=500 mm"));
   EXPECT_EQ(out.find("no motor that was tried fits; nearest: HG-SR52, "), 0U) << out;
   EXPECT_THAT(out, HasSubstr(" % short of "));
+  // Nor does the page offer anything as if it fitted.
+  const auto page = text_of(options.out / "report.html");
+  EXPECT_THAT(page, AllOf(HasSubstr("<p class=\"verdict fail\"><strong>FAIL</strong> <span>no motor that was "
+                                    "tried fits; nearest: HG-SR52, "),
+                          HasSubstr("how HG-SR52, the nearest, fails"), HasSubstr("What comes nearest"),
+                          Not(HasSubstr("0 FIT")), Not(HasSubstr("runs the first of them"))));
 }
 
 // The motor and gear that the scenario has run as the scenario does.
@@ -174,7 +180,9 @@ TEST_F(SizeCommand, ACountedEncoderGoesAlong) {
       out,
       HasSubstr("\nnote: gear 7 (1462.86 lines): left out, for no whole number of encoder lines gives the "
                 "controller its 40960 counts a turn of the load; count an encoder on the drum, "
-                "plants.knife.encoder: {on_drum: true, lines: 10240}; or take plants.knife.encoder: "
+                "plants.knife.encoder: {on_drum: true, lines: 10240}, whose one zero pulse a turn may need "
+                "another preset of homing; "
+                "or take plants.knife.encoder: "
                 "{lines: 2072} and 41440 counts a turn of the load in the program; or tie "));
   // On the drum it counts the same behind every gear.
   options.set = {"plants.knife.encoder.on_drum=true", "plants.knife.encoder.lines=10240"};
@@ -250,7 +258,7 @@ TEST_F(SizeCommand, ACornerThatFailsIsNamed) {
   EXPECT_EQ(run(), check_failed) << err;
   const auto one = rows().front();
   EXPECT_EQ(one.at("verdict"), "does not fit");
-  EXPECT_EQ(one.at("reason"), "check 'cut length' failed, with a motor without limits too");
+  EXPECT_EQ(one.at("reason"), "check 'cut length' failed (with a motor without limits, too)");
   EXPECT_THAT(one.at("where"), HasSubstr(" and 1 more corner"));
   // It ran all the same.
   EXPECT_GT(number(one, "reserve [%]"), 0);
@@ -315,18 +323,30 @@ TEST_F(SizeCommand, GoesOnWhereItWasCutShort) {
 
 // An induction motor behind an inverter is sized as well.
 TEST_F(SizeCommand, TheMotorOfAnInverter) {
-  folder.file(
-      "axis.yaml",
-      "scene: {duration: 1 s}\nplants:\n  a: {type: linear_axis, drive: inverter}\ndrives: {cycle: 0.2 s}\n");
-  options.scenario = folder / "axis.yaml";
+  options.scenario = shipped("onoff_backlash.yaml");
   options.motors = "generic-4P-1*";
-  options.set = {"plants.a.inverter.torque_limit=20 N m"};
+  options.set = {"drives.cycle=2 s", "plants.axis.inverter.torque_limit=7 N m"};
   options.resistors = "100,200 W";
   EXPECT_EQ(run(), all_passed) << err;
   EXPECT_EQ(rows().size(), 4U);
   EXPECT_EQ(rows().front().at("motor"), "generic-4P-1.1kW");
   EXPECT_EQ(rows().front().at("brake resistor"), "100 W");
-  EXPECT_THAT(rows().front().at("set"), HasSubstr("plants.a.inverter.supply.resistor_power=100 W"));
+  EXPECT_THAT(rows().front().at("set"), HasSubstr("plants.axis.inverter.supply.resistor_power=100 W"));
+}
+
+// What stands still has no load that goes on for ever.
+TEST_F(SizeCommand, WithoutASteadyCycleNothingFits) {
+  folder.file(
+      "axis.yaml",
+      "scene: {duration: 1 s}\nplants:\n  a: {type: linear_axis, drive: inverter}\ndrives: {cycle: 0.2 s}\n");
+  options.scenario = folder / "axis.yaml";
+  options.motors = "generic-4P-1.1kW";
+  options.set = {"plants.a.inverter.torque_limit=5 N m"};
+  EXPECT_EQ(run(), check_failed) << err;
+  EXPECT_EQ(rows().front().at("verdict"), "does not fit");
+  EXPECT_EQ(rows().front().at("reason"), "no machine cycle ended, so its continuous load is unknown");
+  EXPECT_EQ(rows().front().at("short by [%]"), "");
+  EXPECT_THAT(out, HasSubstr("nearest: generic-4P-1.1kW, of which nobody can say how much it is short"));
 }
 
 }  // namespace
