@@ -82,7 +82,8 @@ class CornerJudge {
   /// What does not hold; "" if all does. Of a run that ended early no means, which are of another work.
   [[nodiscard]] std::string fault() const {
     std::vector<std::string> faults;
-    const auto& [verdict, limit, numbers] = run_.row;
+    const auto verdict = run_.row.verdict;
+    const auto& limit = run_.row.limit;
     const bool failed = verdict == PointRow::Verdict::failed;
     if (failed && limit != of_ratings)
       faults.push_back(fmt::format("check '{}' failed{}", limit,
@@ -120,7 +121,8 @@ class CornerJudge {
   }
 
   [[nodiscard]] bool holds_without_limits() const {
-    const auto& [verdict, limit, numbers] = *run_.unlimited;
+    const auto verdict = run_.unlimited->verdict;
+    const auto& limit = run_.unlimited->limit;
     return verdict == PointRow::Verdict::passed ||
            (verdict == PointRow::Verdict::failed && limit == of_ratings);
   }
