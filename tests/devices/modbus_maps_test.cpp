@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/modbus_map.hpp"
 #include "devices/modbus_face.hpp"
 #include "devices/plcopen/modbus_map.hpp"
@@ -64,32 +65,19 @@ TEST(ModbusLx3vp, BeginsAndEndsEachRangeWhereWeconSays) {
   };
   for (const auto table : {ModbusTable::coils, ModbusTable::discrete_inputs})
     for (const auto& [address, name] :
-         {Row{0, "M0"},     {3071, "M3071"},   {3072, ""},      {7999, ""},        {8000, "M8000"},
-          {8255, "M8255"},  {8256, ""},        {0xDFFF, ""},    {0xE000, "S0"},    {0xE3E7, "S999"},
-          {0xE3E8, ""},     {0xEFFF, ""},      {0xF000, "TS0"}, {0xF0FF, "TS255"}, {0xF100, ""},
-          {0xF400, "CS0"},  {0xF4FF, "CS255"}, {0xF500, ""},    {0xF800, "X0"},    {0xF807, "X7"},
-          {0xF808, "X10"},  {0xF8FF, "X377"},  {0xF900, ""},    {0xFC00, "Y0"},    {0xFC08, "Y10"},
-          {0xFCFF, "Y377"}, {0xFD00, ""},      {0xFFFF, ""}})
+         {Row{0, "M0"},     {3071, "M3071"},  {3072, ""},        {7999, ""},      {8000, "M8000"},
+          {8034, ""},       {8255, "M8255"},  {8256, ""},        {0xDFFF, ""},    {0xE000, "S0"},
+          {0xE3E7, "S999"}, {0xE3E8, ""},     {0xEFFF, ""},      {0xF000, "TS0"}, {0xF0FF, "TS255"},
+          {0xF100, ""},     {0xF400, "CS0"},  {0xF4FF, "CS255"}, {0xF500, ""},    {0xF800, "X0"},
+          {0xF807, "X7"},   {0xF808, "X10"},  {0xF8FF, "X377"},  {0xF900, ""},    {0xFC00, "Y0"},
+          {0xFC08, "Y10"},  {0xFCFF, "Y377"}, {0xFD00, ""},      {0xFFFF, ""}})
       EXPECT_EQ(at(map, table, address), name) << address;
   for (const auto table : {ModbusTable::holding_registers, ModbusTable::input_registers})
-    for (const auto& [address, name] : {Row{0, "D0"},
-                                        {8255, "D8255"},
-                                        {8256, ""},
-                                        {0xEFFF, ""},
-                                        {0xF000, "T0"},
-                                        {0xF0FF, "T255"},
-                                        {0xF100, ""},
-                                        {0xF400, "C0"},
-                                        {0xF4C7, "C199"},
-                                        {0xF4C8, ""},
-                                        {0xF6FF, ""},
-                                        {0xF700, "C200"},
-                                        {0xF701, "C200/16"},
-                                        {0xF702, "C201"},
-                                        {0xF76E, "C255"},
-                                        {0xF76F, "C255/16"},
-                                        {0xF770, ""},
-                                        {0xFFFF, ""}})
+    for (const auto& [address, name] :
+         {Row{0, "D0"},     {7999, "D7999"},  {8010, "D8010"},     {8255, ""},       {8256, ""},
+          {0xEFFF, ""},     {0xF000, "T0"},   {0xF0FF, "T255"},    {0xF100, ""},     {0xF400, "C0"},
+          {0xF4C7, "C199"}, {0xF4C8, ""},     {0xF6FF, ""},        {0xF700, "C200"}, {0xF701, "C200/16"},
+          {0xF702, "C201"}, {0xF76E, "C255"}, {0xF76F, "C255/16"}, {0xF770, ""},     {0xFFFF, ""}})
       EXPECT_EQ(at(map, table, address), name) << address;
 }
 
@@ -105,8 +93,19 @@ TEST(ModbusLx3vp, HasEveryRegisterOnceAndWritesAllButInputs) {
       EXPECT_TRUE(lx3vp::parse_register(name.substr(0, name.find('/')))) << name;
       EXPECT_EQ(at(map, table, address, true), name[0] == 'X' ? "" : name);
     }
+  // Of the special relays and registers those that are simulated have a name; all of them answer.
+  std::size_t silent = 0;
+  for (int number = lx3vp::first_special; number < lx3vp::first_special + 256; ++number)
+    for (const auto& [letter, table] :
+         {std::pair('M', ModbusTable::coils), {'D', ModbusTable::holding_registers}}) {
+      EXPECT_TRUE(map.read(table, static_cast<std::uint16_t>(number))) << letter << number;
+      EXPECT_EQ(map.written(table, static_cast<std::uint16_t>(number)).has_value(),
+                lx3vp::is_served(letter, number))
+          << letter << number;
+      if (!lx3vp::is_served(letter, number)) ++silent;
+    }
   // M, S, T and C contacts, X, Y; D, T, C below 200, two words of each above.
-  EXPECT_EQ(seen.size(), 3072U + 256 + 1000 + 256 + 256 + 256 + 256 + 8256 + 256 + 200 + 2 * 56);
+  EXPECT_EQ(seen.size() + silent, 3072U + 256 + 1000 + 256 + 256 + 256 + 256 + 8256 + 256 + 200 + 2 * 56);
 }
 
 TEST(ModbusLx3vp, AnswersAsAnyUnitWhileItHasPower) {

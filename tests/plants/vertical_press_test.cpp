@@ -159,7 +159,9 @@ TEST(VerticalPress, PressesWithTheTorqueLimitOfTheInverter) {
   EXPECT_GE(press.read("press.force"), ram + (22 - 0.2) * 0.9 / r - 300);
   EXPECT_NEAR(press.read("motor.torque"), -22, 1e-6);
   EXPECT_NEAR(press.read("position"), 50 - press.read("press.force") / 5e6 * 1000, 1e-3);
-  press.only("pressed");
+  ASSERT_EQ(press.events.size(), 2U);
+  EXPECT_EQ(press.events[0].name, "pressed");
+  EXPECT_EQ(press.events[1].name, "pulled_out") << "it was told to go on";
   EXPECT_GT(value(press.events[0], "force"), 5000);
   EXPECT_NEAR(value(press.events[0], "speed"), 29, 1);  // 150 rpm and the slip of a motor that is driven
 }

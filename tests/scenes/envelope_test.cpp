@@ -23,6 +23,18 @@ namespace {
 
 using KnifeEnvelope = CommandTest;
 
+/// [m/min] of pieces of this length [m], where the torque is all that bounds it.
+double closed_form(double length) {
+  constexpr double ratio = 5;
+  constexpr double rotor = 0.00468;  // [kg m2]
+  constexpr double drum = 0.41;
+  constexpr double circumference = 0.6;                                   // [m]
+  const double drum_acceleration = 9.2 / (rotor * ratio + drum / ratio);  // [rad/s2]
+  const double a_max = drum_acceleration * circumference / (2 * std::numbers::pi);
+  const double k = 10 / std::numbers::sqrt3;
+  return 60 * (length - 0.12) * std::sqrt(a_max / (k * std::abs(circumference - length)));
+}
+
 TEST_F(KnifeEnvelope, LiesWhereTheClosedFormOfTheTorqueSays) {
   const TestFolder folder;
   folder.file("knife.yaml",
@@ -62,13 +74,6 @@ checks:
   options.jobs = 2;
   ASSERT_EQ(captured([&] { return envelope_scenario(options); }), all_passed) << err;
 
-  constexpr double ratio = 5;
-  constexpr double rotor = 0.00468;  // [kg m2]
-  constexpr double drum = 0.41;
-  constexpr double circumference = 0.6;                                   // [m]
-  const double drum_acceleration = 9.2 / (rotor * ratio + drum / ratio);  // [rad/s2]
-  const double a_max = drum_acceleration * circumference / (2 * std::numbers::pi);
-  const double k = 10 / std::numbers::sqrt3;
   std::istringstream rows([&] {
     std::ifstream stream(folder / "out/envelope.csv");
     return std::string(std::istreambuf_iterator<char>(stream), {});
@@ -81,12 +86,25 @@ checks:
     double speed = 0;
     ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,", &length, &speed), 2) << line;
     length /= 1000;
-    const double expected = 60 * (length - 0.12) * std::sqrt(a_max / (k * std::abs(circumference - length)));
+    const double expected = closed_form(length);
     EXPECT_NEAR(speed, expected, 0.01 * expected) << line;
-    EXPECT_THAT(line, testing::HasSubstr(",found,torque,80,"));
+    EXPECT_THAT(line, testing::HasSubstr(",found,torque,,80,"));
     ++count;
   }
   EXPECT_EQ(count, 2);
+
+  // The other way round, the shortest piece at a speed: the same boundary. Below the circumference a shorter
+  // piece takes more torque.
+  options.over = {"variables.speed=90 m/min"};
+  options.find_max.clear();
+  options.find_min = {"variables.length=470..560 mm:0.4"};
+  ASSERT_EQ(captured([&] { return envelope_scenario(options); }), all_passed) << err;
+  std::ifstream stream(folder / "out/envelope.csv");
+  std::getline(stream, line);
+  std::getline(stream, line);
+  double length = 0;
+  ASSERT_EQ(std::sscanf(line.c_str(), "90,%lf,found,torque,,560,", &length), 1) << line;
+  EXPECT_NEAR(closed_form(length / 1000), 90, 0.013 * 90) << line;
 }
 
 // What drycut envelope is shown with in the README: each is a scene of its own, for any length.

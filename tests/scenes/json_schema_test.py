@@ -21,7 +21,7 @@ root = pathlib.Path(__file__).resolve().parents[2]
 # of these faults is of keys and their kinds of value: that much a schema can say.
 STRUCTURE = ("unknown key", "unknown controller", "unknown plant type", "unknown choice", "must be a map",
              "must be a list", "is missing", "leads to nothing", "has no unit", "does not say", "does nothing", "filters nothing",
-             "is not a way and its counts")
+             "is not a way and its counts", "has a decimal comma")
 # These are of YAML itself, where readers differ, and come before any schema.
 TEXT = ("not used in scenarios", "is given twice", "levels deep", "the map opened", "a tab in",
         "after the end of the document", "a second ': ' behind a key")

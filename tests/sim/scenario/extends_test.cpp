@@ -297,7 +297,7 @@ TEST_F(Extends, ToldWhereItIsNamed) {
            Case{"extends: base.yaml\nchecks: {slow: 3}\n",
                 "line.yaml:2:16: checks.slow must be a map, not a single value"},
            Case{"extends: base.yaml\nchecks: {slow: {from: 0.2 s}, slow: {from: 0.3 s}}\n",
-                "line.yaml:2:29: 'slow' is given twice in checks; keep one; the first is at line 2"},
+                "line.yaml:2:31: 'slow' is given twice in checks; keep one; the first is at line 2"},
            Case{"extends: base.yaml\nscene: {title: a, title: b}\n",
                 "line.yaml:2:19: 'title' is given twice in scene"},
            Case{"extends: base.yaml\nscene: {title: }\n", "line.yaml:2:9: scene.title has no value"},
