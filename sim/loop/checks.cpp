@@ -254,7 +254,7 @@ void Checks::evaluate(State& state, double at, const std::string& values) {
   if (eventually) note_operands(state);
 }
 
-void Checks::step(Time now) {
+void Checks::stepped(Time now) {
   at_steps_.update();
   for (auto* state : stepped_) take_into_window(*state, now);
 }

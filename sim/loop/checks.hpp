@@ -51,7 +51,7 @@ class Checks : public Observer {
 
   /// A check has statistics of every step: only then need step() be told.
   [[nodiscard]] bool looks_at_steps() const { return !stepped_.empty(); }
-  void step(Time now) override;
+  void stepped(Time now) override;
   /// The watch has been updated for this record instant.
   void sample(Time now) override;
   /// An event; the watch has been updated for it.

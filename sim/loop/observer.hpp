@@ -11,7 +11,7 @@ class Observer {
   /// A record instant.
   virtual void sample(Time) {}
   /// Time zero and every physics step, before the rest, of who asked for it; nothing has been updated.
-  virtual void step(Time) {}
+  virtual void stepped(Time) {}
   virtual void happened(const RecordedEvent&) {}
   /// The run has come to its end. May throw std::runtime_error when something cannot be written.
   virtual void finish() {}

@@ -195,7 +195,7 @@ void Simulation::step() {
 
   collect_events();
   time_ += step_;
-  for (auto* observer : steppers_) observer->step(time_);
+  for (auto* observer : steppers_) observer->stepped(time_);
   if (!world_.failure().empty()) failure_ = world_.failure();
   if (time_ >= next_record_) record();
   if (time_ >= shutter_.next()) snapshot();

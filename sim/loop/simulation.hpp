@@ -82,7 +82,7 @@ class Simulation {
   /// What is recorded of time zero; advance() does it else.
   void begin() {
     if (time_ > 0 || next_record_ > 0) return;
-    for (auto* observer : steppers_) observer->step(time_);
+    for (auto* observer : steppers_) observer->stepped(time_);
     record();
   }
   /// One step; false if the simulation itself failed, now or before.

@@ -245,7 +245,7 @@ MetricSteps::MetricSteps(loop::Simulation& simulation, const std::vector<Metric*
   if (!metrics_.empty()) simulation.tell_steps(*this);
 }
 
-void MetricSteps::step(Time now) {
+void MetricSteps::stepped(Time now) {
   watch_.update();
   for (auto* metric : metrics_) metric->take(now);
 }

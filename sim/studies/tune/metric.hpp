@@ -97,7 +97,7 @@ class Metric {
 class MetricSteps : public loop::Observer {
  public:
   MetricSteps(loop::Simulation& simulation, const std::vector<Metric*>& metrics, Time from);
-  void step(Time now) override;
+  void stepped(Time now) override;
 
  private:
   loop::Watch watch_;
