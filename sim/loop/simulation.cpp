@@ -337,7 +337,8 @@ std::vector<std::string> Simulation::hindrances() const {
   std::vector<std::string> found;
   const auto& pushes = scenario_.panel.push_buttons;
   std::string unpressed;
-  for (const auto& [name, port] : bus_.panel().switches) {
+  for (const auto& [key, port] : bus_.panel().switches) {
+    const auto& name = key;
     const bool is_push =
         std::any_of(pushes.begin(), pushes.end(), [&](const auto& push) { return push.text == name; });
     if (is_push || bus_.panel().pressed.contains(name)) continue;

@@ -141,7 +141,8 @@ std::string units_note(double simulated) { return fmt::format("{:g} s", simulate
 /// The units of the device in which something was recorded, explained.
 std::vector<std::string> units_explained(const loop::Recording& recording) {
   std::vector<std::string> lines;
-  for (const auto& [unit, meaning] : unit_meaning_rows) {
+  for (const auto& [name, meaning] : unit_meaning_rows) {
+    const auto& unit = name;
     const auto& columns = recording.columns();
     if (std::any_of(columns.begin(), columns.end(),
                     [&](const auto& column) { return column.unit.starts_with(unit); }))
