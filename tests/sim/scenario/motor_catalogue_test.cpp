@@ -103,8 +103,8 @@ TEST(ShippedMotors, ReachDownToFiftyWatts) {
   const auto motors = shipped_motors();
   for (const auto& [name, power] :
        {std::pair("SGM7J-A5A", 50.0), std::pair("SGM7J-01A", 100.0), std::pair("SGM7J-02A", 200.0)}) {
-    const auto found = std::find_if(motors.begin(), motors.end(), [&](const auto& motor) {
-      return motor.name.text == name && motor.kind == "servo";
+    const auto found = std::find_if(motors.begin(), motors.end(), [wanted = name](const auto& motor) {
+      return motor.name.text == wanted && motor.kind == "servo";
     });
     ASSERT_NE(found, motors.end()) << name;
     EXPECT_EQ(si(*found, "rated_power"), power);
