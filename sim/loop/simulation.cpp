@@ -220,7 +220,7 @@ void Simulation::collect_events() {
         recorded.values.push_back({std::string(value.name), value.number, std::string(value.unit)});
       }
       add_share(recorded);
-      recording_.happened(std::move(recorded));
+      recording_.happened(recorded);
     }
   }
   if (controller_ && controller_->has_events()) {

@@ -155,7 +155,7 @@ MachineFacts facts_of(const loop::Simulation& simulation, const loop::Outcome& o
   MachineFacts facts{outcome.drives, {}};
   for (const auto& [name, plant] : simulation.plants())
     for (const auto& [own, travel, cuts] : plant->recurrences())
-      facts.recurrences.push_back({name + "." + own, travel, cuts});
+      facts.recurrences.push_back({fmt::format("{}.{}", name, own), travel, cuts});
   return facts;
 }
 
@@ -175,6 +175,7 @@ constexpr std::size_t strip_frames = 8;
 
 std::vector<double> times_of(const std::vector<loop::Snapshot>& shots) {
   std::vector<double> times;
+  times.reserve(shots.size());
   for (const auto& shot : shots) times.push_back(seconds(shot.time));
   return times;
 }
