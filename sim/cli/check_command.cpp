@@ -75,9 +75,12 @@ class Checker {
   [[nodiscard]] const Problems& problems() const { return problems_; }
   /// What is no fault and worth knowing.
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  /// What may be a slip.
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   void take_notes(const std::string& of, const loop::Simulation& simulation) {
+    for (const auto& warning : simulation.warnings()) warnings_.push_back(fmt::format("{}: {}", of, warning));
     for (const auto& note : simulation.notes_of_setup()) notes_.push_back(fmt::format("{}: {}", of, note));
   }
 
@@ -142,6 +145,7 @@ class Checker {
   }
 
   bool expand_;
+  std::vector<std::string> warnings_;
   std::vector<std::string> notes_;
   Problems problems_;
   std::vector<scenario::Override> overrides_;
@@ -164,9 +168,11 @@ int check_files(const CheckOptions& options) {
     return bad_input;
   }
   if (options.expand) return all_passed;
+  for (const auto& warning : checker.warnings()) fmt::print("warning {}\n", warning);
   for (const auto& note : checker.notes()) fmt::print("note {}\n", note);
   fmt::print("{} checked, no problem\n", counted(options.files.size(), "file"));
-  return options.strict && !checker.notes().empty() ? check_failed : all_passed;
+  const bool told = !checker.warnings().empty() || !checker.notes().empty();
+  return options.strict && told ? check_failed : all_passed;
 }
 
 void add_check(CLI::App& app, int& status) {
@@ -180,7 +186,7 @@ void add_check(CLI::App& app, int& status) {
   check->add_flag("--expand", options.expand, "Print scenarios with every default in force");
   add_set(*check, options.set, "scenarios");
   add_annotate(*check, options.annotate);
-  check->add_flag("--strict", options.strict, "Notes fail it, too: exit status 1");
+  check->add_flag("--strict", options.strict, "Warnings and notes fail it, too: exit status 1");
   check->add_flag("--schema", options.schema, "Print the JSON Schema of scenarios, for editors")
       ->excludes(files);
   check->callback([chosen, files, &status] {
