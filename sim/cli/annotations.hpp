@@ -10,7 +10,7 @@ namespace drycut::sim::cli {
 
 /// What failed, as services of repositories show it beside the lines of a file.
 struct Annotation {
-  enum class Kind { problem, check, run };
+  enum class Kind { problem, check, run, warning };
   Kind kind = Kind::problem;
   report::FilePlace place;
   std::string title;    ///< one line: "rotary_knife: cut length"
@@ -19,10 +19,11 @@ struct Annotation {
 };
 
 std::vector<Annotation> annotations_of(const Problems& problems);
-/// Failed checks, and runs that did not come to their end.
+/// Failed checks, runs that did not come to their end, and what controller and machine warned of in both.
 std::vector<Annotation> annotations_of(const std::vector<report::RunResult>& results);
 
-/// Workflow commands of GitHub, a line each: "::error file=...,line=...,col=...,title=...::...".
+/// Workflow commands of GitHub, a line each: "::error file=...,line=...,col=...,title=...::...", "::warning
+/// ...".
 std::string github_text(const std::vector<Annotation>& annotations);
 
 /// GitLab's report of code quality. A finding's fingerprint stays the same while its place and figures

@@ -95,11 +95,11 @@ std::vector<loop::CheckResult> checks_of(const ordered_json& json) {
 }
 
 ordered_json json_of(const KeptRun& run) {
-  ordered_json json = {{"end", run.outcome.end},
-                       {"checks", json_of(run.outcome.checks)},
-                       {"has_report", run.has_report},
-                       {"notes", run.notes},
-                       {"scene", run.scene}};
+  ordered_json json = {{"end", run.outcome.end},     {"checks", json_of(run.outcome.checks)},
+                       {"cause", run.outcome.cause}, {"has_report", run.has_report},
+                       {"notes", run.notes},         {"scene", run.scene}};
+  json["warnings"] = ordered_json::array();
+  for (const auto& [at, source, text] : run.outcome.warnings) json["warnings"].push_back({at, source, text});
   if (const auto& half = run.outcome.half_step)
     json["half_step"] = {{"step", half->step}, {"failure", half->failure}, {"checks", json_of(half->checks)}};
   return json;
@@ -109,6 +109,9 @@ KeptRun run_of(const ordered_json& json) {
   KeptRun run;
   run.outcome.end = json.at("end");
   run.outcome.checks = checks_of(json.at("checks"));
+  run.outcome.cause = json.at("cause");
+  for (const auto& warning : json.at("warnings"))
+    run.outcome.warnings.push_back({warning.at(0), warning.at(1), warning.at(2)});
   run.has_report = json.at("has_report");
   run.notes = json.at("notes").get<std::vector<std::string>>();
   run.scene = json.at("scene");

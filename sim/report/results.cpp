@@ -79,6 +79,10 @@ std::string suite_of(const RunResult& result) {
                     fmt::format("<error message=\"{}\"/>", escaped(outcome.failure)));
   if (const auto attached = attachment_of(result); !attached.empty())
     text += "    <system-out>" + attached + "</system-out>\n";
+  std::string warnings;
+  for (const auto& warning : outcome.warnings)
+    warnings += (warnings.empty() ? "" : "\n") + escaped(loop::text_of(warning));
+  if (!warnings.empty()) text += "    <system-err>" + warnings + "</system-err>\n";
   return text + "  </testsuite>\n";
 }
 

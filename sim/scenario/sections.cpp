@@ -268,7 +268,8 @@ void visit(Archive& archive, InputFilter& filter) {
 
 void visit(Archive& archive, Stimulus& stimulus) {
   archive.in_line();
-  archive.value({"at", "time from the start; with `when` it is not looked at before"}, form(stimulus.at, Sign::not_negative));
+  archive.value({"at", "time from the start; with `when` it is not looked at before"},
+                form(stimulus.at, Sign::not_negative));
   archive.value({"when", "an expression; the entry acts once, the first time it is true"},
                 expression_form(stimulus.when));
   archive.value({"after", "delay behind at or when", stimulus.after != 0},
