@@ -49,7 +49,7 @@ class Checks : public Observer {
   Checks(const Checks&) = delete;
   Checks& operator=(const Checks&) = delete;
 
-  /// A check has statistics of every step: only then need step() be told.
+  /// A check has statistics of every step: only then need stepped() be told.
   [[nodiscard]] bool looks_at_steps() const { return !stepped_.empty(); }
   void stepped(Time now) override;
   /// The watch has been updated for this record instant.

@@ -337,10 +337,9 @@ std::vector<std::string> Simulation::hindrances() const {
   std::vector<std::string> found;
   const auto& pushes = scenario_.panel.push_buttons;
   std::string unpressed;
-  for (const auto& [key, port] : bus_.panel().switches) {
-    const auto& name = key;
-    const bool is_push =
-        std::any_of(pushes.begin(), pushes.end(), [&](const auto& push) { return push.text == name; });
+  for (const auto& [name, port] : bus_.panel().switches) {
+    const bool is_push = std::any_of(pushes.begin(), pushes.end(),
+                                     [&name = name](const auto& push) { return push.text == name; });
     if (is_push || bus_.panel().pressed.contains(name)) continue;
     std::string waits;
     for (const auto& entry : scenario_.timeline)

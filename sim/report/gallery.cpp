@@ -141,11 +141,10 @@ std::string units_note(double simulated) { return fmt::format("{:g} s", simulate
 /// The units of the device in which something was recorded, explained.
 std::vector<std::string> units_explained(const loop::Recording& recording) {
   std::vector<std::string> lines;
-  for (const auto& [name, meaning] : unit_meaning_rows) {
-    const auto& unit = name;
-    const auto& columns = recording.columns();
+  const auto& columns = recording.columns();
+  for (const auto& [unit, meaning] : unit_meaning_rows) {
     if (std::any_of(columns.begin(), columns.end(),
-                    [&](const auto& column) { return column.unit.starts_with(unit); }))
+                    [&unit = unit](const auto& column) { return column.unit.starts_with(unit); }))
       lines.push_back(fmt::format("{}: {}.", unit, meaning));
   }
   return lines;

@@ -164,8 +164,7 @@ TEST_F(DesignedCams, AnotherMachineIsRefused) {
 TEST_F(DesignedCams, PulsesAreThoseOfTheScene) {
   for (const auto& [job, scene] :
        {std::pair{knife_job(), "rotary_knife_lx3vp.yaml"}, {saw_job(), "flying_saw_lx3vp.yaml"}}) {
-    const auto line = scenes / scene;
-    const auto bytes = [&](const cli::DesignOptions& options) {
+    const auto bytes = [&, line = scenes / scene](const cli::DesignOptions& options) {
       design(options, "lx3vp", line);
       std::ifstream file(folder / "cam.csv");
       return std::string{std::istreambuf_iterator<char>(file), {}};

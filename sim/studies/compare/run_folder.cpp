@@ -237,21 +237,19 @@ void read_scenario_yaml(const std::string& text, const std::string& file, RunFol
   for (auto& problem : findings.sorted()) problems.push_back(std::move(problem));
 }
 
-/// Why the run of a folder did not come to its end; "" if it did, or where nobody says.
-std::string failure_of(const fs::path& folder, Problems& problems) {
+/// What checks.json of a folder says, if there is one.
+RunFolder judged_run(const fs::path& folder, Problems& problems) {
   std::error_code ignored;
   RunFolder run;
   if (const auto file = folder / report::checks_file; fs::exists(file, ignored))
     if (const auto text = whole_file(file, problems)) read_checks_json(*text, file.string(), run, problems);
-  return run.failure;
+  return run;
 }
 
 /// What the folder of a run says beside its record, as far as the run has come.
 void add_about(const fs::path& folder, records::Record& record, Problems& problems) {
   std::error_code ignored;
-  RunFolder run;
-  if (const auto file = folder / report::checks_file; fs::exists(file, ignored))
-    if (const auto text = whole_file(file, problems)) read_checks_json(*text, file.string(), run, problems);
+  auto run = judged_run(folder, problems);
   if (!run.version.empty()) record.about.emplace_back("drycut", run.version);
   record.checks = std::move(run.checks);
   record.failure = std::move(run.failure);
@@ -286,7 +284,7 @@ records::Record read_record(const fs::path& run, Problems& problems) {
   if (const auto hdf5 = is_folder ? run / report::hdf5_file : run;
       is_folder ? fs::exists(hdf5, ignored) : records::is_hdf5(hdf5)) {
     auto record = records::read_hdf5(hdf5, problems);
-    if (is_folder) record.failure = failure_of(run, problems);
+    if (is_folder) record.failure = judged_run(run, problems).failure;
     return record;
   }
   const auto file = is_folder ? run / report::trace_file : run;

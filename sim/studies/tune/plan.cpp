@@ -192,10 +192,12 @@ Tuned tune(const TunePlan& plan, const TuneRequest& request, const cluster::Work
   auto trials = std::make_unique<Trials>(
       study, plan.vary, std::vector<scenario::Override>{}, folder.add(evaluations_file), workers,
       [&](int runs) { progress("tuning", std::min(1.0, static_cast<double>(runs) / request.budget)); });
-  Tuning tuning{study, *trials, plan.present, {}, 0,  start_of(plan), false,
-                false, {},      nullptr,      {}, {}, request.budget};
-
-  tuning.spread_asked = request.spread_runs;
+  Tuning tuning{.study = study,
+                .trials = *trials,
+                .present = plan.present,
+                .start = start_of(plan),
+                .budget = request.budget,
+                .spread_asked = request.spread_runs};
 
   // The present values first: nothing worse is to take their place.
   tuning.before =

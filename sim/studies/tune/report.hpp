@@ -19,15 +19,15 @@ struct Tuning {
   const Study& study;
   const Trials& trials;
   std::vector<PresentValue> present;  ///< of the values before
-  Verdict before;
+  Verdict before = {};
   std::size_t best = 0;
-  std::optional<Point> start;  ///< the present values, if all are known: the first of `trials`
-  bool stays = false;          ///< the present values are the answer
-  bool unmeasurable = false;   ///< ended at the first loop that was measured
-  std::vector<Slice> slices;
-  const Trials* spread = nullptr;    ///< trials of the tuned values over spread parameters
-  std::vector<KeptRun> runs_before;  ///< one a scenario
-  std::vector<KeptRun> runs_after;
+  std::optional<Point> start = {};  ///< the present values, if all are known: the first of `trials`
+  bool stays = false;               ///< the present values are the answer
+  bool unmeasurable = false;        ///< ended at the first loop that was measured
+  std::vector<Slice> slices = {};
+  const Trials* spread = nullptr;         ///< trials of the tuned values over spread parameters
+  std::vector<KeptRun> runs_before = {};  ///< one a scenario
+  std::vector<KeptRun> runs_after = {};
   int budget = 0;                                      ///< [simulated runs]
   std::vector<std::pair<std::string, int>> used = {};  ///< simulated runs of each part
   int spread_asked = 0;  ///< machines; fewer were tried where the budget had no room

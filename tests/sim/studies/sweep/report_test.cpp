@@ -69,7 +69,7 @@ checks:
       bytes.push_back(static_cast<char>(bits >> count & 0xff));
     }
     std::vector<float> numbers(bytes.size() / sizeof(float));
-    std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(float));
+    if (!numbers.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
     return numbers;
   }
 
