@@ -2,7 +2,7 @@
 import { DataType, Variant, VariantArrayType } from "./ua.mjs";
 
 // Severities of OPC 10000-5: low 1..333, medium, high 667..1000.
-const severe = new Set(["error", "errorstop", "block_error", "stopped", "tear", "crash", "overload", "bus_overvoltage", "bus_undervoltage", "following_error", "alarm"]);
+const severe = new Set(["error", "errorstop", "block_error", "stopped", "tear", "crash", "held_back", "clamped_moving", "opened_early", "overload", "bus_overvoltage", "bus_undervoltage", "following_error", "alarm"]);
 const medium = new Set(["refused", "out_of_range", "warning", "contradiction", "held_up", "overrun", "buckle", "saturated", "counts_lost", "pulse_lost"]);
 export const severity_of = (event) => (severe.has(event) ? 800 : medium.has(event) ? 500 : 100);
 

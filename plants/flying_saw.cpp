@@ -95,8 +95,36 @@ void FlyingSaw::sense(double h) {
   head_.sense(h);
   const Slide& material = this->material();
   clamp_.sense(carriage(), material, h);
-  report(cut_.sense(head_.body(), carriage(), material, h));
+  const bool was_engaged = cut_.engaged();
+  const SawCut::Outcome outcome = cut_.sense(head_.body(), carriage(), material, h);
+  if (!station_.is_empty()) hold(material, was_engaged);
+  report(outcome);
   for (std::size_t i = 0; i < crashes_.size(); ++i) watch(screw_.stops[i], crashes_[i]);
+}
+
+void FlyingSaw::took_hold(double difference, bool blade) {
+  hold_.mismatch = std::max(hold_.mismatch, std::abs(difference));
+  if (std::abs(difference) <= data_.mismatch_limit) return;
+  happened({"clamped_moving",
+            0,
+            {{"difference", difference * units::millimetres, "mm/s"}, {"blade", blade ? 1.0 : 0.0, ""}}});
+}
+
+// The speeds before the step are those at which the two met.
+void FlyingSaw::hold(const Slide& material, bool was_engaged) {
+  if (clamp_.has_let_go() && was_engaged)
+    happened({"opened_early",
+              0,
+              {{"depth", (head_.body().position - data_.head.clearance) * units::millimetres, "mm"}}});
+  const bool touched = cut_.engaged() && !was_engaged;
+  const bool held = clamp_.closed.level || cut_.engaged();
+  if (!held || !hold_.on) hold_ = {.on = held};
+  if (!held) return;
+  const double before = carriage().speed_before - material.speed_before;
+  if (clamp_.has_gripped()) took_hold(before, false);
+  if (touched && !clamp_.closed.level) took_hold(before, true);
+  hold_.mismatch = std::max(hold_.mismatch, std::abs(carriage().speed - material.speed));
+  hold_.slip = std::max(hold_.slip, std::abs(clamp_.slip()));
 }
 
 void FlyingSaw::report(const SawCut::Outcome& outcome) {
@@ -114,7 +142,8 @@ void FlyingSaw::report(const SawCut::Outcome& outcome) {
                outcome.fraction,
                {{"length", station_.length() * units::millimetres, "mm"},
                 {"slant", outcome.slant * units::millimetres, "mm"},
-                {"mismatch", outcome.mismatch * units::millimetres, "mm/s"},
+                {"mismatch", hold_.mismatch * units::millimetres, "mm/s"},
+                {"slip", hold_.slip * units::millimetres, "mm"},
                 {"pinch", outcome.pinch, "N"},
                 {"force", outcome.force, "N"},
                 {"time", outcome.time * units::milliseconds, "ms"},
@@ -122,6 +151,7 @@ void FlyingSaw::report(const SawCut::Outcome& outcome) {
   station_.describe(cut);
   happened(std::move(cut));
   for (Event& scrap : station_.take_events()) happened(std::move(scrap));
+  hold_ = {.on = true};
 }
 
 std::vector<DriveOfPlant> FlyingSaw::drives() { return servo_.drives(load_inertia(data_)); }
@@ -136,15 +166,25 @@ std::vector<EventType> FlyingSaw::event_types() {
        {{"length", "mm"},
         {"slant", "mm"},
         {"mismatch", "mm/s"},
+        {"slip", "mm"},
         {"pinch", "N"},
         {"force", "N"},
         {"time", "ms"},
         {"number", ""}},
        "the blade is through: length of the piece where the blade touched, how far the cut is out of "
-       "square, largest speed mismatch, largest sideways and cutting force, time from the touch, number; on "
-       "a "
+       "square, largest speed mismatch and slip of the clamps since clamps or blade took hold of the "
+       "material, largest sideways and cutting force, time from the touch, number; on a "
        "printed web register, how far the cut lies behind the nearest mark; of a station down the line rest, "
        "what is left of the piece behind the cut"},
+      {"clamped_moving",
+       {{"difference", "mm/s"}, {"blade", ""}},
+       "the clamps have gripped material that ran at another speed by more than mismatch_limit, or the "
+       "blade has come into it unclamped (blade 1): speed of the carriage less speed of the material",
+       true},
+      {"opened_early",
+       {{"depth", "mm"}},
+       "the clamps have let go with the blade so deep in the material",
+       true},
       {"pinch",
        {{"force", "N"}, {"displacement", "mm"}},
        "the material and the carriage pinch the blade: sideways force, displacement since the touch"},

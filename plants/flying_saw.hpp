@@ -34,7 +34,8 @@ struct FlyingSawData : ScrewDriveData {
   ClampData clamp;
   SawHeadData head;
   SawBladeData blade;
-  bool stroke_check = true;  ///< refuse a line speed whose cut cannot fit the travel
+  double mismatch_limit = 0.05;  ///< difference of speed at which clamps and blade may take hold [m/s]
+  bool stroke_check = true;      ///< refuse a line speed whose cut cannot fit the travel
 };
 
 /// What the cut asks of the travel at a line speed: from rest to the speed at the drive's peak torque, clamp,
@@ -52,10 +53,12 @@ struct LeastStroke {
 /// A cut separates the material where the blade stood on it at the touch; length is the distance on the
 /// material between two such places (the kerf is not taken off), of the first from the lead end.
 ///
-/// Events: `cut` (length, slant, mismatch, pinch, force, time, number) when the blade is through; `pinch`
-/// (force, displacement) when the sideways force exceeds its limit, once per engagement; `crash` (side,
-/// speed, impulse, force) when the carriage has been in an end stop; `following_error` of a servo that takes
-/// pulses.
+/// Events: `cut` (length, slant, mismatch, slip, pinch, force, time, number) when the blade is through;
+/// `clamped_moving` (difference, blade) when clamps, or the blade, take hold of material that runs at another
+/// speed by more than mismatch_limit; `opened_early` (depth) when the clamps let go with the blade in the
+/// material; `pinch` (force, displacement) when the sideways force exceeds its limit, once per engagement;
+/// `crash` (side, speed, impulse, force) when the carriage has been in an end stop; `following_error` of a
+/// servo that takes pulses.
 class FlyingSaw : public Plant, public TellsMotorLoad {
  public:
   FlyingSaw(const FlyingSawData& data, World& world, Web& web);
@@ -90,7 +93,15 @@ class FlyingSaw : public Plant, public TellsMotorLoad {
     bool touched = false;
     bool reported = false;
   };
+  /// What clamps and blade have done with the material since one of them took hold of it.
+  struct Hold {
+    bool on = false;
+    double mismatch = 0;  // largest difference of speed [m/s]
+    double slip = 0;      // largest of the clamps [m]
+  };
   void watch(const EndStop& stop, Crash& crash);
+  void hold(const Slide& material, bool was_engaged);
+  void took_hold(double difference, bool blade);
   Slide& material();  // under the blade now
   void report(const SawCut::Outcome& outcome);
   struct Picture;
@@ -107,6 +118,7 @@ class FlyingSaw : public Plant, public TellsMotorLoad {
   Clamp clamp_;
   SawHead head_;
   SawCut cut_;
+  Hold hold_;
   int cuts_ = 0;
   double last_slant_ = 0;  // [m]
   double last_pinch_ = 0;  // [N]

@@ -42,7 +42,7 @@ SawCut::Load SawCut::load(const Slide& head, const Slide& carriage, const Slide&
 void SawCut::enter(double fraction, const Slide& carriage, const Slide& material, double h) {
   engaged_ = true;
   separated_ = pinched_ = false;
-  given_ = deepest_ = largest_force_ = largest_mismatch_ = largest_pinch_ = 0;
+  given_ = deepest_ = largest_force_ = largest_pinch_ = 0;
   mark_ = at(material, h, fraction) - at(carriage, h, fraction);
   time_ = -fraction * h;
 }
@@ -63,7 +63,6 @@ SawCut::Outcome SawCut::sense(const Slide& head, const Slide& carriage, const Sl
   if (!engaged_) enter(crossing(0), carriage, material, h);
   time_ += h;
   displacement_ = mark_ - (material.position - carriage.position);
-  largest_mismatch_ = std::max(largest_mismatch_, std::abs(carriage.speed - material.speed));
   largest_force_ = std::max(largest_force_, force_);
   largest_pinch_ = std::max(largest_pinch_, std::abs(sideways_));
   if (!pinched_ && std::abs(sideways_) > blade_.pinch_limit) pinched_ = outcome.pinched = true;
@@ -73,7 +72,6 @@ SawCut::Outcome SawCut::sense(const Slide& head, const Slide& carriage, const Sl
     outcome.fraction = crossing(height_);
     outcome.mark = mark_;
     outcome.slant = mark_ - (at(material, h, outcome.fraction) - at(carriage, h, outcome.fraction));
-    outcome.mismatch = largest_mismatch_;
     outcome.pinch = largest_pinch_;
     outcome.force = largest_force_;
     outcome.time = time_ - (1 - outcome.fraction) * h;

@@ -47,10 +47,9 @@ class SawCut {
     double fraction = 1;
     double mark = 0;   ///< of a separation: travel of the material less place of the blade at the touch [m]
     double slant = 0;  ///< of a separation: way of the blade on the material since the touch [m]
-    double mismatch = 0;  ///< of a separation: largest difference of speed in it [m/s]
-    double pinch = 0;     ///< of a separation: largest sideways force in it [N]
-    double force = 0;     ///< of a separation: largest cutting force in it [N]
-    double time = 0;      ///< of a separation: since the touch [s]
+    double pinch = 0;  ///< of a separation: largest sideways force in it [N]
+    double force = 0;  ///< of a separation: largest cutting force in it [N]
+    double time = 0;   ///< of a separation: since the touch [s]
   };
   [[nodiscard]] Outcome sense(const Slide& head, const Slide& carriage, const Slide& material, double h);
 
@@ -80,7 +79,6 @@ class SawCut {
   double resistance_ = 0;  // of the last step [N s/m]
   double force_ = 0;
   double sideways_ = 0;
-  double largest_mismatch_ = 0;
   double largest_pinch_ = 0;
   double largest_force_ = 0;
 };

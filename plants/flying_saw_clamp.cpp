@@ -11,6 +11,8 @@ void Clamp::move_jaws(double h) {
   const bool before = closed_;
   closed_ = closed_ ? stroke_ > hair : stroke_ > 1 - hair;
   closed.edges.clear();
+  gripped_ = closed_ && !before;
+  let_go_ = before && !closed_;
   if (closed_ == before) return;
   closed.level = closed_;
   closed.add_edge(closed_, 0);

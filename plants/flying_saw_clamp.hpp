@@ -39,6 +39,8 @@ class Clamp {
   [[nodiscard]] double limit() const { return 2 * data_.friction * normal(); }  ///< of the friction [N]
   [[nodiscard]] double friction() const { return friction_; }  ///< on the carriage in the last step [N]
   [[nodiscard]] double slip() const { return slip_; }  ///< carriage ahead of the material since closed [m]
+  [[nodiscard]] bool has_gripped() const { return gripped_; }  ///< in the last step
+  [[nodiscard]] bool has_let_go() const { return let_go_; }    ///< in the last step
 
   /// force_loss under the component name `component`.
   void offer_faults(std::vector<Fault>& faults, const std::string& component);
@@ -49,6 +51,8 @@ class Clamp {
   ClampData data_;
   double stroke_ = 0;  // of the jaws: 0 open .. 1 at the material
   bool closed_ = false;
+  bool gripped_ = false;
+  bool let_go_ = false;
   double friction_ = 0;
   double slip_ = 0;
   double lost_ = 0;  // share of the force

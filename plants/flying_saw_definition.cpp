@@ -35,6 +35,9 @@ Parameters mechanics(FlyingSawData& data) {
                1e6, "estimate: four sealed guide carriages")),
       live(row("carriage_friction.viscous", "N s/m", "viscous friction of the guides",
                data.guide_friction.viscous, 0, 1e6, "estimate")),
+      row("mismatch_limit", "mm/s",
+          "difference of speed at which clamps or blade may take hold of the material", data.mismatch_limit,
+          0, 1e5, "estimate: jaws leave marks"),
       row("stroke_check", "refuse a line speed at which no program can cut within the travel",
           data.stroke_check, "off: see it crash"),
   };

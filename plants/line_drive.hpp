@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+
 #include "plants/world.hpp"
 
 namespace drycut::plants {
@@ -23,6 +25,7 @@ class LineDrive {
   [[nodiscard]] double set_speed() const { return set_speed_; }    ///< as set [m/s]
   [[nodiscard]] double roll_speed() const { return roll_speed_; }  ///< after the acceleration limit [m/s]
   [[nodiscard]] double force() const { return force_; }            ///< on the web in the last step [N]
+  [[nodiscard]] bool at_limit() const { return std::abs(force_) >= data_.max_force; }  ///< it slips
 
   /// Acts on the web for the coming step of `h` seconds.
   void drive(Slide& web, double h);

@@ -106,6 +106,7 @@ struct EventType {
   std::string_view name;
   std::vector<Value> values;
   std::string_view meaning;
+  bool is_failure = false;  ///< it fails a run none of whose checks looks at it
 };
 
 /// A drive of a plant, for whoever judges it.

@@ -12,7 +12,9 @@ namespace drycut::plants {
 
 namespace {
 
-constexpr double fastest = 1000;  // [m/min]
+constexpr double fastest = 1000;     // [m/min]
+constexpr double held_time = 20e-3;  // a web that is held back is reported after this [s]
+constexpr double kept_speed = 0.95;  // a slower web, of its line drive's speed, is held back
 
 }  // namespace
 
@@ -39,9 +41,28 @@ void Web::drive(double h) {
 
 void Web::sense(double h) {
   h_ = h;
+  watch_drive(h);
   wheel_.sense(at_wheel(), h);
   if (strip_) return sense_strip(h);
   marks_.sense(material_.position, h);
+}
+
+void Web::watch_drive(double h) {
+  if (!drive_.at_limit()) {
+    held_ = 0;
+    return;
+  }
+  const double set = drive_.roll_speed();
+  const double speed = (strip_ ? strip_->puller() : material_).speed;
+  if (speed * set >= kept_speed * set * set) return;
+  const bool was = held_ >= held_time;
+  held_ += h;
+  if (was || held_ < held_time) return;
+  happened({"held_back",
+            1,
+            {{"force", std::abs(drive_.force()), "N"},
+             {"speed", speed * units::metres_a_minute, "m/min"},
+             {"set_speed", set * units::metres_a_minute, "m/min"}}});
 }
 
 void Web::sense_strip(double h) {
@@ -56,7 +77,12 @@ std::vector<EventType> Web::event_types() {
   return {{"slack",
            {{"loop", "mm"}},
            "the elastic web does not push: so much of it lies in loops before the cut; once until it is "
-           "straight again"}};
+           "straight again"},
+          {"held_back",
+           {{"force", "N"}, {"speed", "m/min"}, {"set_speed", "m/min"}},
+           "the line drive has stood at its largest force for 20 ms while the web ran at less than 95 % of "
+           "its set speed: something holds the web; once until the force is below its limit again",
+           true}};
 }
 
 double Web::travel(double fraction) const {

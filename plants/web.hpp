@@ -40,6 +40,10 @@ struct WebData {
 ///
 /// A place on the material is named by its mark: the travel of the web at which it passes x = 0.
 ///
+/// Event `held_back` (force, speed, set_speed) once the line drive has stood at its largest force for 20 ms
+/// while the web ran at less than 95 % of the speed that the drive gives; again after the drive has left its
+/// limit.
+///
 /// An elastic web (strip.on) is three bodies, at puller, wheel and cut; `material` is that at the cut. Event
 /// `slack` (loop) when more of it than strip.loop_limit lies in loops, until it is straight again.
 class Web : public Plant {
@@ -95,6 +99,7 @@ class Web : public Plant {
  private:
   struct Picture;
   void sense_strip(double h);
+  void watch_drive(double h);
   // How far the web reaches beyond the cut, and where printed marks are on what is seen of it [m].
   [[nodiscard]] double overhang() const;
   [[nodiscard]] std::vector<double> prints_in_sight() const;
@@ -108,6 +113,7 @@ class Web : public Plant {
   Outfeed outfeed_;
   std::optional<ElasticStrip> strip_;
   bool slack_ = false;  // reported
+  double held_ = 0;     // how long the web has been held back against the line drive [s]
   double h_ = 0;        // of the last step [s]
   double lead_end_;     // mark of the present lead end [m]
   double last_cut_;     // mark of it [m]

@@ -33,8 +33,15 @@ std::string_view name_of(Annotation::Kind kind) {
       return "drycut-check";
     case Annotation::Kind::run:
       return "drycut-run";
+    case Annotation::Kind::warning:
+      return "drycut-warning";
   }
   return "";
+}
+
+std::string_view severity_of(Annotation::Kind kind) {
+  if (kind == Annotation::Kind::warning) return "minor";
+  return kind == Annotation::Kind::check ? "major" : "critical";
 }
 
 }  // namespace
@@ -70,6 +77,8 @@ std::vector<Annotation> annotations_of(const std::vector<report::RunResult>& res
           fmt::format("{}{}{} ({}){}{}", checks[i].detail, result.outcome.cause.empty() ? "" : ", ",
                       result.outcome.cause, checks[i].expectation, margin.empty() ? "" : "; ", margin));
     }
+    for (const auto& warning : result.outcome.warnings)
+      add(Annotation::Kind::warning, {result.scenario.string()}, result.name + ": warning", warning);
     if (!result.outcome.failure.empty())
       add(Annotation::Kind::run, result.place_of(checks.size()), result.name + ": did not run to its end",
           result.outcome.failure);
@@ -80,7 +89,8 @@ std::vector<Annotation> annotations_of(const std::vector<report::RunResult>& res
 std::string github_text(const std::vector<Annotation>& annotations) {
   std::string text;
   for (const auto& [kind, place, title, message, lasting] : annotations)
-    text += fmt::format("::error file={},line={},col={},title={}::{}\n", escaped(place.file, true),
+    text += fmt::format("::{} file={},line={},col={},title={}::{}\n",
+                        kind == Annotation::Kind::warning ? "warning" : "error", escaped(place.file, true),
                         place.line, place.column, escaped(title, true), escaped(message, false));
   return text;
 }
@@ -97,7 +107,7 @@ std::string gitlab_text(const std::vector<Annotation>& annotations) {
     json.push_back({{"description", title + ": " + message},
                     {"check_name", name_of(kind)},
                     {"fingerprint", fmt::format("{:016x}", numbered.value())},
-                    {"severity", kind == Annotation::Kind::check ? "major" : "critical"},
+                    {"severity", severity_of(kind)},
                     {"location", {{"path", place.file}, {"lines", {{"begin", place.line}}}}}});
   }
   return json.dump(2) + "\n";

@@ -8,9 +8,9 @@
 
 namespace drycut::sim::cli {
 
-/// What failed, as services of repositories show it beside the lines of a file.
+/// What failed or may be a slip, as services of repositories show it beside the lines of a file.
 struct Annotation {
-  enum class Kind { problem, check, run };
+  enum class Kind { problem, check, run, warning };
   Kind kind = Kind::problem;
   report::FilePlace place;
   std::string title;    ///< one line: "rotary_knife: cut length"
@@ -19,7 +19,7 @@ struct Annotation {
 };
 
 std::vector<Annotation> annotations_of(const Problems& problems);
-/// Failed checks, and runs that did not come to their end.
+/// Failed checks, runs that did not come to their end, warnings.
 std::vector<Annotation> annotations_of(const std::vector<report::RunResult>& results);
 
 /// Workflow commands of GitHub, a line each: "::error file=...,line=...,col=...,title=...::...".

@@ -75,6 +75,8 @@ class Checker {
   [[nodiscard]] const Problems& problems() const { return problems_; }
   /// What is no fault and worth knowing.
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  /// What may be a slip.
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   void take_doubts(const devices::lx3vp::il::Program& program) {
@@ -82,6 +84,7 @@ class Checker {
   }
 
   void take_notes(const std::string& of, const loop::Simulation& simulation) {
+    for (const auto& warning : simulation.warnings()) warnings_.push_back(fmt::format("{}: {}", of, warning));
     for (const auto& note : simulation.notes_of_setup()) notes_.push_back(fmt::format("{}: {}", of, note));
   }
 
@@ -146,6 +149,7 @@ class Checker {
   }
 
   bool expand_;
+  std::vector<std::string> warnings_;
   std::vector<std::string> notes_;
   Problems problems_;
   std::vector<scenario::Override> overrides_;
@@ -169,9 +173,11 @@ int check_files(const CheckOptions& options) {
     return bad_input;
   }
   if (options.expand) return all_passed;
+  for (const auto& warning : checker.warnings()) fmt::print("warning {}\n", warning);
   for (const auto& note : checker.notes()) fmt::print("note {}\n", note);
   fmt::print("{} checked, no problem\n", counted(options.files.size(), "file"));
-  return options.strict && !checker.notes().empty() ? check_failed : all_passed;
+  const bool told = !checker.warnings().empty() || !checker.notes().empty();
+  return options.strict && told ? check_failed : all_passed;
 }
 
 void add_check(CLI::App& app, int& status) {
@@ -185,7 +191,7 @@ void add_check(CLI::App& app, int& status) {
   check->add_flag("--expand", options.expand, "Print scenarios with every default in force");
   add_set(*check, options.set, "scenarios");
   add_annotate(*check, options.annotate);
-  check->add_flag("--strict", options.strict, "Notes fail it, too: exit status 1");
+  check->add_flag("--strict", options.strict, "Warnings and notes fail it, too: exit status 1");
   check->add_flag("--schema", options.schema, "Print the JSON Schema of scenarios, for editors")
       ->excludes(files);
   check->callback([chosen, files, &status] {

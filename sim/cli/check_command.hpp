@@ -11,7 +11,7 @@ struct CheckOptions {
   std::vector<std::filesystem::path> files;
   bool expand = false;
   bool schema = false;                ///< print the JSON Schema of scenarios and check nothing
-  bool strict = false;                ///< notes fail it, too
+  bool strict = false;                ///< warnings and notes fail it, too
   std::vector<std::string> set = {};  ///< overrides of the scenarios: path=value
   std::string annotate = {};          ///< whom problems are told too: "github", "gitlab", "" = nobody
 };

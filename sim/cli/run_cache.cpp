@@ -95,11 +95,9 @@ std::vector<loop::CheckResult> checks_of(const ordered_json& json) {
 }
 
 ordered_json json_of(const KeptRun& run) {
-  ordered_json json = {{"end", run.outcome.end},
-                       {"checks", json_of(run.outcome.checks)},
-                       {"has_report", run.has_report},
-                       {"notes", run.notes},
-                       {"scene", run.scene}};
+  ordered_json json = {{"end", run.outcome.end},       {"checks", json_of(run.outcome.checks)},
+                       {"has_report", run.has_report}, {"warnings", run.outcome.warnings},
+                       {"notes", run.notes},           {"scene", run.scene}};
   if (const auto& half = run.outcome.half_step)
     json["half_step"] = {{"step", half->step}, {"failure", half->failure}, {"checks", json_of(half->checks)}};
   return json;
@@ -109,6 +107,7 @@ KeptRun run_of(const ordered_json& json) {
   KeptRun run;
   run.outcome.end = json.at("end");
   run.outcome.checks = checks_of(json.at("checks"));
+  run.outcome.warnings = json.at("warnings").get<std::vector<std::string>>();
   run.has_report = json.at("has_report");
   run.notes = json.at("notes").get<std::vector<std::string>>();
   run.scene = json.at("scene");
@@ -155,6 +154,7 @@ std::string inputs_of_run(const scenario::Scenario& scenario, const FileSet& fil
                  {"pictures", kind.pictures},
                  {"gltf", kind.gltf},
                  {"verify_step", kind.verify_step},
+                 {"strict", kind.strict},
                  {"scenario", fingerprint_of(scenario::expand(scenario))},
                  {"folders", files.folders}};
   for (const auto& [name, file] : files.files)

@@ -16,6 +16,7 @@ struct RunKind {
   bool pictures = true;
   bool gltf = false;
   bool verify_step = false;
+  bool strict = false;
 };
 
 /// All bytes that determine the results of a run, each as its fingerprint: the program, the scenario with

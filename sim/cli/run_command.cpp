@@ -77,8 +77,9 @@ void begin(Work& work) {
 
 /// Takes the results from the cache if it has them.
 bool is_unchanged(Job& job, const RunCache& cache, const RunOptions& options) {
-  job.inputs = inputs_of_run(job.scenario, job.files,
-                             {job.result.name, options.pictures, options.gltf, options.verify_step});
+  job.inputs =
+      inputs_of_run(job.scenario, job.files,
+                    {job.result.name, options.pictures, options.gltf, options.verify_step, options.strict});
   auto kept = cache.take(job.inputs, *job.folder);
   if (!kept) return false;
   job.result.outcome = std::move(kept->outcome);
@@ -121,6 +122,9 @@ void run_job(Job& job, const RunOptions& options, int threads,
       job.simulation->stop(
           fmt::format("interrupted at {} s; what was recorded until then is kept", loop::seconds_text(now)));
   });
+  auto& outcome = job.result.outcome;
+  if (options.strict && !outcome.warnings.empty() && outcome.failure.empty())
+    outcome.checks.push_back(report::no_warnings(outcome));
   job.simulating = since();
   if (job.half && InterruptWatch::come() == 0)
     job.result.outcome.half_step = studies::run_half_step(std::move(*job.half), [&](Time now) {
@@ -317,6 +321,7 @@ void add_run(CLI::App& app, int& status) {
   run->add_flag("--gltf", options.gltf, "The run as an animated glTF file (.glb) for any 3D viewer");
   run->add_flag("--verify-step", options.verify_step,
                 "Run again at half scene.step and tell how far every check's margin moved");
+  run->add_flag("--strict", options.strict, "Warnings fail it, too: exit status 1");
   run->add_option("--cache", options.cache,
                   "Folder that keeps results: what would come out the same is taken from there, and not run");
   run->add_option("--summary", options.summary,

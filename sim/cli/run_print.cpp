@@ -68,6 +68,7 @@ void print_result(const Job& job, Say say) {
     if (!margins.rows.empty())
       fmt::print("\n  margins at half the step\n{}", renders::rows_text(margins, output_width()));
   }
+  for (const auto& warning : result.outcome.warnings) fmt::print("  warning {}\n", printable(warning));
   for (const auto& note : job.notes) fmt::print("  note {}\n", printable(note));
   for (const auto& note : job.kept_notes ? *job.kept_notes : job.simulation->notes())
     fmt::print("  note {}\n", printable(note));

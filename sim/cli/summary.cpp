@@ -28,7 +28,9 @@ std::string plain(const std::string& text) {
 
 std::string verdict(const report::RunResult& result) {
   if (!result.outcome.failure.empty()) return "stopped";
-  return result.outcome.passed() ? "passed" : "**FAILED**";
+  if (!result.outcome.passed()) return "**FAILED**";
+  const auto warnings = static_cast<std::int64_t>(result.outcome.warnings.size());
+  return warnings == 0 ? "passed" : "passed, " + counted(warnings, "warning");
 }
 
 class Text {
@@ -45,6 +47,7 @@ class Text {
                               results.size());
     text_ += "| scene | verdict | checks | simulated |\n|---|---|---|---|\n";
     for (const auto& result : results) row(result);
+    warnings(results);
     for (const auto& result : results) failures(result);
     if (summary_.links)
       for (const auto& result : results) pictures(result);
@@ -64,6 +67,14 @@ class Text {
       name = fmt::format("[{}]({})", name, link(result.directory / "report.html"));
     text_ += fmt::format("| {} | {} | {} of {} | {} s |\n", name, verdict(result), passed, checks.size(),
                          loop::seconds_text(result.outcome.end));
+  }
+
+  void warnings(const std::vector<report::RunResult>& results) {
+    std::string lines;
+    for (const auto& result : results)
+      for (const auto& warning : result.outcome.warnings)
+        lines += fmt::format("- {}: {}\n", plain(result.name), plain(warning));
+    if (!lines.empty()) text_ += "\nWarnings:\n\n" + lines;
   }
 
   void failures(const report::RunResult& result) {

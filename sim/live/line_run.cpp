@@ -287,7 +287,8 @@ std::shared_ptr<const LineDescription> LineRun::describe() {
   told->parts = parts_;
   told->machine = machine_;
   for (const auto& check : simulation_->outcome().checks) told->checks.push_back(check.name);
-  told->notes = simulation_->notes();
+  told->notes = simulation_->warnings();
+  for (auto& note : simulation_->notes()) told->notes.push_back(std::move(note));
   told->notes.insert(told->notes.begin(), notes_.begin(), notes_.end());
   return told;
 }

@@ -349,8 +349,9 @@ std::vector<std::string> Bus::unwired() const {
   const auto collect = [&](const auto& terminals) {
     for (const auto& [address, terminal] : terminals) {
       if (!controller_->takes_wire(address)) continue;
-      if (!wired_.contains(address) && !looped_.contains(address))
-        names.push_back(controller_->terminal_name(address));
+      if (wired_.contains(address) || looped_.contains(address)) continue;
+      auto name = controller_->terminal_name(address);
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
     }
   };
   if (controller_ == nullptr) return names;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string_view>
 
@@ -18,6 +19,23 @@ bool is_among(std::string_view word, const auto& words) {
 }
 constexpr std::array<std::string_view, 6> error_events = {"error", "errorstop", "block_error", "stopped",
                                                           "trip", "pulled_out"};
+// Of machines, which tell numbers and no text.
+std::string told_by_machine(const RecordedEvent& event) {
+  const auto number = [&](const char* value) {
+    const auto* found = event.find(value);
+    return found != nullptr ? found->number : 0;
+  };
+  if (event.event == "held_back")
+    return fmt::format(
+        "its line drive stood at its largest force, {:.4g} N, and it ran at {:.3g} of {:.3g} m/min",
+        number("force"), number("speed"), number("set_speed"));
+  if (event.event == "clamped_moving")
+    return fmt::format("{} took hold of material that ran {:.4g} mm/s {} than the carriage",
+                       number("blade") != 0 ? "the blade" : "the clamps", std::abs(number("difference")),
+                       number("difference") < 0 ? "faster" : "slower");
+  if (event.event == "opened_early") return "the clamps let go with the blade in the material";
+  return "";
+}
 constexpr std::array<std::string_view, 7> warning_events = {
     "warning", "refused", "contradiction", "held_up", "overrun", "counts_lost", "pulse_lost"};
 
@@ -43,6 +61,10 @@ void Causes::happened(const RecordedEvent& event) {
   if (event.source == "timeline") {
     if ((event.event == "fault" || event.text == "off") && faults_.size() < most_causes)
       faults_.push_back({at, event.event, event.text});
+  } else if (const auto told = told_by_machine(event); !told.empty()) {
+    const bool known = std::any_of(errors_.begin(), errors_.end(),
+                                   [&](const Told& one) { return one.source == event.source; });
+    if (!known) errors_.push_back({at, event.source, told});
   } else if (is_among(event.event, error_events)) {
     keep(errors_, false);
   } else if (is_among(event.event, warning_events)) {
@@ -100,7 +122,12 @@ std::string Causes::by_time(double failed_at) const {
 std::string Causes::of(const std::vector<CheckResult>& checks, const Known& known) const {
   if (std::all_of(checks.begin(), checks.end(), [](const CheckResult& check) { return check.passed; }))
     return "";
-  if (!known.contradictions.empty()) return "because " + known.contradictions.front();
+  if (!known.contradictions.empty()) {
+    const auto* error = first_error(std::numeric_limits<double>::infinity());
+    return "because " + known.contradictions.front() +
+           (error != nullptr ? fmt::format("; {} at {:.6g} s: {}", error->source, error->at, error->text)
+                             : "");
+  }
   constexpr auto ever = std::numeric_limits<double>::infinity();
   const auto failed_at = first_failure(checks);
   if (const auto* error = first_error(ever); !failed_at && error == nullptr && !known.hindrances.empty())

@@ -49,14 +49,24 @@ std::string name_before(const std::string& text, std::size_t at) {
   return words.empty() ? "" : words.front().text;
 }
 
-/// Whether anything in the programs can work the output. What cannot be told counts as worked.
-bool is_worked(const std::string& terminal, const std::vector<devices::ProgramText>& programs) {
+/// "IX0.0", "QX0.0", which a program declares, and not "Knife.ready", which an axis has.
+bool is_declared(const std::string& terminal) {
+  return terminal.size() > 2 && (terminal[0] == 'i' || terminal[0] == 'q') && terminal[1] == 'x' &&
+         is_digit(terminal[2]);
+}
+
+/// How sure it is to be that a program works or reads a terminal: what cannot be told counts as named, or a
+/// group of terminals does not name each of them.
+enum class Named { perhaps, surely };
+
+bool is_named(const std::string& terminal, const std::vector<devices::ProgramText>& programs, Named how) {
   const auto wanted = lower(terminal);
-  if (wanted.find('.') != std::string::npos && is_letter(wanted.front()) && wanted.front() != 'q')
+  if (wanted.find('.') != std::string::npos && is_letter(wanted.front()) && !is_declared(wanted))
     return true;  // an axis'
   for (const auto& program : programs) {
     const auto words = program_words(program);
     if (program.language == "il") {
+      if (how == Named::surely) return times_named(words, wanted) > 0;
       // A group of four bits and more, K2Y0, holds others; so do blocks of outputs. A cam's block has the
       // number of its synchronous output.
       for (auto k = words.find('k'); k != std::string::npos; k = words.find('k', k + 1))
@@ -66,7 +76,7 @@ bool is_worked(const std::string& terminal, const std::vector<devices::ProgramTe
       if (number && times_named(words, fmt::format("k{}", *number)) > 0) return true;
     } else if (program.language == "st") {
       for (const auto* whole : {"%qb", "%qw", "%qd"})
-        if (words.find(whole) != std::string::npos) return true;
+        if (how == Named::perhaps && words.find(whole) != std::string::npos) return true;
       const auto at = words.find("%" + wanted);
       if (at == std::string::npos || !is_word_at(words, at + 1, wanted.size())) continue;
       const auto name = name_before(words, at);
@@ -117,7 +127,7 @@ std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devi
     const auto* address = std::get_if<devices::Address>(&found);
     if (address == nullptr) continue;
     const auto name = controller.terminal_name(*address);
-    if (address->kind == devices::Kind::output && !is_worked(name, programs))
+    if (address->kind == devices::Kind::output && !is_named(name, programs, Named::perhaps))
       notes.push_back(fmt::format("{} is wired to {}, and no program works it", name, wire.plug.text));
     if (address->kind != devices::Kind::counter) continue;
     if (is_unread(name, programs))
@@ -128,6 +138,33 @@ std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devi
       notes.push_back(fmt::format("{} and {} are both wired to {}", first->second, name, wire.plug.text));
   }
   return notes;
+}
+
+OpenTerminals open_terminals(devices::Controller& controller, const std::vector<std::string>& unwired) {
+  OpenTerminals open;
+  const auto programs = controller.programs();
+  for (const auto& name : unwired) {
+    const auto found = controller.terminal(name);
+    const auto* address = std::get_if<devices::Address>(&found);
+    if (address == nullptr) continue;
+    const bool pulses = controller.cards().pulse_outputs.contains(*address);
+    const auto tell = [&](auto& list, std::string_view what) {
+      list.push_back(fmt::format("{} {}, and nothing is wired to it", name, what));
+    };
+    if (pulses)
+      tell(open.moving, "gives pulses");
+    else if (address->kind == devices::Kind::analogue)
+      tell(open.moving, "gives a reference");
+    else if (address->kind == devices::Kind::counter)
+      tell(open.moving, "is counted");
+    else if (!is_named(name, programs, Named::surely))
+      open.unnamed.push_back(name);
+    else if (address->kind == devices::Kind::output)
+      tell(open.others, "is worked by the program");
+    else
+      tell(open.others, "is read by the program");
+  }
+  return open;
 }
 
 }  // namespace drycut::sim::loop

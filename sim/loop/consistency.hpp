@@ -16,4 +16,13 @@ std::vector<std::string> contradictions(const scenario::Scenario& scenario,
 /// encoder on two counters.
 std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devices::Controller& controller);
 
+/// Terminals that nothing is wired to, a phrase each: "Y1 gives pulses, and nothing is wired to it".
+struct OpenTerminals {
+  std::vector<std::string> moving;  ///< pulses, references, counters: without them nothing moves as it should
+  std::vector<std::string> others;  ///< inputs and outputs that the program names
+  std::vector<std::string> unnamed;  ///< declared and not used; the terminals' names
+};
+/// `unwired`: Bus::unwired().
+OpenTerminals open_terminals(devices::Controller& controller, const std::vector<std::string>& unwired);
+
 }  // namespace drycut::sim::loop

@@ -13,6 +13,7 @@ struct KnownEvent {
   std::string source;
   std::string name;
   std::vector<std::pair<std::string, std::string>> values;
+  bool is_failure = false;  ///< it fails a run none of whose checks looks at it
 };
 
 /// What the timeline and any controller report besides the plants' own events; these have no values.

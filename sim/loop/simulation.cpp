@@ -9,7 +9,6 @@
 #include <unordered_map>
 
 #include "base/text.hpp"
-#include "sim/loop/consistency.hpp"
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/opcua_names.hpp"
 #include "sim/scenario/format.hpp"
@@ -49,7 +48,7 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
   check_opcua_names(scenario, *names_, problems);
   for (const auto& [name, plant] : named_) {
     for (const auto& type : plant->event_types()) {
-      KnownEvent event{name, std::string(type.name), {}};
+      KnownEvent event{name, std::string(type.name), {}, type.is_failure};
       for (const auto& value : type.values) event.values.emplace_back(value.name, value.unit);
       known_events_.push_back(std::move(event));
     }
@@ -60,7 +59,8 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
   captions_ =
       bind_recording({scenario, named_, *names_, *watch_, known_events_, all_events_}, recording_, problems);
   drives_ = std::make_unique<DriveJudge>(scenario, named_);
-  observers_ = {checks_.get(), drives_.get(), &shutter_, &remarks_, &causes_};
+  unasked_ = std::make_unique<Unasked>(scenario, known_events_);
+  observers_ = {checks_.get(), drives_.get(), unasked_.get(), &shutter_, &remarks_, &causes_};
   if (checks_->looks_at_steps()) tell_steps(*checks_);
   if (problems.size() == before) compare_with_machine();
   scenario::blame_variables(scenario, problems, before, [&](const scenario::Trial& trial) {
@@ -85,7 +85,10 @@ void Simulation::compare_with_machine() {
   if (!controller_) return;
   contradictions_ = contradictions(scenario_, named_);
   for (const auto& note : contradictions_) notes_of_setup_.push_back(note);
-  for (auto& note : doubtful_wires(scenario_, *controller_)) notes_of_setup_.push_back(std::move(note));
+  open_ = open_terminals(*controller_, bus_.unwired());
+  warnings_ = open_.moving;
+  warnings_.insert(warnings_.end(), open_.others.begin(), open_.others.end());
+  for (auto& doubt : doubtful_wires(scenario_, *controller_)) warnings_.push_back(std::move(doubt));
 }
 
 void Simulation::build_plants() {
@@ -276,8 +279,7 @@ std::vector<std::optional<Strobe>> Simulation::strobes() const {
 
 std::vector<std::string> Simulation::notes() const {
   std::vector<std::string> notes;
-  if (const auto open = bus_.unwired(); !open.empty())
-    notes.push_back(fmt::format("not wired: {}", fmt::join(open, ", ")));
+  if (!open_.unnamed.empty()) notes.push_back(fmt::format("not wired: {}", fmt::join(open_.unnamed, ", ")));
   notes.insert(notes.end(), notes_of_setup_.begin(), notes_of_setup_.end());
   for (auto& lost : bus_.lost()) notes.push_back(std::move(lost));
   const auto& around = scenario_.pictures.around;
@@ -386,8 +388,13 @@ Outcome Simulation::outcome() {
                               {},
                               program_error_.empty() ? "no error" : program_error_});
   }
-  if (outcome.failure.empty() && !outcome.passed())
-    outcome.cause = causes_.of(outcome.checks, {contradictions_, hindrances()});
+  for (auto& check : unasked_->results()) outcome.checks.push_back(std::move(check));
+  outcome.warnings = warnings_;
+  if (outcome.failure.empty() && !outcome.passed()) {
+    auto known = contradictions_;
+    known.insert(known.end(), open_.moving.begin(), open_.moving.end());
+    outcome.cause = causes_.of(outcome.checks, {std::move(known), hindrances()});
+  }
   return outcome;
 }
 

@@ -14,6 +14,7 @@
 #include "sim/loop/bus.hpp"
 #include "sim/loop/causes.hpp"
 #include "sim/loop/checks.hpp"
+#include "sim/loop/consistency.hpp"
 #include "sim/loop/disturbances.hpp"
 #include "sim/loop/drive_judge.hpp"
 #include "sim/loop/names.hpp"
@@ -24,6 +25,7 @@
 #include "sim/loop/strobe.hpp"
 #include "sim/loop/timeline.hpp"
 #include "sim/loop/trace_files.hpp"
+#include "sim/loop/unasked.hpp"
 #include "sim/loop/watch.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -45,6 +47,8 @@ struct Outcome {
   std::vector<DriveVerdict> drives = {};   ///< what the drives came to beside their ratings
   /// Why checks failed, as far as the run tells, as the end of a sentence: "because ..."; "" = it does not.
   std::string cause = {};
+  /// What may be a slip though the checks cannot tell: wires, a phrase each.
+  std::vector<std::string> warnings = {};
   [[nodiscard]] bool passed() const;
 };
 
@@ -116,11 +120,14 @@ class Simulation {
   [[nodiscard]] const devices::Controller* controller() const { return controller_.get(); }
   [[nodiscard]] devices::Controller* controller() { return controller_.get(); }
 
-  /// What a reader should know that is no fault: terminals without a wire, how the controller is set
+  /// What a reader should know that is no fault: terminals that are declared only, how the controller is set
   /// up, remarks of it during the run.
   [[nodiscard]] std::vector<std::string> notes() const;
   /// Those of them that are known before the run: how the controller is set up.
   [[nodiscard]] const std::vector<std::string>& notes_of_setup() const { return notes_of_setup_; }
+  /// What may be a slip: wires that nothing works or that are missing. Known before the run, and part of its
+  /// outcome.
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
   /// The controller's values as they are now, by name, with units; rows of cam tables only where they are not
   /// 0.
   [[nodiscard]] std::vector<Reading> controller_values();
@@ -178,6 +185,7 @@ class Simulation {
   std::unique_ptr<Timeline> timeline_;
   std::unique_ptr<Checks> checks_;
   std::unique_ptr<DriveJudge> drives_;
+  std::unique_ptr<Unasked> unasked_;
   Recording recording_;
   std::unique_ptr<Observer> files_;
   std::unique_ptr<cams::CamRecorder> cams_;
@@ -194,6 +202,8 @@ class Simulation {
   std::vector<KnownEvent> all_events_;    ///< with those of timeline and controller
   std::string failure_;
   std::vector<std::string> notes_of_setup_;
+  OpenTerminals open_;
+  std::vector<std::string> warnings_;
   std::vector<std::string> contradictions_;  ///< of controller and machine; among those notes too
   std::string program_error_;                ///< first run-time error of the controller's program
 };

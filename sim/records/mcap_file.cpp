@@ -87,7 +87,10 @@ int log_level(const std::string& event) {
   constexpr int info = 2;
   constexpr int warning = 3;
   constexpr int error = 4;
-  if (is_one_of(std::array{"error", "errorstop", "block_error"}, event)) return error;
+  if (is_one_of(
+          std::array{"error", "errorstop", "block_error", "held_back", "clamped_moving", "opened_early"},
+          event))
+    return error;
   return is_one_of(std::array{"warning", "refused", "out_of_range", "contradiction", "held_up", "overrun",
                               "stopped", "fault", "counts_lost", "pulse_lost"},
                    event)

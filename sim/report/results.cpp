@@ -1,6 +1,7 @@
 #include "sim/report/results.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +37,7 @@ std::string properties_of(const RunResult& result) {
   add("scenario", result.scenario.string());
   if (result.seed) add("seed", std::to_string(*result.seed));
   add("duration", fmt::format("{} s", loop::seconds_text(result.outcome.end)));
+  for (const auto& warning : result.outcome.warnings) add("warning", warning);
   return text + "    </properties>\n";
 }
 
@@ -77,8 +79,10 @@ std::string suite_of(const RunResult& result) {
   if (stopped)
     text += case_of(result, outcome.checks.size(), "runs to its end", each,
                     fmt::format("<error message=\"{}\"/>", escaped(outcome.failure)));
-  if (const auto attached = attachment_of(result); !attached.empty())
-    text += "    <system-out>" + attached + "</system-out>\n";
+  auto output = attachment_of(result);
+  for (const auto& warning : outcome.warnings)
+    output += fmt::format("{}warning: {}", output.empty() ? "" : "\n", escaped(warning));
+  if (!output.empty()) text += "    <system-out>" + output + "</system-out>\n";
   return text + "  </testsuite>\n";
 }
 
@@ -110,16 +114,28 @@ std::string margin_text(const loop::CheckResult& check) {
   return text;
 }
 
+loop::CheckResult no_warnings(const loop::Outcome& outcome) {
+  loop::CheckResult check;
+  check.name = "no warning";
+  check.expectation = "no warning, with --strict";
+  check.detail = fmt::format("{}", fmt::join(outcome.warnings, "; "));
+  return check;
+}
+
 std::string verdict_text(const loop::Outcome& outcome) {
+  const auto warned = outcome.warnings.empty()
+                          ? ""
+                          : ", " + counted(static_cast<std::int64_t>(outcome.warnings.size()), "warning");
   if (!outcome.failure.empty()) return "the simulation stopped: " + outcome.failure;
   const auto failed =
       std::count_if(outcome.checks.begin(), outcome.checks.end(), [](const auto& c) { return !c.passed; });
-  if (outcome.checks.empty()) return "the scenario states no checks";
+  if (outcome.checks.empty()) return "the scenario states no checks" + warned;
   if (failed > 0)
-    return fmt::format("{} of {} checks failed{}{}", failed, outcome.checks.size(),
-                       outcome.cause.empty() ? "" : ", ", outcome.cause);
-  return outcome.checks.size() == 1 ? "the one check passed"
-                                    : fmt::format("all {} checks passed", outcome.checks.size());
+    return fmt::format("{} of {} checks failed{}{}{}", failed, outcome.checks.size(),
+                       outcome.cause.empty() ? "" : ", ", outcome.cause, warned);
+  return (outcome.checks.size() == 1 ? "the one check passed"
+                                     : fmt::format("all {} checks passed", outcome.checks.size())) +
+         warned;
 }
 
 loop::Outcome outcome_to_come() {
@@ -133,6 +149,7 @@ void write_checks(const loop::Outcome& outcome, const std::filesystem::path& fil
   json["end"] = seconds(outcome.end);
   json["failure"] = outcome.failure;
   json["cause"] = outcome.cause;
+  json["warnings"] = outcome.warnings;
   const auto& half = outcome.half_step;
   if (half) json["half_step"] = {{"step", seconds(half->step)}, {"failure", half->failure}};
   json["checks"] = nlohmann::ordered_json::array();

@@ -76,7 +76,10 @@ void write_junit(const std::vector<RunResult>& results, const std::filesystem::p
 /// "0.0530 mm left, at 7.2040 s"; "" where there is no margin to tell.
 std::string margin_text(const loop::CheckResult& check);
 
-/// "all 5 checks passed", "2 of 5 checks failed", "the simulation stopped: ...".
+/// The check of a run with --strict that has warnings: it fails.
+loop::CheckResult no_warnings(const loop::Outcome& outcome);
+
+/// "all 5 checks passed", "2 of 5 checks failed, 1 warning", "the simulation stopped: ...".
 std::string verdict_text(const loop::Outcome& outcome);
 
 }  // namespace drycut::sim::report

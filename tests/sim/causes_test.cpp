@@ -65,5 +65,30 @@ TEST(Causes, WhatContradictsTheMachineGoesBeforeAllAndWhyNothingBeganBeforeWarni
   EXPECT_THAT(causes.of({failed({})}, known), testing::HasSubstr("division by zero"));
 }
 
+TEST(Causes, AMachineTellsItInNumbers) {
+  Causes causes;
+  causes.happened(told(2, "saw", "clamped_moving", "", {{"difference", -567.2, "mm/s"}, {"blade", 0, ""}}));
+  causes.happened(told(2.05, "tube", "held_back", "",
+                       {{"force", 1500, "N"}, {"speed", 3, "m/min"}, {"set_speed", 34.4, "m/min"}}));
+  EXPECT_EQ(
+      causes.of({failed(2)}, {}),
+      "because saw at 2 s: the clamps took hold of material that ran 567.2 mm/s faster than the carriage");
+  EXPECT_EQ(
+      causes.of({failed(2)}, {{"Y1 gives pulses, and nothing is wired to it"}, {}}),
+      "because Y1 gives pulses, and nothing is wired to it; saw at 2 s: the clamps took hold of material "
+      "that ran 567.2 mm/s faster than the carriage");
+  Causes held;
+  held.happened(told(2.05, "tube", "held_back", "",
+                     {{"force", 1500, "N"}, {"speed", 3, "m/min"}, {"set_speed", 34.4, "m/min"}}));
+  EXPECT_EQ(
+      held.of({failed(3)}, {}),
+      "because tube at 2.05 s: its line drive stood at its largest force, 1500 N, and it ran at 3 of 34.4 "
+      "m/min");
+  Causes early;
+  early.happened(told(2.1, "saw", "opened_early", "", {{"depth", 20, "mm"}}));
+  EXPECT_EQ(early.of({failed(3)}, {}),
+            "because saw at 2.1 s: the clamps let go with the blade in the material");
+}
+
 }  // namespace
 }  // namespace drycut::sim::loop

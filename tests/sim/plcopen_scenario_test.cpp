@@ -401,14 +401,16 @@ TEST_F(PlcopenScenario, WiresAreCheckedByWhatTheControllerHas) {
                   HasSubstr("'2.AN01' is no terminal: there is no axis '2'; axes: Line, Knife")));
 }
 
-TEST_F(PlcopenScenario, WhatADriveNeedsAndNothingIsWiredToIsNoted) {
+TEST_F(PlcopenScenario, WhatADriveNeedsAndNothingIsWiredToIsAWarning) {
   auto text = std::string(line);
   text.replace(text.find("Knife.encoder: knife.encoder, "), 30, "");
   text.replace(text.find("Knife.reference: knife.reference, "), 34, "");
   const auto scenario = read(text);
   Simulation simulation(scenario, problems);
   ASSERT_THAT(told(), IsEmpty());
-  EXPECT_THAT(simulation.notes(), ElementsAre("not wired: Knife.encoder, Knife.reference"));
+  EXPECT_THAT(simulation.warnings(),
+              ElementsAre("Knife.encoder is counted, and nothing is wired to it",
+                          "Knife.reference gives a reference, and nothing is wired to it"));
 }
 
 TEST_F(PlcopenScenario, ASlaveThatWouldCreepToItsCamIsNoted) {

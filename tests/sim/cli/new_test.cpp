@@ -102,6 +102,43 @@ TEST_F(ChangedLine, IsToldAnOutputThatNothingWorks) {
               HasSubstr("line.yaml: Y21 is wired to panel.lamp, and no program works it"));
 }
 
+TEST_F(ChangedLine, SaysAWireWithoutAPurposeEverywhere) {
+  ASSERT_EQ(make("line", "flying_saw", "lx3vp"), all_passed);
+  RunOptions options;
+  options.scenarios = {folder / "line/line.yaml"};
+  options.out = folder / "out";
+  options.summary = (folder / "summary.md").string();
+  options.annotate = "github";
+  options.pictures = false;
+  options.set = {"wiring.Y21=panel.lamp"};
+  const std::string warning = "Y21 is wired to panel.lamp, and no program works it";
+  EXPECT_EQ(captured([&] { return run_scenarios(options); }), all_passed) << err;
+  EXPECT_THAT(
+      out, AllOf(HasSubstr("line: passed, all "), HasSubstr(" checks passed, 1 warning ("),
+                 HasSubstr("\n  warning " + warning), testing::ContainsRegex("::warning file=.*" + warning)));
+  EXPECT_THAT(content(folder / "out/junit.xml"),
+              AllOf(HasSubstr("<property name=\"warning\" value=\"" + warning), HasSubstr("failures=\"0\""),
+                    HasSubstr("<system-out>warning: " + warning)));
+  EXPECT_THAT(content(folder / "out/line/checks.json"), HasSubstr(warning));
+  EXPECT_THAT(content(folder / "summary.md"),
+              AllOf(HasSubstr("passed, 1 warning"), HasSubstr("- line: Y21 is wired")));
+  options.strict = true;
+  EXPECT_EQ(captured([&] { return run_scenarios(options); }), check_failed) << err;
+  EXPECT_THAT(out, HasSubstr("FAIL no warning: " + warning));
+  EXPECT_THAT(content(folder / "out/junit.xml"), HasSubstr("failures=\"1\""));
+}
+
+TEST_F(ChangedLine, IsToldWhatNothingIsWiredTo) {
+  ASSERT_EQ(make("line", "flying_saw", "lx3vp"), all_passed);
+  auto program = content(folder / "line/programs/flying_saw.il");
+  program.replace(program.find("M15 Y0 Y4"), 9, "M15 Y1 Y4");
+  program.replace(program.find("AND     X14"), 11, "AND     X15");
+  folder.file("line/programs/flying_saw.il", program);
+  EXPECT_THAT(notes({}, true),
+              AllOf(HasSubstr("line.yaml: Y1 gives pulses, and nothing is wired to it"),
+                    HasSubstr("line.yaml: X15 is read by the program, and nothing is wired to it")));
+}
+
 TEST_F(ChangedLine, SaysWhyItFailsEverywhere) {
   ASSERT_EQ(make("line", "rotary_knife", "plcopen"), all_passed);
   RunOptions options;

@@ -1,0 +1,48 @@
+#include "sim/loop/unasked.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "sim/loop/recorder.hpp"
+
+namespace drycut::sim::loop {
+
+Unasked::Unasked(const scenario::Scenario& scenario, const std::vector<KnownEvent>& events) {
+  for (const auto& event : events) {
+    const bool asked =
+        std::any_of(scenario.checks.begin(), scenario.checks.end(), [&](const scenario::Check& check) {
+          return names_event(check.event.text, event.source, event.name);
+        });
+    if (event.is_failure && !asked) watched_.push_back({event.source, event.name, 0, 0, {}});
+  }
+}
+
+void Unasked::happened(const RecordedEvent& event) {
+  for (auto& watched : watched_) {
+    if (watched.name != event.event || watched.source != event.source) continue;
+    constexpr int shown_digits = 4;
+    if (watched.times++ > 0) continue;
+    watched.first = event.at_seconds();
+    watched.values = values_text(event, shown_digits);
+  }
+}
+
+std::vector<CheckResult> Unasked::results() const {
+  std::vector<CheckResult> results;
+  for (const auto& watched : watched_) {
+    if (watched.times == 0) continue;
+    const auto name = watched.source + "." + watched.name;
+    CheckResult result;
+    result.name = "no " + name;
+    result.expectation = fmt::format("never {}, which no check asks about", name);
+    result.detail = fmt::format("{}, first at {:.6g} s: {}", counted(watched.times, "time"), watched.first,
+                                watched.values);
+    result.failed_at = watched.first;
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+}  // namespace drycut::sim::loop
