@@ -17,8 +17,8 @@ constexpr std::size_t most_causes = 200;  ///< of each kind
 bool is_among(std::string_view word, const auto& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
-constexpr std::array<std::string_view, 6> error_events = {"error", "errorstop", "block_error", "stopped",
-                                                          "trip", "pulled_out"};
+constexpr std::array<std::string_view, 6> error_events = {"error",   "errorstop", "block_error",
+                                                          "stopped", "trip",      "pulled_out"};
 // Of machines, which tell numbers and no text.
 std::string told_by_machine(const RecordedEvent& event) {
   const auto number = [&](const char* value) {

@@ -140,8 +140,15 @@ std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devi
   return notes;
 }
 
-OpenTerminals open_terminals(devices::Controller& controller, const std::vector<std::string>& unwired) {
+OpenTerminals open_terminals(devices::Controller& controller, const std::vector<std::string>& unwired,
+                             const std::vector<NamedPlant>& plants) {
   OpenTerminals open;
+  const bool takes_pulses = std::any_of(plants.begin(), plants.end(), [](const NamedPlant& named) {
+    const auto ports = named.plant->ports();
+    return std::any_of(ports.begin(), ports.end(), [](const plants::Port& port) {
+      return std::holds_alternative<plants::PulsePort*>(port.plug);
+    });
+  });
   const auto programs = controller.programs();
   for (const auto& name : unwired) {
     const auto found = controller.terminal(name);
@@ -151,7 +158,9 @@ OpenTerminals open_terminals(devices::Controller& controller, const std::vector<
     const auto tell = [&](auto& list, std::string_view what) {
       list.push_back(fmt::format("{} {}, and nothing is wired to it", name, what));
     };
-    if (pulses)
+    if (pulses && !takes_pulses)
+      open.unnamed.push_back(name);
+    else if (pulses)
       tell(open.moving, "gives pulses");
     else if (address->kind == devices::Kind::analogue)
       tell(open.moving, "gives a reference");

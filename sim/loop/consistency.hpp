@@ -20,9 +20,10 @@ std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devi
 struct OpenTerminals {
   std::vector<std::string> moving;  ///< pulses, references, counters: without them nothing moves as it should
   std::vector<std::string> others;  ///< inputs and outputs that the program names
-  std::vector<std::string> unnamed;  ///< declared and not used; the terminals' names
+  std::vector<std::string> unnamed;  ///< of which nothing is amiss; the terminals' names
 };
-/// `unwired`: Bus::unwired().
-OpenTerminals open_terminals(devices::Controller& controller, const std::vector<std::string>& unwired);
+/// `unwired`: Bus::unwired(). Pulses are no slip where no plant could take any.
+OpenTerminals open_terminals(devices::Controller& controller, const std::vector<std::string>& unwired,
+                             const std::vector<NamedPlant>& plants);
 
 }  // namespace drycut::sim::loop

@@ -85,7 +85,7 @@ void Simulation::compare_with_machine() {
   if (!controller_) return;
   contradictions_ = contradictions(scenario_, named_);
   for (const auto& note : contradictions_) notes_of_setup_.push_back(note);
-  open_ = open_terminals(*controller_, bus_.unwired());
+  open_ = open_terminals(*controller_, bus_.unwired(), named_);
   warnings_ = open_.moving;
   warnings_.insert(warnings_.end(), open_.others.begin(), open_.others.end());
   for (auto& doubt : doubtful_wires(scenario_, *controller_)) warnings_.push_back(std::move(doubt));
