@@ -7,6 +7,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <thread>
 
@@ -212,6 +213,7 @@ void run_groups(std::vector<Group>& groups, bool pictures) {
 }
 
 int status_of(const Work& work) {
+  if (!work.refused.empty()) return bad_input;
   int status = all_passed;
   const auto take = [&](const std::string& trouble, const loop::Outcome& outcome) {
     if (!trouble.empty() || !outcome.failure.empty()) {
@@ -240,7 +242,18 @@ std::vector<report::RunResult> tell_results(const Work& work, Say say) {
     print_group(group, say);
     keep(group.result, group.trouble);
   }
+  for (const auto& refused : work.refused) print_refused(refused);
   return results;
+}
+
+/// All that is wrong, once: several scenarios may have it from the same file or --set.
+Problems problems_of(const Problems& of_call, const Work& work) {
+  auto all = of_call;
+  std::set<std::string> told;
+  for (const auto& refused : work.refused)
+    for (const auto& problem : refused.problems)
+      if (told.insert(to_string(problem)).second) all.push_back(problem);
+  return all;
 }
 
 /// The summary can be written. Its folder may be that of the results, which is made yet.
@@ -275,26 +288,31 @@ int run_scenarios(const RunOptions& options) {
   if (!options.summary.empty()) check_summary(options, problems);
   const bool has_summary = !options.summary.empty() && problems.size() == before;
   if (problems.empty() && !options.cache.empty()) const RunCache made(options.cache, problems);
-  if (problems.empty()) open_folders(work, options, problems);
-  if (!problems.empty()) {
-    print_problems(problems);
+  const bool any = !work.jobs.empty();
+  if (problems.empty() && any) open_folders(work, options, problems);
+  const auto all_problems = problems_of(problems, work);
+  print_problems(all_problems);
+  if (!problems.empty() || !any) {
     work.folder.reset();  // and its lock
     take_back_results(options.out);
-    annotate(options.annotate, annotations_of(problems));
+    annotate(options.annotate, annotations_of(all_problems));
     if (has_summary &&
         std::filesystem::is_directory(std::filesystem::absolute(options.summary).parent_path()))
-      write_file(options.summary, summary_text(problems));
+      write_file(options.summary, summary_text(all_problems));
     return bad_input;
   }
   begin(work);
   const InterruptWatch watch;
   run_all(work.jobs, options);
   run_groups(work.groups, options.pictures);
-  const auto results = tell_results(work, options.say);
+  auto results = tell_results(work, options.say);
+  auto annotations = annotations_of(all_problems);
+  for (auto& annotation : annotations_of(results)) annotations.push_back(std::move(annotation));
+  for (const auto& refused : work.refused) results.push_back(refused.result);
   try {
     report::write_junit(results, work.folder->add(junit_file));
     report::write_index(options.out, *work.folder);
-    annotate(options.annotate, annotations_of(results));
+    annotate(options.annotate, annotations);
     if (!options.summary.empty())
       write_file(
           options.summary,

@@ -27,7 +27,7 @@ class Claims {
                           "give the scenario another file name"});
     }
     claim(name, file, "its results would overwrite those of {}",
-          "give the scenarios different file names or run them apart", problems);
+          "name each once, and no two of one folder alike", problems);
   }
   void retentive(const std::filesystem::path& kept, const std::filesystem::path& file, Problems& problems) {
     claim("retentive " + kept.lexically_normal().string(), file,
@@ -81,17 +81,19 @@ void read_half(Job& job, std::vector<scenario::Override> overrides, const RunOpt
 }
 
 /// The members of a comparing scene as jobs, in a folder of its own each inside the scene's.
-void prepare_members(studies::ComparisonScene scene, const std::vector<scenario::Override>& overrides,
-                     const RunOptions& options, Claims& claims, Work& work, Problems& problems) {
+void prepare_members(studies::ComparisonScene scene, const std::string& name,
+                     const std::vector<scenario::Override>& overrides, const RunOptions& options,
+                     Claims& claims, Work& work, Problems& problems) {
   auto& group = work.groups.emplace_back();
-  const auto stem = scene.file.stem().string();
   bool sound = true;
   for (const auto& member : scene.members) {
     auto job = std::make_unique<Job>();
     const UseFiles use(job->files);
     Problems own;
     job->scenario = studies::read_member(scene, member, overrides, own);
-    sound = put_together(*job, stem + "/" + member.name.text, options, claims, own) && sound;
+    const auto full_name = name + "/" + member.name.text;
+    claims.results(full_name, scene.file, own);
+    sound = put_together(*job, full_name, options, claims, own) && sound;
     read_half(
         *job, overrides, options,
         [&](const auto& set) { return studies::read_member(scene, member, set, own); }, own);
@@ -102,48 +104,93 @@ void prepare_members(studies::ComparisonScene scene, const std::vector<scenario:
     work.jobs.push_back(std::move(job));
   }
   if (sound) studies::check_comparison(scene, group.names, problems);
-  group.result.name = stem;
+  group.result.name = name;
   group.result.scenario = scene.file;
-  group.result.directory = options.out / stem;
+  group.result.directory = options.out / name;
   group.result.title = scene.title;
   group.result.places = report::places_of_checks(scene);
   group.scene = std::move(scene);
 }
 
+void prepare_scenario(const std::filesystem::path& file, const std::string& name,
+                      const std::vector<scenario::Override>& overrides, const RunOptions& options,
+                      Claims& claims, Work& work, Problems& problems) {
+  if (!live::is_session(file)) {
+    if (auto scene = studies::read_comparison(file, problems)) {
+      if (problems.empty())
+        prepare_members(std::move(*scene), name, overrides, options, claims, work, problems);
+      return;
+    }
+  }
+  auto& job = *work.jobs.emplace_back(std::make_unique<Job>());
+  const UseFiles use(job.files);
+  if (!live::is_session(file)) {
+    const auto read = [&](const auto& set) { return scenario::read_scenario(file, set, problems); };
+    job.scenario = read(overrides);
+    put_together(job, name, options, claims, problems);
+    return read_half(job, overrides, options, read, problems);
+  }
+  if (!options.set.empty())
+    problems.push_back({"--set", 1, 1, fmt::format("{} is a session, which has its own", file.string()),
+                        "drycut replay --to-scenario makes a scenario of it"});
+  if (auto session = live::read_session(file, {}, job.notes, problems)) {
+    job.scenario = std::move(session->scenario);
+    job.scenario.scene.duration = std::max(session->reached, job.scenario.scene.step);
+  }
+  put_together(job, name, options, claims, problems);
+}
+
 }  // namespace
+
+std::vector<std::string> result_names(const std::vector<std::filesystem::path>& scenarios) {
+  std::vector<std::filesystem::path> whole;
+  for (const auto& file : scenarios) whole.push_back(std::filesystem::absolute(file).lexically_normal());
+  // With so many of its folders.
+  const auto name_of = [&](std::size_t i, std::size_t folders) {
+    auto name = whole[i].stem();
+    auto folder = whole[i].parent_path();
+    for (; folders > 0 && folder.has_relative_path(); --folders, folder = folder.parent_path())
+      name = folder.filename() / name;
+    return name.string();
+  };
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    const auto is_alone = [&](std::size_t folders) {
+      for (std::size_t k = 0; k < whole.size(); ++k)
+        if (whole[k].parent_path() != whole[i].parent_path() && name_of(k, folders) == name_of(i, folders))
+          return false;
+      return true;
+    };
+    std::size_t folders = 0;
+    while (!is_alone(folders)) ++folders;
+    names.push_back(name_of(i, folders));
+  }
+  return names;
+}
 
 Work prepare(const RunOptions& options, Problems& problems) {
   const auto overrides = overrides_of(options.set, problems);
+  const auto names = result_names(options.scenarios);
   Work work;
   Claims claims;
-  for (const auto& file : options.scenarios) {
-    claims.results(file.stem().string(), file, problems);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto& file = options.scenarios[i];
+    const auto jobs = work.jobs.size();
+    const auto groups = work.groups.size();
+    claims.results(names[i], file, problems);
     Problems own;
-    if (live::is_session(file)) {
-      auto job = std::make_unique<Job>();
-      const UseFiles use(job->files);
-      if (!options.set.empty())
-        own.push_back({"--set", 1, 1, fmt::format("{} is a session, which has its own", file.string()),
-                       "drycut replay --to-scenario makes a scenario of it"});
-      if (auto session = live::read_session(file, {}, job->notes, own)) {
-        job->scenario = std::move(session->scenario);
-        job->scenario.scene.duration = std::max(session->reached, job->scenario.scene.step);
-      }
-      put_together(*job, file.stem().string(), options, claims, own);
-      work.jobs.push_back(std::move(job));
-    } else if (auto scene = studies::read_comparison(file, own)) {
-      if (own.empty()) prepare_members(std::move(*scene), overrides, options, claims, work, own);
-    } else {
-      auto job = std::make_unique<Job>();
-      const UseFiles use(job->files);
-      job->scenario = scenario::read_scenario(file, overrides, own);
-      put_together(*job, file.stem().string(), options, claims, own);
-      read_half(
-          *job, overrides, options, [&](const auto& set) { return scenario::read_scenario(file, set, own); },
-          own);
-      work.jobs.push_back(std::move(job));
-    }
-    problems.insert(problems.end(), own.begin(), own.end());
+    prepare_scenario(file, names[i], overrides, options, claims, work, own);
+    if (own.empty()) continue;
+    work.groups.resize(groups);
+    work.jobs.resize(jobs);
+    Refused refused;
+    refused.result.name = names[i];
+    refused.result.scenario = file;
+    refused.problems = std::move(own);
+    refused.result.outcome.failure = fmt::format(
+        "not run: {}{}", to_string(refused.problems.front()),
+        refused.problems.size() == 1 ? "" : fmt::format(", and {} more", refused.problems.size() - 1));
+    work.refused.push_back(std::move(refused));
   }
   return work;
 }

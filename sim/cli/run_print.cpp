@@ -48,6 +48,12 @@ void print_group(const Group& group, Say say) {
   if (group.trouble.empty()) print_place(group.result);
 }
 
+void print_refused(const Refused& refused) {
+  const auto count = refused.problems.size();
+  fmt::print("{}: {}, its input is wrong: {} {}, told above\n", printable(refused.result.name),
+             verdict(false, "NOT RUN"), count, count == 1 ? "problem" : "problems");
+}
+
 void print_result(const Job& job, Say say) {
   const auto& result = job.result;
   const bool passed = job.trouble.empty() && result.outcome.passed();

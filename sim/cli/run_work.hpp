@@ -46,18 +46,30 @@ struct Group {
   std::string trouble;
 };
 
+/// A scenario that is not run: its input is wrong.
+struct Refused {
+  report::RunResult result;
+  Problems problems;
+};
+
 /// What is to be run: scenarios, and those of scenes that compare.
 struct Work {
   std::optional<OutputFolder> folder;
   std::vector<std::unique_ptr<Job>> jobs;
   std::vector<Group> groups;
+  std::vector<Refused> refused;
 };
 
-/// Reads and puts together all scenarios; problems of all of them are told before anything runs.
+/// Reads and puts together all scenarios. One whose input is wrong is refused, the others stand; `problems`
+/// are those of the call itself.
 Work prepare(const RunOptions& options, Problems& problems);
+/// What the results of each scenario are called, from the folder of all results on: its file's name without
+/// extension, and before it as many of its folders as tell it from others of that name.
+std::vector<std::string> result_names(const std::vector<std::filesystem::path>& scenarios);
 
 // What the terminal is told.
 void print_result(const Job& job, Say say);
 void print_group(const Group& group, Say say);
+void print_refused(const Refused& refused);
 
 }  // namespace drycut::sim::cli

@@ -26,7 +26,10 @@ std::string plain(const std::string& text) {
   return plain;
 }
 
+bool is_not_run(const report::RunResult& result) { return result.outcome.failure.starts_with("not run: "); }
+
 std::string verdict(const report::RunResult& result) {
+  if (is_not_run(result)) return "not run";
   if (!result.outcome.failure.empty()) return "stopped";
   if (!result.outcome.passed()) return "**FAILED**";
   const auto warnings = static_cast<std::int64_t>(result.outcome.warnings.size());
@@ -80,8 +83,9 @@ class Text {
   void failures(const report::RunResult& result) {
     if (result.outcome.passed()) return;
     text_ += fmt::format("\n### {}\n\n", plain(result.name));
-    if (!result.outcome.failure.empty())
-      text_ += fmt::format("The simulation stopped: {}\n\n", plain(result.outcome.failure));
+    const auto& failure = result.outcome.failure;
+    if (!failure.empty())
+      text_ += fmt::format("{}{}\n\n", is_not_run(result) ? "" : "The simulation stopped: ", plain(failure));
     const auto& checks = result.outcome.checks;
     if (std::all_of(checks.begin(), checks.end(), [](const auto& c) { return c.passed; })) return;
     if (!result.outcome.cause.empty()) text_ += fmt::format("It failed {}.\n\n", plain(result.outcome.cause));
