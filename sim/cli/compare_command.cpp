@@ -8,6 +8,7 @@
 #include "base/output_file.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/scenario/yaml_reader.hpp"
+#include "sim/studies/compare/alignment.hpp"
 #include "sim/studies/compare/report.hpp"
 
 namespace drycut::sim::cli {
@@ -76,6 +77,8 @@ int compare_runs(const CompareOptions& options) {
   Problems problems;
   auto runs = read_runs(options, problems);
   const auto from = from_of(options, problems);
+  studies::leave_out(runs, options.without, problems);
+  studies::align(runs, options.align, problems);
   const auto allowances = allowances_of(options, runs, from, problems);
   std::optional<OutputFolder> folder;
   if (problems.empty()) folder.emplace(options.out, "compare", studies::comparison_files, problems);
@@ -134,6 +137,13 @@ void add_compare(CLI::App& app, int& status) {
           "figure, a check's margin, time. Exit status 1 beyond it; parameters do not count; may be "
           "repeated")
       ->allow_extra_args(false);
+  compare->add_option("--without", options.without, "Channels to leave out, as gbTour,Axis.*")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  compare->add_option(
+      "--align", options.align,
+      "Event or recorded channel, as cut or gbPlace: each time it happens, or changes, the runs "
+      "are laid over each other anew; else by the clock");
   add_no_pictures(*compare, options.pictures, "No plots and no report");
   compare->callback([chosen, &status] { status = compare_runs(*chosen); });
 }

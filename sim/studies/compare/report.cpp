@@ -124,11 +124,10 @@ ReportTable piece_table(const Comparison& comparison, const PieceRows& pieces) {
 }
 
 ReportTable channel_table(const Comparison& comparison) {
-  ReportTable table{
-      "Channels that runs share; rms and peak of what was recorded behind the start-up",
-      {"channel", "unit"},
-      {},
-      true};
+  ReportTable table{"Channels that runs share; rms and peak of what was recorded behind the start-up",
+                    {"channel", "unit"},
+                    {},
+                    true};
   for (const auto& run : comparison.runs) {
     table.headings.push_back(run.label + ": rms");
     table.headings.push_back(run.label + ": peak");

@@ -47,6 +47,50 @@ TEST_F(CompareCommand, WhatIsJudgedIsGreenWhereItIsKept) {
     EXPECT_THAT(page, HasSubstr(std::string("<span class=\"badge pass\">PASS</span></td><td>") + what));
 }
 
+/// Two placements, the second of which comes a record instant later or earlier.
+RunTexts placed(const std::string& trace, const std::string& press_at) {
+  RunTexts texts;
+  texts.trace = "time [s],gbPlace,ram.position [mm],lamp\n" + trace;
+  texts.events = "time [s],source,event,values\n" + press_at + ",ram,pressed,force=900 N\n";
+  return texts;
+}
+const std::string trace_of_a = "0.0,1,0,0\n0.1,1,5,0\n0.2,2,7,1\n0.3,2,9,1\n0.4,2,9,1\n";
+const std::string trace_of_b = "0.0,1,0,0\n0.1,1,5,0\n0.2,1,5,1\n0.3,2,7,1\n0.4,2,9,1\n";
+
+TEST_F(CompareCommand, ASwitchedLineIsKeptStretchByStretch) {
+  const std::vector<fs::path> runs = {write("a", placed(trace_of_a, "0.25")),
+                                      write("b", placed(trace_of_b, "0.35"))};
+  options.tolerances = {"1e-6"};
+  EXPECT_EQ(run(runs), cli::check_failed);
+  EXPECT_THAT(out, HasSubstr("gbPlace by 1 at 0.2000 s in b"));
+  options.align = "gbPlace";
+  EXPECT_EQ(run(runs), cli::all_passed) << out << err;
+  // What a placement comes to still counts.
+  EXPECT_EQ(run({runs[0], write("c", placed(with(trace_of_b, "0.4,2,9,1", "0.4,2,9.5,1"), "0.35"))}),
+            cli::check_failed);
+  EXPECT_THAT(out, HasSubstr("ram.position by 0.5 mm at 0.3000 s in c"));
+  EXPECT_EQ(run({runs[0], write("d", placed(trace_of_b, "0.36"))}), cli::check_failed);
+  options.align = "gbTour";
+  EXPECT_EQ(run(runs), cli::bad_input);
+  EXPECT_THAT(err, HasSubstr("--align:1:1: 'gbTour' is no event of a, and no channel that changes there; "));
+}
+
+TEST_F(CompareCommand, AChannelIsLeftOut) {
+  const std::vector<fs::path> runs = {write("a", placed(trace_of_a, "0.25")),
+                                      write("b", placed(with(trace_of_a, "0.2,2,7,1", "0.2,2,7,0"), "0.25"))};
+  options.tolerances = {"1e-6"};
+  EXPECT_EQ(run(runs), cli::check_failed);
+  options.without = {"lamp"};
+  EXPECT_EQ(run(runs), cli::all_passed) << out << err;
+  EXPECT_THAT(content(folder / "out/comparison.csv"),
+              testing::AllOf(HasSubstr("gbPlace"), Not(HasSubstr("lamp"))));
+  options.without = {"la*", "ram.*"};
+  EXPECT_EQ(run(runs), cli::all_passed) << out << err;
+  options.without = {"lampe"};
+  EXPECT_EQ(run(runs), cli::bad_input);
+  EXPECT_THAT(err, HasSubstr("--without:1:1: no run has a channel 'lampe'; did you mean lamp?"));
+}
+
 /// Noise in the last digits of what two machines compute.
 RunTexts noisy() {
   RunTexts texts;
