@@ -117,6 +117,20 @@ class Controller {
   /// Where the programs stand. `time_ns`: the time until which it has run.
   [[nodiscard]] virtual ProgramPositions positions(std::int64_t /*time_ns*/) const { return {}; }
 
+  /// Where programs wait now: at a condition, or for the command of a block that has never come.
+  [[nodiscard]] virtual std::vector<ProgramWait> waits() { return {}; }
+
+  /// An axis that moves by an output of the controller and is counted by one of its counters.
+  struct PositionLoop {
+    std::string name;
+    std::function<double()> drive;         ///< above 0: forward; [V], or 1 of an output that is on
+    std::function<std::int64_t()> counts;  ///< in its counting direction [bits x4]
+    std::optional<Address> forward = {};   ///< the output that means forward, where there are two
+    std::string remedy;                    ///< what turns the count round
+  };
+  /// Asked once, before it runs; what they read stays valid as long as the controller.
+  [[nodiscard]] virtual std::vector<PositionLoop> position_loops() { return {}; }
+
   [[nodiscard]] virtual bool has_events() const = 0;
   virtual std::vector<ControllerEvent> take_events() = 0;
 };

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -28,6 +29,13 @@ struct ProgramText {
     auto& names = values[line];
     if (std::find(names.begin(), names.end(), value) == names.end()) names.push_back(value);
   }
+};
+
+/// A place at which a program stands until something comes.
+struct ProgramWait {
+  std::string program;        ///< ProgramText::name
+  int line = 0;               ///< from 1
+  std::int64_t since_ns = 0;  ///< it has stood there all the time
 };
 
 /// What programs do at a moment.

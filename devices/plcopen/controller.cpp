@@ -101,7 +101,11 @@ void PlcopenController::find_error_pins() {
     const auto id = symbols_.find(name + "id");
     if (id == symbols_.end()) continue;
     const std::string& spelled = runtime_.symbols()[symbol].name;
-    blocks_.push_back({spelled.substr(0, spelled.size() - pin.size()), symbol, id->second, false});
+    blocks_.push_back({spelled.substr(0, spelled.size() - pin.size()), symbol, id->second});
+    for (const auto* command : {".execute", ".enable"})
+      if (const auto found = symbols_.find(name.substr(0, name.size() - pin.size()) + command);
+          found != symbols_.end())
+        blocks_.back().command = found->second;
   }
 }
 
@@ -361,6 +365,7 @@ void PlcopenController::tell_blocks() {
           {block.instance, "block_error", error_text(id) + (about == nullptr ? "" : ": " + about->name())});
     }
     block.seen = now;
+    if (!block.commanded && block.command) block.commanded = runtime_.read(*block.command) != 0;
   }
   const auto& fault = runtime_.fault();
   if (!fault || fault_told_) return;

@@ -79,6 +79,8 @@ class PlcopenController : public Controller {
   [[nodiscard]] std::vector<ProgramText> programs() override;
   void watch_programs(bool on) override { runtime_.watch(on); }
   [[nodiscard]] ProgramPositions positions(std::int64_t time_ns) const override;
+  [[nodiscard]] std::vector<ProgramWait> waits() override;
+  [[nodiscard]] std::vector<PositionLoop> position_loops() override;
 
   [[nodiscard]] bool has_events() const override { return !events_.empty(); }
   std::vector<ControllerEvent> take_events() override { return std::exchange(events_, {}); }
@@ -109,6 +111,8 @@ class PlcopenController : public Controller {
     std::size_t error = 0;
     std::size_t id = 0;
     bool seen = false;
+    std::optional<std::size_t> command = {};  ///< Execute or Enable
+    bool commanded = false;                   ///< it has been TRUE
   };
 
   void add_axes();

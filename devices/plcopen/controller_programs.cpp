@@ -1,6 +1,7 @@
 // What one sees of the program while it runs: its text, the variables that each line names, where its tasks
 // are.
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string>
 #include <string_view>
@@ -150,6 +151,45 @@ ProgramPositions PlcopenController::positions(std::int64_t time_ns) const {
   told.tasks.push_back(std::move(task));
   told.scanned.push_back(runtime_.scanned());
   return told;
+}
+
+// Of blocks that begin a motion. Those that end one, and readings, need not come.
+std::vector<ProgramWait> PlcopenController::waits() {
+  constexpr std::array beginning{"MC_Power",          "MC_Home",  "MC_Move",
+                                 "MC_CamTableSelect", "MC_CamIn", "MC_GearIn"};
+  std::vector<ProgramWait> waits;
+  if (!powered_ || runtime_.fault()) return waits;
+  const auto program = programs().front();
+  for (const ErrorPins& block : blocks_) {
+    const auto type = runtime_.block_type(block.error);
+    if (block.commanded || !block.command ||
+        std::none_of(beginning.begin(), beginning.end(),
+                     [&](const char* name) { return type.starts_with(name); }))
+      continue;
+    const std::string& pin = runtime_.symbols()[*block.command].name;
+    for (const auto& [line, names] : program.values)
+      if (std::find(names.begin(), names.end(), pin) != names.end()) {
+        waits.push_back({program.name, line, 0});
+        break;
+      }
+  }
+  std::sort(waits.begin(), waits.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
+  return waits;
+}
+
+std::vector<Controller::PositionLoop> PlcopenController::position_loops() {
+  std::vector<PositionLoop> loops;
+  for (std::size_t i = 0; i < plugs_.size(); ++i) {
+    const Counter* counter = plugs_[i].encoder;
+    const AnalogueOutput* dac = plugs_[i].reference;
+    if (counter == nullptr || dac == nullptr) continue;
+    loops.push_back({configuration_.axes[i].name,
+                     [dac] { return dac->word * (dac_full_scale_volts / dac_full_scale); },
+                     [counter] { return counter->count; },
+                     {},
+                     "turn the encoder or the drive round"});
+  }
+  return loops;
 }
 
 }  // namespace drycut::devices::plcopen

@@ -301,7 +301,12 @@ RunTimeError run(const Program& program, Task& task, Machine& machine, std::int6
       case Op::yield:
         return suspend(at + 1);
       case Op::wait_until:
-        if (*top-- == 0) return suspend(now.a);
+        if (*top-- == 0) {
+          if (task.waits_at != now.a) task.waits_since = machine.now;
+          task.waits_at = now.a;
+          return suspend(now.a);
+        }
+        task.waits_at = -1;
         break;
       case Op::call:
         if (task.calls.size() >= max_calls) return fail(RunTimeError::stack);

@@ -59,6 +59,8 @@ struct Task {
   bool told = false;                     ///< that it has not come there for long
   bool in_turn = false;                  ///< its turn goes on when there is time for its next statement
   int left = 0;                          ///< work that is left for this turn then
+  int waits_at = -1;                     ///< the condition of the WAIT at which it stands; -1: at none
+  std::int64_t waits_since = 0;          ///< [ns]
 };
 
 /// Work that a task may do in one turn [instructions]; a program that loops without WAIT comes to more.

@@ -248,6 +248,45 @@ std::vector<CamAxis> QmoveController::cam_axes() {
   return axes;
 }
 
+// A device's analogue output regulates, or its first two outputs run forward and backward; its first counter
+// is its own.
+std::vector<Controller::PositionLoop> QmoveController::position_loops() {
+  std::vector<PositionLoop> loops;
+  for (std::size_t i = 0; i < machine_.devices.size(); ++i) {
+    const DeviceRecord& record = configuration_.devices[i];
+    const Device& device = *machine_.devices[i];
+    const auto reversed = find_symbol(device.type(), "st_cntrev");
+    const Counter* counter = nullptr;
+    const AnalogueOutput* dac = nullptr;
+    std::vector<Address> outputs;
+    for (std::size_t f = 0; f < record.resources.size(); ++f) {
+      const auto& address = record.resources[f].address;
+      if (!address) continue;
+      const Field& field = device.type().fields[f];
+      if (field.kind == Field::Kind::counter && counter == nullptr) counter = &cards_.counters[*address];
+      if (field.kind == Field::Kind::analogue) dac = &cards_.analogue_outputs[*address];
+      if (field.name == "OutAva" || field.name == "OutInd") outputs.push_back(*address);
+    }
+    if (!reversed || counter == nullptr || (dac == nullptr && outputs.size() != 2)) continue;
+    PositionLoop loop;
+    loop.name = record.name;
+    loop.counts = [counter, &device, reversed] {
+      return device.read(*reversed) != 0 ? -counter->count : counter->count;
+    };
+    loop.remedy = fmt::format("CNTREV {0} or CNTDIR {0}", record.name);
+    if (dac != nullptr) {
+      loop.drive = [dac] { return dac->word * (dac_full_scale_volts / dac_full_scale); };
+    } else {
+      loop.forward = outputs[0];
+      loop.drive = [forward = &cards_.outputs[outputs[0]], backward = &cards_.outputs[outputs[1]]] {
+        return (forward->level ? 1.0 : 0.0) - (backward->level ? 1.0 : 0.0);
+      };
+    }
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
 std::variant<const ModbusFace*, std::string> QmoveController::modbus() const {
   if (modbus_) return &*modbus_;
   return "a device MODBUS in INTDEVICE of the .CNF: hmi MODBUS 0002 1 (drycut devices MODBUS)";

@@ -72,6 +72,8 @@ class QmoveController : public Controller {
   /// The tasks' modules, in their order, then the configuration.
   [[nodiscard]] std::vector<ProgramText> programs() override;
   [[nodiscard]] ProgramPositions positions(std::int64_t time_ns) const override;
+  [[nodiscard]] std::vector<ProgramWait> waits() override;
+  [[nodiscard]] std::vector<PositionLoop> position_loops() override;
 
   [[nodiscard]] bool has_events() const override { return !events_.empty(); }
   std::vector<ControllerEvent> take_events() override;

@@ -95,6 +95,18 @@ ProgramPositions QmoveController::positions(std::int64_t) const {
   return told;
 }
 
+std::vector<ProgramWait> QmoveController::waits() {
+  std::vector<ProgramWait> waits;
+  if (!powered_ || mode_ != OsMode::run) return waits;
+  for (std::size_t i = 0; i < programs_.size(); ++i) {
+    const int at = tasks_[i].waits_at;
+    if (at < 0 || tasks_[i].ended) continue;
+    const ProgramText named(programs_[i].file, "qcl", "");
+    waits.push_back({named.name, programs_[i].lines[static_cast<std::size_t>(at)], tasks_[i].waits_since});
+  }
+  return waits;
+}
+
 std::string QmoveController::doing(std::size_t number) const {
   const Task& task = tasks_[number];
   const Program& program = programs_[number];

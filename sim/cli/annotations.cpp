@@ -82,6 +82,12 @@ std::vector<Annotation> annotations_of(const std::vector<report::RunResult>& res
     if (!result.outcome.failure.empty())
       add(Annotation::Kind::run, result.place_of(checks.size()), result.name + ": did not run to its end",
           result.outcome.failure);
+    if (result.outcome.passed()) continue;
+    for (const auto& alarm : result.outcome.alarms) {
+      add(Annotation::Kind::warning, result.place_of(checks.size()),
+          fmt::format("{}: alarm of {}", result.name, alarm.source), loop::text_of(alarm));
+      all.back().lasting += ": " + alarm.text;
+    }
   }
   return all;
 }

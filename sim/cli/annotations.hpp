@@ -19,10 +19,11 @@ struct Annotation {
 };
 
 std::vector<Annotation> annotations_of(const Problems& problems);
-/// Failed checks, runs that did not come to their end, warnings.
+/// Failed checks, runs that did not come to their end, warnings, and of those that failed the alarms.
 std::vector<Annotation> annotations_of(const std::vector<report::RunResult>& results);
 
-/// Workflow commands of GitHub, a line each: "::error file=...,line=...,col=...,title=...::...".
+/// Workflow commands of GitHub, a line each: "::error file=...,line=...,col=...,title=...::...", "::warning
+/// ...".
 std::string github_text(const std::vector<Annotation>& annotations);
 
 /// GitLab's report of code quality. A finding's fingerprint stays the same while its place and figures

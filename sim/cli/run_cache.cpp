@@ -95,9 +95,12 @@ std::vector<loop::CheckResult> checks_of(const ordered_json& json) {
 }
 
 ordered_json json_of(const KeptRun& run) {
-  ordered_json json = {{"end", run.outcome.end},       {"checks", json_of(run.outcome.checks)},
-                       {"has_report", run.has_report}, {"warnings", run.outcome.warnings},
-                       {"notes", run.notes},           {"scene", run.scene}};
+  ordered_json json = {{"end", run.outcome.end},     {"checks", json_of(run.outcome.checks)},
+                       {"cause", run.outcome.cause}, {"warnings", run.outcome.warnings},
+                       {"notes", run.notes},         {"has_report", run.has_report},
+                       {"scene", run.scene}};
+  json["alarms"] = ordered_json::array();
+  for (const auto& [at, source, text] : run.outcome.alarms) json["alarms"].push_back({at, source, text});
   if (const auto& half = run.outcome.half_step)
     json["half_step"] = {{"step", half->step}, {"failure", half->failure}, {"checks", json_of(half->checks)}};
   return json;
@@ -107,7 +110,10 @@ KeptRun run_of(const ordered_json& json) {
   KeptRun run;
   run.outcome.end = json.at("end");
   run.outcome.checks = checks_of(json.at("checks"));
+  run.outcome.cause = json.at("cause");
   run.outcome.warnings = json.at("warnings").get<std::vector<std::string>>();
+  for (const auto& alarm : json.at("alarms"))
+    run.outcome.alarms.push_back({alarm.at(0), alarm.at(1), alarm.at(2)});
   run.has_report = json.at("has_report");
   run.notes = json.at("notes").get<std::vector<std::string>>();
   run.scene = json.at("scene");

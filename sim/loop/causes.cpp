@@ -49,6 +49,10 @@ std::optional<double> first_failure(const std::vector<CheckResult>& checks) {
 
 }  // namespace
 
+std::string text_of(const Alarm& alarm) {
+  return fmt::format("{} at {:.6g} s: {}", alarm.source, alarm.at, alarm.text);
+}
+
 void Causes::happened(const RecordedEvent& event) {
   const double at = event.at_seconds();
   const auto keep = [&](std::vector<Told>& list, bool each_text) {
@@ -76,6 +80,36 @@ void Causes::happened(const RecordedEvent& event) {
   }
 }
 
+void Causes::follow(std::string name, const double* number) {
+  states_.push_back({std::move(name), number, *number});
+}
+
+void Causes::sample(Time now) {
+  for (auto& state : states_) {
+    if (*state.number == state.last) continue;
+    state.last = *state.number;
+    state.changed = seconds(now);
+  }
+}
+
+std::string Causes::state_that_stands(double now) const {
+  constexpr double long_enough = 1;  // [s]
+  const State* latest = nullptr;
+  for (const auto& state : states_)
+    if (state.changed > 0 && (latest == nullptr || state.changed > latest->changed)) latest = &state;
+  if (latest == nullptr || now - latest->changed < long_enough) return "";
+  return fmt::format("{} stands at {:g} since {:.6g} s", latest->name, latest->last, latest->changed);
+}
+
+std::vector<Alarm> Causes::alarms() const {
+  constexpr std::size_t most_told = 20;
+  auto all = errors_;
+  all.insert(all.end(), warnings_.begin(), warnings_.end());
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.at < b.at; });
+  if (all.size() > most_told) all.resize(most_told);
+  return all;
+}
+
 const Causes::Told* Causes::first_error(double until) const {
   return errors_.empty() || errors_.front().at > until ? nullptr : &errors_.front();
 }
@@ -96,16 +130,13 @@ std::string Causes::by_time(double failed_at) const {
     if (one.at <= failed_at) fault = &one;
   if (fault != nullptr)
     return fmt::format("because the timeline had at {:.6g} s: {} {}", fault->at, fault->source, fault->text);
-  const auto phrase = [](const Told& told) {
-    return fmt::format("{} at {:.6g} s: {}", told.source, told.at, told.text);
-  };
   const auto* error = first_error(failed_at);
   const auto* warning =
       last_warning(error != nullptr ? error->at : failed_at, error != nullptr ? error->source : "");
   if (error != nullptr)
     return warning != nullptr
-               ? fmt::format("because {}; then at {:.6g} s: {}", phrase(*warning), error->at, error->text)
-               : "because " + phrase(*error);
+               ? fmt::format("because {}; then at {:.6g} s: {}", text_of(*warning), error->at, error->text)
+               : "because " + text_of(*error);
   for (const auto& limit : limits_)
     if (limit.begin <= failed_at && failed_at - limit.end <= soon && warning == nullptr)
       return fmt::format("after the drive of {} was at its torque limit from {:.6g} s on", limit.drive,
@@ -116,7 +147,7 @@ std::string Causes::by_time(double failed_at) const {
     return later.source == warning->source && later.at - warning->at <= soon;
   });
   return fmt::format("{} {}", confirmed || failed_at - warning->at <= soon ? "because" : "after",
-                     phrase(*warning));
+                     text_of(*warning));
 }
 
 std::string Causes::of(const std::vector<CheckResult>& checks, const Known& known) const {
@@ -130,9 +161,14 @@ std::string Causes::of(const std::vector<CheckResult>& checks, const Known& know
   }
   constexpr auto ever = std::numeric_limits<double>::infinity();
   const auto failed_at = first_failure(checks);
+  for (const auto& [at, text] : known.astray)
+    if (at <= failed_at.value_or(ever)) return "because " + text;
   if (const auto* error = first_error(ever); !failed_at && error == nullptr && !known.hindrances.empty())
     return fmt::format("because {}", known.hindrances.front());
-  return by_time(failed_at.value_or(ever));
+  auto cause = by_time(failed_at.value_or(ever));
+  if (cause.empty() && known.standing && known.standing->first <= failed_at.value_or(ever))
+    cause = "while " + known.standing->second;
+  return cause;
 }
 
 }  // namespace drycut::sim::loop

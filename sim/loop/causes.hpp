@@ -10,27 +10,50 @@
 
 namespace drycut::sim::loop {
 
+/// What a controller or a machine told of that is not as it should be.
+struct Alarm {
+  double at = 0;  ///< [s]
+  std::string source;
+  std::string text;
+};
+/// "Axis at 6.49 s: warning 12"
+std::string text_of(const Alarm& alarm);
+
 /// Keeps what may be the cause of a failure: the first errors and warnings of each source, faults, drives at
-/// their limits.
+/// their limits, since when the program's states have stood as they are.
 class Causes : public Observer {
  public:
   void happened(const RecordedEvent& event) override;
+  void sample(Time now) override;
+  /// A number of the program that tells how far it is; it outlives this.
+  void follow(std::string name, const double* number);
 
   /// What a run knows besides, a phrase each, the most telling one first.
   struct Known {
     std::vector<std::string> contradictions;  ///< of controller and machine
-    std::vector<std::string>
-        hindrances;  ///< why nothing began: a switch that was never on, a program that waits
+    /// Why nothing began: a switch that was never on, a program that waits.
+    std::vector<std::string> hindrances = {};
+    /// An axis that goes the wrong way: from when on [s].
+    std::vector<std::pair<double, std::string>> astray = {};
+    /// Where the whole program stands, and since when [s].
+    std::optional<std::pair<double, std::string>> standing = {};
   };
   /// Why the checks failed, as the end of a sentence: "because Knife at 2.282 s: the cam asks for ...", or
   /// where it only came before, "after ..."; "" if nothing tells or all passed.
   [[nodiscard]] std::string of(const std::vector<CheckResult>& checks, const Known& known) const;
+  /// "gbPhase stands at 1 since 0.31 s": the state that changed last, if it has not for a long time; "" =
+  /// there is none.
+  [[nodiscard]] std::string state_that_stands(double now) const;
+  /// The first errors and warnings in the order of their times, twenty at most.
+  [[nodiscard]] std::vector<Alarm> alarms() const;
 
  private:
-  struct Told {
-    double at = 0;  ///< [s]
-    std::string source;
-    std::string text;
+  using Told = Alarm;
+  struct State {
+    std::string name;
+    const double* number;
+    double last = 0;
+    double changed = 0;  ///< [s]; 0: it has not yet
   };
   struct Limit {
     std::string drive;
@@ -45,6 +68,7 @@ class Causes : public Observer {
   std::vector<Told> warnings_;  ///< the first of each source and text
   std::vector<Told> faults_;
   std::vector<Limit> limits_;
+  std::vector<State> states_;
 };
 
 }  // namespace drycut::sim::loop

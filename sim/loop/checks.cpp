@@ -104,7 +104,7 @@ void Checks::bind(State& state, const scenario::Scenario& scenario, std::vector<
   const auto note = [&](const std::string& name, const double* number, const std::string& unit) {
     for (const auto& operand : state.operands)
       if (operand.name == name) return;
-    state.operands.push_back({name, number, unit, 0});
+    state.operands.push_back({name, number, unit});
   };
   const auto resolve = [&](const std::string& name) -> scenario::Expression::Operand {
     for (const auto& slot : state.slots) {
@@ -143,8 +143,9 @@ void Checks::bind(State& state, const scenario::Scenario& scenario, std::vector<
     }
     if (check.kind != scenario::Check::Kind::all) {
       stepped_.push_back(&state);
-      state.rate = fmt::format(", at each step of {} ({:.4g} kHz)", scenario::format_time(scenario.scene.step),
-                               static_cast<double>(millisecond) / static_cast<double>(scenario.scene.step));
+      state.rate =
+          fmt::format(", at each step of {} ({:.4g} kHz)", scenario::format_time(scenario.scene.step),
+                      static_cast<double>(millisecond) / static_cast<double>(scenario.scene.step));
     }
     state.begin = check.from;
     start_window(state, seconds(check.from));
@@ -203,21 +204,24 @@ void Checks::note_operands(State& state) {
   for (auto& operand : state.operands) operand.noted = *operand.number;
 }
 
-std::string Checks::operands_text(const State& state) {
+std::string Checks::operands_text(const State& state, double Operand::*number) {
   std::string text;
-  for (const auto& [name, number, unit, noted] : state.operands) {
-    text += fmt::format("{}{}={:.{}g}{}{}", text.empty() ? "" : "; ", name, without_noise(noted),
-                        shown_digits, unit.empty() ? "" : " ", unit);
-  }
+  for (const auto& operand : state.operands)
+    text += fmt::format("{}{}={:.{}g}{}{}", text.empty() ? "" : "; ", operand.name,
+                        without_noise(operand.*number), shown_digits, operand.unit.empty() ? "" : " ",
+                        operand.unit);
   return text;
 }
 
-/// When a condition without a margin did not hold: there is no worst moment, but a first and a last one.
+/// How often it did not hold, from when to when, and what it was then.
 std::string Checks::failed_text(const State& state) {
-  auto text =
-      fmt::format(", {} failed, first at {:.4f} s: {}", state.failed, state.worst_at, state.worst_values);
-  if (state.failed > 1) text += fmt::format(", last at {:.4f} s", state.last_failed_at);
-  return text;
+  if (state.failed == 0) return "";
+  auto text = fmt::format(", {} failed", state.failed);
+  if (!state.worst) text += fmt::format(", first at {:.4f} s: {}", state.worst_at, state.worst_values);
+  if (state.failed == 1) return text;
+  if (state.worst) text += fmt::format(", first at {:.4f} s", state.first_failed_at);
+  return text +
+         fmt::format(", last at {:.4f} s: {}", state.last_failed_at, operands_text(state, &Operand::failed));
 }
 
 void Checks::evaluate(State& state, double at, const std::string& values) {
@@ -227,6 +231,7 @@ void Checks::evaluate(State& state, double at, const std::string& values) {
   if (!evaluation.holds) {
     if (++state.failed == 1) state.first_failed_at = at;
     state.last_failed_at = at;
+    for (auto& operand : state.operands) operand.failed = *operand.number;
   }
   const bool eventually = state.check.kind == scenario::Check::Kind::eventually;
   if (eventually && evaluation.holds && !state.held_at) state.held_at = at;
@@ -438,13 +443,12 @@ CheckResult Checks::result(State& state, Time end) {
     result.detail = fmt::format("{} {}{}", state.count, looked_at(state), failed_text(state));
     return result;
   }
-  result.detail = fmt::format(
-      "{} {}{}{}", state.count, looked_at(state),
-      state.failed > 0 && check.kind != scenario::Check::Kind::all ? fmt::format(", {} failed", state.failed)
-                                                                   : "",
-      state.worst_values.empty()
-          ? ""
-          : (check.kind == scenario::Check::Kind::all ? ": " : ", worst: ") + state.worst_values);
+  result.detail =
+      fmt::format("{} {}{}{}", state.count, looked_at(state),
+                  check.kind != scenario::Check::Kind::all ? failed_text(state) : "",
+                  state.worst_values.empty()
+                      ? ""
+                      : (check.kind == scenario::Check::Kind::all ? ": " : ", worst: ") + state.worst_values);
   return result;
 }
 

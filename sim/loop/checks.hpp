@@ -75,7 +75,8 @@ class Checks : public Observer {
     std::string name;
     const double* number;
     std::string unit;
-    double noted = 0;  ///< the number at an instant to tell of
+    double noted = 0;   ///< the number at an instant to tell of
+    double failed = 0;  ///< when it did not hold last
   };
   /// What a check has come to so far.
   struct Tally {
@@ -122,7 +123,7 @@ class Checks : public Observer {
   static bool concerns(const State& state, const RecordedEvent& event);
   static void evaluate(State& state, double at, const std::string& values);
   static void note_operands(State& state);
-  static std::string operands_text(const State& state);
+  static std::string operands_text(const State& state, double Operand::*number = &Operand::noted);
   static std::string failed_text(const State& state);
   static void finish_statistics(State& state);
   static std::string looked_at(const State& state);

@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/opcua_names.hpp"
+#include "sim/loop/waits.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/motor_catalogue.hpp"
 #include "sim/scenario/variable_slips.hpp"
@@ -62,6 +63,7 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
   unasked_ = std::make_unique<Unasked>(scenario, known_events_);
   observers_ = {checks_.get(), drives_.get(), unasked_.get(), &shutter_, &remarks_, &causes_};
   if (checks_->looks_at_steps()) tell_steps(*checks_);
+  if (controller_ && problems.size() == before) look_after_program();
   if (problems.size() == before) compare_with_machine();
   scenario::blame_variables(scenario, problems, before, [&](const scenario::Trial& trial) {
     Problems left;
@@ -89,6 +91,17 @@ void Simulation::compare_with_machine() {
   warnings_ = open_.moving;
   warnings_.insert(warnings_.end(), open_.others.begin(), open_.others.end());
   for (auto& doubt : doubtful_wires(scenario_, *controller_)) warnings_.push_back(std::move(doubt));
+}
+
+// Its axes' directions, and the numbers of its programs that say how far they are, of those that are looked
+// at.
+void Simulation::look_after_program() {
+  directions_ = std::make_unique<Directions>(scenario_, *controller_);
+  observers_.push_back(directions_.get());
+  watch_->each([&](const Reading& reading, const double* slot) {
+    const bool of_program = reading.unit.empty() && reading.name.find('.') == std::string::npos;
+    if (of_program && controller_->find(reading.name)) causes_.follow(reading.name, slot);
+  });
 }
 
 void Simulation::build_plants() {
@@ -291,12 +304,12 @@ std::vector<std::string> Simulation::notes() const {
     notes.push_back(text_of(*strobe, scenario_.pictures, scenario_.scene.step));
   if (time_ > 0)  // it ran
     for (auto& undone : timeline_->left_undone(time_)) notes.push_back(std::move(undone));
+  if (directions_)
+    for (const auto& found : directions_->found()) notes.push_back(found.text);
   for (auto& remark : remarks_.notes()) notes.push_back(std::move(remark));
   if (time_ > 0 && drives_->judges())
-    for (auto& drive : drives_->verdicts()) {
-      for (auto& warning : drive.warnings) notes.push_back("warning: " + warning);
+    for (auto& drive : drives_->verdicts())
       for (auto& note : drive.notes) notes.push_back(std::move(note));
-    }
   return notes;
 }
 
@@ -335,8 +348,7 @@ Outcome Simulation::run(const std::function<void(Time)>& progress) {
   return outcome();
 }
 
-std::vector<std::string> Simulation::hindrances() const {
-  std::vector<std::string> found;
+std::string Simulation::unpressed() const {
   const auto& pushes = scenario_.panel.push_buttons;
   std::string unpressed;
   for (const auto& [name, port] : bus_.panel().switches) {
@@ -351,25 +363,28 @@ std::vector<std::string> Simulation::hindrances() const {
     unpressed += fmt::format("{}nothing pressed {} (panel.{} was never on{})", unpressed.empty() ? "" : ", ",
                              name, name, waits);
   }
-  if (!unpressed.empty()) found.push_back(std::move(unpressed));
-  if (!controller_) return found;
-  const auto programs = controller_->programs();
-  for (const auto& task : controller_->positions(time_).tasks) {
-    if (task.doing != "waits" || task.program >= programs.size() || task.line < 1) continue;
-    const auto lines = split_lines(programs[task.program].text);
-    if (static_cast<std::size_t>(task.line) > lines.size()) continue;
-    const auto line = lines[static_cast<std::size_t>(task.line) - 1];
-    const auto code = std::string(trimmed(line.substr(0, line.find(';'))));
-    // A pause of the main loop is no waiting.
-    const auto behind = code.find_last_of(' ');
-    if (behind == std::string::npos || is_digit(code[behind + 1])) continue;
-    auto waiting = fmt::format("{} stands in line {}: {}", programs[task.program].name, task.line, code);
-    if (found.empty())
-      found.push_back(std::move(waiting));
-    else
-      found.front() += "; " + waiting;
+  return unpressed;
+}
+
+Causes::Known Simulation::known() const {
+  Causes::Known known;
+  known.contradictions = contradictions_;
+  known.contradictions.insert(known.contradictions.end(), open_.moving.begin(), open_.moving.end());
+  for (const auto& found : directions_ ? directions_->found() : std::vector<Directions::Found>())
+    known.astray.emplace_back(found.at, found.text);
+  std::string standing;
+  if (controller_) {
+    const auto waits = waits_of(*controller_, time_);
+    standing = fmt::format("{}", fmt::join(waits.texts, "; "));
+    if (waits.all) known.standing.emplace(waits.since, standing);
+    if (standing.empty()) standing = without_loop(*controller_);
+    if (standing.empty()) standing = causes_.state_that_stands(seconds(time_));
   }
-  return found;
+  if (auto first = unpressed(); !first.empty())
+    known.hindrances.push_back(first + (standing.empty() ? "" : "; " + standing));
+  else if (!standing.empty())
+    known.hindrances.push_back(standing);
+  return known;
 }
 
 Outcome Simulation::outcome() {
@@ -390,11 +405,11 @@ Outcome Simulation::outcome() {
   }
   for (auto& check : unasked_->results()) outcome.checks.push_back(std::move(check));
   outcome.warnings = warnings_;
-  if (outcome.failure.empty() && !outcome.passed()) {
-    auto known = contradictions_;
-    known.insert(known.end(), open_.moving.begin(), open_.moving.end());
-    outcome.cause = causes_.of(outcome.checks, {std::move(known), hindrances()});
-  }
+  if (drives_->judges())
+    for (const auto& drive : outcome.drives)
+      outcome.warnings.insert(outcome.warnings.end(), drive.warnings.begin(), drive.warnings.end());
+  outcome.alarms = causes_.alarms();
+  if (outcome.failure.empty() && !outcome.passed()) outcome.cause = causes_.of(outcome.checks, known());
   return outcome;
 }
 

@@ -15,6 +15,7 @@
 #include "sim/loop/causes.hpp"
 #include "sim/loop/checks.hpp"
 #include "sim/loop/consistency.hpp"
+#include "sim/loop/directions.hpp"
 #include "sim/loop/disturbances.hpp"
 #include "sim/loop/drive_judge.hpp"
 #include "sim/loop/names.hpp"
@@ -47,8 +48,9 @@ struct Outcome {
   std::vector<DriveVerdict> drives = {};   ///< what the drives came to beside their ratings
   /// Why checks failed, as far as the run tells, as the end of a sentence: "because ..."; "" = it does not.
   std::string cause = {};
-  /// What may be a slip though the checks cannot tell: wires, a phrase each.
+  /// What may be a slip though the checks cannot tell: wires, heat that nobody judged, a phrase each.
   std::vector<std::string> warnings = {};
+  std::vector<Alarm> alarms = {};  ///< of controller and machine, the first of each kind
   [[nodiscard]] bool passed() const;
 };
 
@@ -159,8 +161,11 @@ class Simulation {
   void check_panel(Problems& problems) const;
 
   void compare_with_machine();
-  /// Why nothing may have begun: switches that nobody pressed, programs that wait.
-  [[nodiscard]] std::vector<std::string> hindrances() const;
+  void look_after_program();
+  /// What the run knows besides of why it failed.
+  [[nodiscard]] Causes::Known known() const;
+  /// Switches that nobody pressed.
+  [[nodiscard]] std::string unpressed() const;
 
   void run_to_end(const std::function<void(Time)>& progress);
   void step();
@@ -196,10 +201,11 @@ class Simulation {
   Captions captions_;
   Remarks remarks_;
   Causes causes_;
-  std::vector<Observer*> observers_;      ///< all of them, in the order in which they are told
-  std::vector<Observer*> steppers_;       ///< those that are told every step
-  std::vector<KnownEvent> known_events_;  ///< of the plants
-  std::vector<KnownEvent> all_events_;    ///< with those of timeline and controller
+  std::unique_ptr<Directions> directions_;  ///< nullptr without a controller
+  std::vector<Observer*> observers_;        ///< all of them, in the order in which they are told
+  std::vector<Observer*> steppers_;         ///< those that are told every step
+  std::vector<KnownEvent> known_events_;    ///< of the plants
+  std::vector<KnownEvent> all_events_;      ///< with those of timeline and controller
   std::string failure_;
   std::vector<std::string> notes_of_setup_;
   OpenTerminals open_;

@@ -1,5 +1,6 @@
 #pragma once
 #include <deque>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -26,6 +27,10 @@ class Watch {
 
   void update() {
     for (std::size_t i = 0; i < readings_.size(); ++i) slots_[i] = readings_[i].read();
+  }
+  /// What has a slot, and where.
+  void each(const std::function<void(const Reading&, const double*)>& use) const {
+    for (std::size_t i = 0; i < readings_.size(); ++i) use(readings_[i], &slots_[i]);
   }
   [[nodiscard]] bool empty() const { return readings_.empty(); }
   /// The first reading that is not a finite number, or "".

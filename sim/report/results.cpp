@@ -83,6 +83,10 @@ std::string suite_of(const RunResult& result) {
   for (const auto& warning : outcome.warnings)
     output += fmt::format("{}warning: {}", output.empty() ? "" : "\n", escaped(warning));
   if (!output.empty()) text += "    <system-out>" + output + "</system-out>\n";
+  std::string alarms;
+  for (const auto& alarm : outcome.alarms)
+    alarms += (alarms.empty() ? "" : "\n") + escaped(loop::text_of(alarm));
+  if (!alarms.empty()) text += "    <system-err>" + alarms + "</system-err>\n";
   return text + "  </testsuite>\n";
 }
 

@@ -8,8 +8,8 @@
 namespace drycut::sim::scenario {
 
 /// One number about the numbers of a window, which are taken one after the other: checks, metrics and
-/// comparisons mean the same by `rms`. Only a percentile keeps the numbers, those of its window: every one of the
-/// first `most_kept`, every second one once there are more, then every fourth, and so on.
+/// comparisons mean the same by `rms`. Only a percentile keeps the numbers, those of its window: every one of
+/// the first `most_kept`, every second one once there are more, then every fourth, and so on.
 class RunningStatistic {
  public:
   static constexpr std::size_t most_kept = 1U << 20U;  ///< numbers of a percentile: 8 MB

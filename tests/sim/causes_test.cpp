@@ -90,5 +90,53 @@ TEST(Causes, AMachineTellsItInNumbers) {
             "because saw at 2.1 s: the clamps let go with the blade in the material");
 }
 
+TEST(Causes, AnAxisThatGoesAstrayComesBeforeWhatTheControllerMakesOfIt) {
+  Causes causes;
+  causes.happened(told(0.3, "AxisX", "errorstop", "following error"));
+  Causes::Known known;
+  known.astray = {{0.2, "AxisX went 1204 counts against its drive"}};
+  EXPECT_EQ(causes.of({failed(0.5)}, known), "because AxisX went 1204 counts against its drive");
+  EXPECT_EQ(causes.of({failed({})}, known), "because AxisX went 1204 counts against its drive");
+  EXPECT_EQ(causes.of({failed(0.1)}, known), "");
+}
+
+TEST(Causes, AProgramThatStandsAsAWholeIsToldWhereNothingElseIs) {
+  Causes causes;
+  Causes::Known known;
+  known.standing = {1.5, "a.mod stands at line 3, WAIT x, since 1.5 s"};
+  EXPECT_EQ(causes.of({failed(2)}, known), "while a.mod stands at line 3, WAIT x, since 1.5 s");
+  EXPECT_EQ(causes.of({failed(1)}, known), "");
+  causes.happened(told(1.9, "AxisX", "warning", "a value is out of range"));
+  EXPECT_EQ(causes.of({failed(2)}, known), "because AxisX at 1.9 s: a value is out of range");
+}
+
+TEST(Causes, TheStateThatChangedLastIsToldOnceItStandsForASecond) {
+  double phase = 0;
+  double step = 4;
+  Causes causes;
+  causes.follow("gbPhase", &phase);
+  causes.follow("gbStep", &step);
+  causes.sample(1 * second);
+  EXPECT_EQ(causes.state_that_stands(9), "") << "nothing has changed";
+  phase = 1;
+  causes.sample(2 * second);
+  step = 5;
+  causes.sample(2500 * millisecond);
+  EXPECT_EQ(causes.state_that_stands(3), "");
+  EXPECT_EQ(causes.state_that_stands(3.5), "gbStep stands at 5 since 2.5 s");
+}
+
+TEST(Causes, AlarmsComeInTheOrderOfTheirTimes) {
+  Causes causes;
+  causes.happened(told(2, "Knife", "warning", "late"));
+  causes.happened(told(3, "Knife", "errorstop", "following error"));
+  causes.happened(told(1, "AxisX", "refused", "START"));
+  causes.happened(told(4, "Knife", "warning", "late"));
+  std::vector<std::string> texts;
+  for (const auto& alarm : causes.alarms()) texts.push_back(text_of(alarm));
+  EXPECT_THAT(texts, testing::ElementsAre("AxisX at 1 s: START", "Knife at 2 s: late",
+                                          "Knife at 3 s: following error"));
+}
+
 }  // namespace
 }  // namespace drycut::sim::loop

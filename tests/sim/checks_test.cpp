@@ -91,6 +91,27 @@ TEST_F(ChecksTest, EachFailsBeyondTheLimit) {
   EXPECT_EQ(r.detail, "2 knife.cut events, 1 failed, worst: length=800.5 mm; force=130 N");
 }
 
+TEST_F(ChecksTest, WhatFailsOftenTellsItsFirstTimeItsLastAndItsLastValue) {
+  add(scenario::Check::Kind::each, "knife.cut", "abs(length - 800) <= 0.2");
+  start();
+  cut(2 * second, 800.5);
+  cut(3 * second, 801);
+  cut(4 * second, 800.3);
+  cut(5 * second, 800);
+  EXPECT_EQ(result().detail,
+            "4 knife.cut events, 3 failed, first at 2.0000 s, last at 4.0000 s: length=800.3 mm, worst: "
+            "length=801 mm; force=130 N");
+}
+
+TEST_F(ChecksTest, SoDoesAnAlwaysWithAMargin) {
+  add(scenario::Check::Kind::always, "", "error < 100");
+  start();
+  sample(second, 500);
+  sample(2 * second, 120);
+  sample(3 * second, 20);
+  EXPECT_EQ(result().detail, "3 instants, 2 failed, first at 1.0000 s, last at 2.0000 s: error=120 Um");
+}
+
 TEST_F(ChecksTest, EachWithoutAnEventFails) {
   add(scenario::Check::Kind::each, "cut", "length > 0");
   start();
@@ -137,7 +158,7 @@ TEST_F(ChecksTest, AlwaysWithoutMarginTellsTheFirstFailure) {
   EXPECT_FALSE(r.passed);
   EXPECT_FALSE(r.margin);
   EXPECT_DOUBLE_EQ(*r.at, 2.0);
-  EXPECT_EQ(r.detail, "3 instants, 2 failed, first at 2.0000 s: error=3 Um, last at 3.0000 s");
+  EXPECT_EQ(r.detail, "3 instants, 2 failed, first at 2.0000 s: error=3 Um, last at 3.0000 s: error=4 Um");
 }
 
 TEST_F(ChecksTest, EachWithoutMarginTellsTheFirstFailure) {

@@ -35,9 +35,9 @@ struct Ran {
 };
 
 /// `metric`: a limit of tune's, from 1.2 s on.
-Ran run_file(const std::filesystem::path& file, const std::vector<scenario::Override>& set,
-             const std::function<void(Simulation&)>& on_the_way = [](auto&) {},
-             studies::Metric* metric = nullptr) {
+Ran run_file(
+    const std::filesystem::path& file, const std::vector<scenario::Override>& set,
+    const std::function<void(Simulation&)>& on_the_way = [](auto&) {}, studies::Metric* metric = nullptr) {
   constexpr Time from = 1200 * millisecond;
   Problems problems;
   const auto scenario = scenario::read_scenario(file, set, problems);
@@ -175,8 +175,9 @@ TEST(ChecksOverWindows, PeriodsAreJudgedOneByOne) {
   EXPECT_THAT(check.detail,
               StartsWith("2 periods, worst: 1.5000 s to 2.5000 s: max(bench.counter1.count)=249"));
   EXPECT_EQ(*check.at, 2.5);
-  EXPECT_EQ(check.expectation,
-            "always max(bench.counter1.count) <= 2600, from 0.5 s, every 1.0 s, at each step of 1 ms (1 kHz)");
+  EXPECT_EQ(
+      check.expectation,
+      "always max(bench.counter1.count) <= 2600, from 0.5 s, every 1.0 s, at each step of 1 ms (1 kHz)");
 }
 
 TEST(ChecksOverWindows, EventuallyIsTrueAtTheEndOfAPeriod) {

@@ -167,6 +167,14 @@ const FunctionBlock* Runtime::block(std::size_t symbol) const {
   return state_->machine.motion_at(state_->program.compiled().places.at(symbol).cell);
 }
 
+std::string_view Runtime::block_type(std::size_t symbol) const {
+  const Compiled& code = state_->program.compiled();
+  const int place = code.places.at(symbol).cell;
+  for (const Compiled::Motion& motion : code.motions)
+    if (place >= motion.cell && place < motion.cell + motion.type->cells) return motion.type->motion->name;
+  return "";
+}
+
 void Runtime::write(std::size_t number, double value) {
   const Compiled& code = state_->program.compiled();
   const SymbolPlace& place = code.places.at(number);

@@ -77,6 +77,8 @@ class Runtime {
   [[nodiscard]] double read(std::size_t symbol) const;
   /// The motion block whose pin the symbol is; nullptr if it is none.
   [[nodiscard]] const FunctionBlock* block(std::size_t symbol) const;
+  /// Its kind, "MC_CamIn"; "" if it is none.
+  [[nodiscard]] std::string_view block_type(std::size_t symbol) const;
   /// Rounded and limited to the type's range; nothing if the symbol is not writable.
   void write(std::size_t symbol, double value);
   /// By index into Program::located().

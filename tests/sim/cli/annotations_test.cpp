@@ -1,6 +1,8 @@
 // What services of repositories are told: junit.xml, GitHub's commands, GitLab's code quality, a summary.
 #include "sim/cli/annotations.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -191,6 +193,21 @@ TEST_F(ToldServices, ASummaryThatLiesElsewhereHasNoLinksUnlessToldWhere) {
   options.links = "https://host/page";
   EXPECT_EQ(run({"good.yaml"}), all_passed) << err;
   EXPECT_THAT(content(options.summary), HasSubstr("[good](https://host/page/good/report.html)"));
+}
+
+TEST_F(ToldServices, AFailedRunTellsWhatItsAxisWarnedOf) {
+  folder.file("axis.mod", std::string("START AxisX\n") + studies::tuning::program);
+  options.annotate = "github";
+  EXPECT_EQ(run({failing()}), check_failed) << err;
+  EXPECT_THAT(out,
+              HasSubstr("\n::warning file=line.yaml,line=1,col=1,title=line%3A warning of AxisX::AxisX at "));
+  EXPECT_THAT(content("out/junit.xml"),
+              AllOf(HasSubstr("    <system-err>AxisX at "), HasSubstr("START: st_init is 0")));
+  options.annotate = "gitlab";
+  EXPECT_EQ(run({failing()}), check_failed) << err;
+  const auto findings = nlohmann::json::parse(content(gitlab_file));
+  EXPECT_EQ(findings.back()["severity"], "minor");
+  EXPECT_EQ(findings.back()["check_name"], "drycut-warning");
 }
 
 TEST(SummaryLinks, GoFromTheFileToTheResults) {

@@ -1,0 +1,68 @@
+#include "sim/loop/directions.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "sim/loop/recorder.hpp"
+
+namespace drycut::sim::loop {
+
+namespace {
+
+constexpr Time watched_time = 1 * second;     // of being driven, is looked at
+constexpr double idle_volts = 0.02;           // [V] and below: an offset
+constexpr std::int64_t counts_enough = 1000;  // counts that no play and no rebound makes
+constexpr std::int64_t clearly = 4;           // times as far the wrong way
+
+std::string swapped_wire(const scenario::Scenario& scenario, devices::Controller& controller,
+                         const devices::Controller::PositionLoop& loop) {
+  if (!loop.forward) return "";
+  for (const auto& wire : scenario.wiring) {
+    const auto found = controller.terminal(wire.terminal.text);
+    const auto* address = std::get_if<devices::Address>(&found);
+    if (address != nullptr && *address == *loop.forward && wire.plug.text.ends_with(".backward"))
+      return fmt::format("its forward output {} is wired to {}", wire.terminal.text, wire.plug.text);
+  }
+  return "";
+}
+
+}  // namespace
+
+Directions::Directions(const scenario::Scenario& scenario, devices::Controller& controller) {
+  for (auto& loop : controller.position_loops()) {
+    auto swapped = swapped_wire(scenario, controller, loop);
+    const auto counts = loop.counts();
+    axes_.push_back({std::move(loop), std::move(swapped), counts});
+  }
+}
+
+void Directions::sample(Time now) {
+  std::erase_if(axes_, [&](Axis& axis) {
+    const double drive = axis.loop.drive();
+    const auto counts = axis.loop.counts();
+    const auto gone = counts - axis.counts;
+    axis.counts = counts;
+    if (std::abs(drive) > idle_volts) {
+      if (!axis.begun) axis.begun = now;
+      ((drive > 0) == (gone > 0) ? axis.with : axis.against) += std::abs(gone);
+    }
+    const bool wrong = axis.against >= counts_enough && axis.against > clearly * axis.with;
+    if (wrong) tell(axis, now);
+    return wrong || (axis.begun && now - *axis.begun >= watched_time);
+  });
+}
+
+void Directions::tell(const Axis& axis, Time now) {
+  const auto& loop = axis.loop;
+  auto text = fmt::format("{} went {} counts against its drive from {} s to {} s: ", loop.name, axis.against,
+                          seconds_text(*axis.begun), seconds_text(now));
+  text += !axis.swapped.empty() ? axis.swapped
+          : loop.forward
+              ? fmt::format("it counts the wrong way, or forward and backward are swapped ({})", loop.remedy)
+              : fmt::format("positive feedback, it counts or turns the wrong way ({})", loop.remedy);
+  found_.push_back({seconds(now), std::move(text)});
+}
+
+}  // namespace drycut::sim::loop

@@ -1,0 +1,42 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/controller.hpp"
+#include "sim/loop/observer.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace drycut::sim::loop {
+
+/// Finds axes that move away from where they are driven to: their count is the wrong way round, or forward
+/// and backward are swapped. It looks at the first second in which an axis is driven.
+class Directions : public Observer {
+ public:
+  Directions(const scenario::Scenario& scenario, devices::Controller& controller);
+
+  void sample(Time now) override;
+
+  /// An axis that goes the wrong way, as the end of a sentence.
+  struct Found {
+    double at = 0;  ///< [s] when it began
+    std::string text;
+  };
+  [[nodiscard]] const std::vector<Found>& found() const { return found_; }
+
+ private:
+  struct Axis {
+    devices::Controller::PositionLoop loop;
+    std::string swapped;             ///< "2.OUT01 is wired to press.drive.backward", "" = it is not
+    std::int64_t counts = 0;         ///< at the last instant
+    std::optional<Time> begun = {};  ///< when it was driven first
+    std::int64_t with = 0;           ///< counts gone where it was driven to ...
+    std::int64_t against = 0;        ///< ... and the other way
+  };
+  void tell(const Axis& axis, Time now);
+
+  std::vector<Axis> axes_;
+  std::vector<Found> found_;
+};
+
+}  // namespace drycut::sim::loop

@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "devices/controller.hpp"
+#include "sim/time.hpp"
+
+namespace drycut::sim::loop {
+
+/// Where a controller's programs have stood for half a second or more, by `now`.
+struct Waits {
+  /// A phrase each: "press.mod stands at line 30, WAIT NOT Axis:st_cntrev (Axis.st_cntrev=1), since 0.004 s".
+  std::vector<std::string> texts;
+  double since = 0;  ///< [s] when the last of them came to its place
+  bool all = false;  ///< every program stands
+};
+Waits waits_of(devices::Controller& controller, Time now);
+
+/// "Axis is without LOOPON: no program closes its position loop", "" = there is no such axis.
+std::string without_loop(devices::Controller& controller);
+
+}  // namespace drycut::sim::loop

@@ -1,0 +1,133 @@
+// Why a run failed, where nothing told it but the machine that stands or goes the wrong way.
+#include "sim/loop/waits.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+
+#include "base/text.hpp"
+#include "sim/loop/simulation.hpp"
+#include "tests/sim/studies/tune/bench.hpp"
+#include "tests/test_folder.hpp"
+
+namespace drycut::sim::loop {
+namespace {
+
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+Outcome outcome_of(const std::filesystem::path& file, const std::vector<scenario::Override>& set = {}) {
+  Problems problems;
+  const auto scenario = scenario::read_scenario(file, set, problems);
+  if (problems.empty()) {
+    Simulation simulation(scenario, problems);
+    if (problems.empty()) return simulation.run();
+  }
+  for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
+  return {};
+}
+
+/// What a program of an ideal axis comes to that should reach 400 mm.
+std::string cause_of(const std::string& program, const std::string& line = studies::tuning::scenario) {
+  TestFolder folder;
+  folder.file("axis.cnf", studies::tuning::configuration);
+  folder.file("axis.mod", program);
+  const auto outcome = outcome_of(
+      folder.file("line.yaml", line + "checks:\n  - {name: there, eventually: axis.position > 300}\n"));
+  EXPECT_FALSE(outcome.passed());
+  return outcome.cause;
+}
+
+TEST(WhyItFailed, AProgramThatWaitsIsNamedWithItsLineAndSinceWhen) {
+  const auto program = replaced(studies::tuning::program, "CNTDIR AxisX\n",
+                                "CNTREV AxisX\nWAIT NOT AxisX:st_cntrev  ; never\n");
+  EXPECT_THAT(cause_of(program),
+              ContainsRegex("^because axis.mod stands at line 15, WAIT NOT AxisX:st_cntrev "
+                            "[(]AxisX.st_cntrev=1[)], since 0.0[0-9]+ s$"));
+}
+
+// A loop's own pause is no waiting, however long it goes on.
+TEST(WhyItFailed, AnAxisWithoutLooponIsNamed) {
+  const auto program =
+      replaced(studies::tuning::program, "LOOPON AxisX\nWAIT AxisX:st_loopon\n", "; LOOPON AxisX\n");
+  EXPECT_EQ(cause_of(program), "because AxisX is without LOOPON: no program closes its position loop");
+}
+
+TEST(WhyItFailed, AStateThatStandsIsNamed) {
+  const auto program =
+      replaced(studies::tuning::program, "START AxisX\n", "gbPhase = 1\nWAIT AxisX:st_still\ngbPhase = 3\n");
+  const auto cause = cause_of(replaced(program, "WAIT 1\n", "IF gbPhase EQ 2\nSTART AxisX\nENDIF\nWAIT 1\n"),
+                              replaced(replaced(studies::tuning::scenario, "duration: 1 s", "duration: 2 s"),
+                                       "axis.position]", "axis.position, gbPhase]"));
+  EXPECT_THAT(cause, ContainsRegex("^because gbPhase stands at 3 since 0.0[0-9]+ s$"));
+}
+
+TEST(WhyItFailed, PositiveFeedbackIsToldFromTheFirstSecond) {
+  const auto cause = cause_of(replaced(studies::tuning::program, "CNTDIR AxisX\n", "CNTREV AxisX\n"));
+  EXPECT_THAT(cause, ContainsRegex("^because AxisX went 1[0-9]+ counts against its drive from 0.0[0-9]+ s to "
+                                   "0.0[0-9]+ s: positive feedback, it counts or turns the wrong way "
+                                   "[(]CNTREV AxisX or CNTDIR AxisX[)]$"));
+}
+
+const auto lines = std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/new";
+
+TEST(WhyItFailed, ForwardAndBackwardSwappedAreTold) {
+  TestFolder folder;
+  const auto press = (lines / "vertical_press_qmove.yaml").string();
+  const auto swapped = folder.file("swapped.yaml", "extends: " + press +
+                                                       "\nvariables: {tours: 1}\nscene: {duration: 6 s}\n"
+                                                       "wiring: {2.OUT01: press.drive.backward, "
+                                                       "2.OUT02: press.drive.forward}\n");
+  EXPECT_THAT(outcome_of(swapped).cause,
+              AllOf(StartsWith("because Axis went 1"), HasSubstr(" counts against its drive from "),
+                    HasSubstr(": its forward output 2.OUT01 is wired to press.drive.backward")));
+}
+
+TEST(WhyItFailed, ALineThatIsRightGoesNowhereAstray) {
+  for (const auto* name : {"vertical_press_qmove.yaml", "rotary_knife_qmove.yaml",
+                           "rotary_knife_plcopen.yaml", "flying_saw_qmove.yaml", "flying_saw_plcopen.yaml"}) {
+    Problems problems;
+    const auto scenario = scenario::read_scenario(lines / name, {{"scene.duration", "4 s"}}, problems);
+    Simulation simulation(scenario, problems);
+    for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
+    simulation.run();
+    for (const auto& note : simulation.notes())
+      EXPECT_THAT(note, Not(HasSubstr("against its drive"))) << name;
+  }
+}
+
+TEST(WhyItFailed, ABlockWhoseCommandNeverComesIsNamed) {
+  TestFolder folder;
+  std::ifstream shipped(std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/programs/rotary_knife.st");
+  std::string program(std::istreambuf_iterator<char>(shipped), {});
+  const auto call = program.find("CamIn(");
+  ASSERT_NE(call, std::string::npos);
+  const auto execute = program.find("Execute := ", call) + std::string("Execute := ").size();
+  program.replace(execute, program.find(',', execute) - execute, "FALSE");
+  const auto before = program.substr(0, execute);
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  folder.file("knife.st", program);
+  const auto file = folder.file("line.yaml", "extends: " + (lines / "rotary_knife_plcopen.yaml").string() +
+                                                 "\nscene: {duration: 5 s}\n"
+                                                 "controller: {plcopen: {program: knife.st}}\n");
+  EXPECT_THAT(outcome_of(file).cause,
+              AllOf(HasSubstr("knife.st stands at line " + std::to_string(line) + ", "),
+                    HasSubstr("CamIn.Execute=0"), HasSubstr("since 0.0 s")));
+}
+
+}  // namespace
+}  // namespace drycut::sim::loop
