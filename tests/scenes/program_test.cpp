@@ -43,10 +43,8 @@ std::string contents(const fs::path& file) {
 const std::string scenes = std::string(DRYCUT_SOURCE_DIR) + "/scenes/";
 
 struct ProgramTest : testing::Test {
-  ProgramTest() { fs::remove_all(out); }
-  ~ProgramTest() override { fs::remove_all(out); }
-  fs::path out = fs::path(testing::TempDir()) /
-                 ("drycut_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  drycut::TestFolder folder;
+  fs::path out = folder / "out";
   std::string to() const { return " --out " + out.string(); }
 };
 
@@ -69,7 +67,7 @@ TEST_F(ProgramTest, FramesAreTheSameForAnyNumberOfRasteriserThreads) {
 TEST_F(ProgramTest, RunWritesWhatTheContractSays) {
   const auto result = call("run " + scenes + "rotary_knife_short.yaml --set scene.duration='5 s'" + to());
   EXPECT_EQ(result.status, 0) << result.text;
-  EXPECT_THAT(result.text, testing::HasSubstr("rotary_knife_short: passed, all 10 checks passed"));
+  EXPECT_THAT(result.text, testing::HasSubstr("rotary_knife_short: passed, all 13 checks passed"));
   const auto folder = out / "rotary_knife_short";
   for (const auto* name : {"trace.csv", "events.csv", "checks.json", "report.html", "plots/motion.png",
                            "frames/frame_00000.png"}) {
@@ -77,7 +75,7 @@ TEST_F(ProgramTest, RunWritesWhatTheContractSays) {
   }
   EXPECT_THAT(
       contents(out / "junit.xml"),
-      testing::HasSubstr("<testsuite name=\"rotary_knife_short\" tests=\"10\" failures=\"0\" errors=\"0\" "));
+      testing::HasSubstr("<testsuite name=\"rotary_knife_short\" tests=\"13\" failures=\"0\" errors=\"0\" "));
   EXPECT_THAT(contents(folder / "trace.csv"), testing::StartsWith("time [s],AxisX.posit [Um],"));
   EXPECT_THAT(contents(folder / "events.csv"), testing::HasSubstr(",knife,cut,length=500"));
 }
@@ -92,7 +90,7 @@ TEST_F(ProgramTest, WithoutHelpersTheVerdictStandsAndTheReportIsWritten) {
   setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(result.status, 0) << result.text;
   EXPECT_THAT(result.text,
-              testing::AllOf(testing::HasSubstr("rotary_knife_short: passed, all 10 checks passed"),
+              testing::AllOf(testing::HasSubstr("rotary_knife_short: passed, all 13 checks passed"),
                              testing::HasSubstr("left out: video: there is no ffmpeg; install ffmpeg\n")));
   EXPECT_THAT(contents(out / "rotary_knife_short/report.html"),
               testing::HasSubstr("<li>left out: video: there is no ffmpeg; install ffmpeg</li>"));
