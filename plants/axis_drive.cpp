@@ -12,15 +12,17 @@ namespace drycut::plants {
 namespace {
 
 std::variant<ServoDrive, Inverter, ContactorDrive, SharedMotor> chosen(const AxisDriveData& data,
-                                                                       Random noise) {
+                                                                       World& world,
+                                                                       const std::string& name) {
   if (data.kind == "shared" && data.has_servo_motor())
     return SharedMotor(data.shared, motor_current(data.servo), data.servo.heat, ratings(data.servo));
   if (data.kind == "shared")
     return SharedMotor(data.shared, motor_current(data.motor), data.motor.heat,
                        ratings(data.motor, data.inverter.torque_limit));
   if (data.kind == "inverter") return Inverter(data.inverter, data.motor);
-  if (data.kind == "contactors") return ContactorDrive(data.contactors, data.motor);
-  return ServoDrive(data.servo, noise);
+  if (data.kind == "contactors")
+    return ContactorDrive(data.contactors, data.motor, world.random(name + " contactors"));
+  return ServoDrive(data.servo, world.random(name + " servo"));
 }
 
 double state_number(Inverter::State state) {
@@ -98,8 +100,11 @@ Overloaded(Cases...) -> Overloaded<Cases...>;
 
 }  // namespace
 
-AxisDrive::AxisDrive(const AxisDriveData& data, Random noise)
-    : data_(data), drive_(chosen(data, noise)), brake_(data.brake), changeover_(data.shared) {}
+AxisDrive::AxisDrive(const AxisDriveData& data, World& world, const std::string& name)
+    : data_(data),
+      drive_(chosen(data, world, name)),
+      brake_(data.brake, world.random(name + " brake")),
+      changeover_(data.shared) {}
 
 void AxisDriveData::share(const AxisDriveData& lender) {
   AxisDriveData own = lender;
@@ -144,6 +149,7 @@ PowerStage::Step AxisDrive::given() const {
 }
 
 void AxisDrive::drive(Shaft& rotor, double h) {
+  if (data_.brake.torque > 0) brake_.account(rotor, h);
   const bool shared = changeover_.shared();
   if (shared) switch_over(rotor, h);
   SharedMotor* const other = connected_.motor;
@@ -216,9 +222,7 @@ void AxisDrive::offer_channels(std::vector<Channel>& channels) const {
   if (data_.kind == "shared")
     std::erase_if(channels, [](const Channel& channel) { return channel.name == "drive.energy"; });
   changeover_.offer_channels(channels);
-  if (data_.brake.torque > 0)
-    channels.push_back(
-        {"brake.engaged", "", [this] { return brake_.released() ? 0.0 : 1.0; }, "1 while the brake holds"});
+  if (data_.brake.torque > 0) brake_.offer_channels(channels);
 }
 
 void AxisDrive::offer_faults(std::vector<Fault>& faults) {

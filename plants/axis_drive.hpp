@@ -48,7 +48,8 @@ std::vector<PlantDefinition::Objection> axis_drive_objections(const AxisDriveDat
 
 class AxisDrive {
  public:
-  AxisDrive(const AxisDriveData& data, Random noise);
+  /// `name` is that of the machine's sources of noise and scatter.
+  AxisDrive(const AxisDriveData& data, World& world, const std::string& name);
 
   /// Torque of the motor for the coming step of `h` seconds, and the brake's command. The brake itself is dry
   /// friction of brake_torque() that the plant applies with the other friction.

@@ -4,20 +4,25 @@
 
 namespace drycut::plants {
 
-ContactorDrive::ContactorDrive(const ContactorData& data, const InductionMotorData& motor)
+ContactorDrive::ContactorDrive(const ContactorData& data, const InductionMotorData& motor,
+                               const Random& random)
     : power_(motor_current(motor), motor.heat, ratings(motor, motor.winding.pullout_torque), {}, {}),
       fast_(motor.winding),
       slow_winding_(data.slow),
       mains_(motor.rated_frequency),
-      forward_contact_(data.close_delay, data.open_delay),
-      backward_contact_(data.close_delay, data.open_delay),
-      slow_contact_(data.close_delay, data.open_delay) {}
+      forward_contact_(data.close_delay, data.open_delay, data.scatter),
+      backward_contact_(data.close_delay, data.open_delay, data.scatter),
+      slow_contact_(data.close_delay, data.open_delay, data.scatter),
+      fast_contact_(data.close_delay, 0),
+      random_(random) {}
 
 void ContactorDrive::drive(Shaft& rotor, double h) {
   power_.account(last_, rotor, h);
-  const bool forwards = forward_contact_.update(forward.level, h);
-  const bool backwards = backward_contact_.update(backward.level, h);
-  const Winding& winding = slow_contact_.update(slow.level, h) ? slow_winding_ : fast_;
+  const bool forwards = forward_contact_.update(forward.level, h, &random_);
+  const bool backwards = backward_contact_.update(backward.level, h, &random_);
+  const bool slowly = slow_contact_.update(slow.level, h, &random_);
+  const bool fast = fast_contact_.update(!slowly, h);
+  const Winding& winding = slowly ? slow_winding_ : fast_;
   if ((forwards && backwards) || power_.tripped())
     state_ = State::tripped;
   else if (state_ != State::tripped)
@@ -25,7 +30,7 @@ void ContactorDrive::drive(Shaft& rotor, double h) {
 
   field_ = slip_ = torque_ = 0;
   last_ = {};
-  if (state_ == State::running) {
+  if (state_ == State::running && (slowly || fast)) {
     field_ = forwards ? winding.data().synchronous_speed : -winding.data().synchronous_speed;
     slip_ = field_ - rotor.speed;
     torque_ = phase_lost_ ? winding.single_phase_torque(field_, rotor.speed) : winding.torque(slip_);
@@ -58,6 +63,8 @@ Parameters contactor_parameters(ContactorData& data) {
               "usual: contactors of the 2 kW class"),
           row("open_delay", "ms", "from coil off to the end of the arc", data.open_delay, 0, 1000,
               "usual: contactors of the 2 kW class"),
+          row("scatter", "ms", "standard deviation of both delays, from switching to switching", data.scatter,
+              0, 100, "none: set it to see what a placement's tolerance is made of"),
       },
       group("slow.", winding_parameters(data.slow, "usual values: 4/16 poles, wound to brake well")));
 }

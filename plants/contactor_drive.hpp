@@ -12,6 +12,7 @@ namespace drycut::plants {
 struct ContactorData {
   double close_delay = 20e-3;  ///< [s]
   double open_delay = 15e-3;   ///< [s]
+  double scatter = 0;          ///< standard deviation of both delays, from switching to switching [s]
   /// The slow winding; the fast one is that of the motor.
   WindingData slow = {375 * std::numbers::pi / 30, 330 * std::numbers::pi / 30, 14.8, 36};
 };
@@ -19,12 +20,14 @@ struct ContactorData {
 /// Rows of the group `contactors.`.
 Parameters contactor_parameters(ContactorData& data);
 
-/// A motor with a fast and a slow winding on the mains, switched by contactors forward, backward and slow (a
-/// change-over). With both directions closed the mains are short-circuited and the breaker trips; its sensor
-/// in the winding trips it too.
+/// A motor with a fast and a slow winding on the mains, switched by contactors forward, backward and slow.
+/// Where that one opens another closes onto the fast winding, as late as every contactor. With both
+/// directions closed the mains are short-circuited and the breaker trips; its sensor in the winding trips it
+/// too.
 class ContactorDrive {
  public:
-  ContactorDrive(const ContactorData& data, const InductionMotorData& motor);
+  /// `random`: what the delays of the contactors scatter by.
+  ContactorDrive(const ContactorData& data, const InductionMotorData& motor, const Random& random = Random());
 
   CommandPort forward;
   CommandPort backward;
@@ -64,6 +67,8 @@ class ContactorDrive {
   DelayedContact forward_contact_;
   DelayedContact backward_contact_;
   DelayedContact slow_contact_;
+  DelayedContact fast_contact_;  // of the other winding, fed by the slow one's break contact
+  Random random_;
   State state_ = State::off;
   double field_ = 0;
   double slip_ = 0;

@@ -1,8 +1,10 @@
 #pragma once
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "plants/plant.hpp"
+#include "plants/random.hpp"
 
 namespace drycut::plants {
 
@@ -10,16 +12,19 @@ namespace drycut::plants {
 /// the delay is swallowed.
 class DelayedContact {
  public:
-  /// Delays in s; the contact is open at the start.
-  DelayedContact(double close_delay, double open_delay)
-      : close_delay_(close_delay), open_delay_(open_delay) {}
+  /// Delays in s and their standard deviation; the contact is open at the start.
+  DelayedContact(double close_delay, double open_delay, double scatter = 0)
+      : close_delay_(close_delay), open_delay_(open_delay), scatter_(scatter) {}
 
   /// Follows the command at the start of a step of `h` seconds; true while the contact is closed in that
-  /// step.
-  bool update(bool command, double h) {
+  /// step. `random`: of a contact whose delays scatter; each change of the command draws its own, never below
+  /// 0.
+  bool update(bool command, double h, Random* random = nullptr) {
     if (command != command_) {
       command_ = command;
       remaining_ = command ? close_delay_ : open_delay_;
+      if (scatter_ > 0 && random != nullptr)
+        remaining_ = std::max(0.0, remaining_ + scatter_ * random->gaussian());
     }
     if (command_ != follows_) {
       if (remaining_ < h / 2) follows_ = command_;
@@ -40,6 +45,7 @@ class DelayedContact {
  private:
   double close_delay_;
   double open_delay_;
+  double scatter_;
   bool command_ = false;
   bool follows_ = false;
   double remaining_ = 0;  // until the contact follows [s]

@@ -1,8 +1,43 @@
 #include "plants/holding_brake.hpp"
 
-#include <algorithm>
+#include <cmath>
+
+#include "base/units.hpp"
 
 namespace drycut::plants {
+
+namespace {
+
+constexpr double standstill = 1 / units::rpm;  // up to here it engages at rest [rad/s]
+
+}  // namespace
+
+void HoldingBrake::account(const Shaft& rotor, double h) {
+  const bool holds = applied_ > 0;
+  if (holds && !held_) {
+    last_energy_ = 0;
+    if (std::abs(rotor.speed_before) > standstill) ++engagements_;
+  }
+  held_ = holds;
+  // A torque that does not change over the step takes just this out of the rotor.
+  const double slipped = applied_ * std::abs(rotor.speed_before + rotor.speed) / 2 * h;
+  energy_ += slipped;
+  last_energy_ += slipped;
+}
+
+void HoldingBrake::offer_channels(std::vector<Channel>& channels) const {
+  channels.insert(
+      channels.end(),
+      {{"brake.engaged", "", [this] { return released() ? 0.0 : 1.0; }, "1 while the brake holds"},
+       {"brake.energy", "J", [this] { return energy_; },
+        "slip work of the brake since the start: its torque over the angle by which it slipped, heat and "
+        "wear "
+        "of its linings"},
+       {"brake.last_energy", "J", [this] { return last_energy_; },
+        "slip work of the last engagement, so far while it lasts"},
+       {"brake.engagements", "", [this] { return static_cast<double>(engagements_); },
+        "how often the brake engaged at speed, a motor faster than 1 rpm"}});
+}
 
 void HoldingBrake::offer_faults(std::vector<Fault>& faults) {
   faults.push_back(fault_state("brake", "stuck_open", stuck_open_, "1: it does not hold any more"));
@@ -19,6 +54,8 @@ Parameters holding_brake_parameters(HoldingBrakeData& data, std::string_view tor
           "usual: spring-applied brake of 20 N m"),
       row("engage_delay", "ms", "from command to full torque, switched on the DC side", data.engage_delay, 0,
           5000, "usual: spring-applied brake of 20 N m"),
+      row("scatter", "ms", "standard deviation of both delays, from time to time", data.scatter, 0, 500,
+          "none: set it to see what a placement's tolerance is made of"),
       row("control",
           "released while the drive moves the motor and brake.release is on, or by brake.release alone",
           data.control, {"drive", "output"}, "coil on the motor's terminals or the inverter's relay"),

@@ -18,7 +18,7 @@ LinearAxis::LinearAxis(const LinearAxisData& data, World& world, const LinearAxi
                        -std::cos(data.inclination) * std::sin(data.heading)},
               .gravity = true},
              world),
-      drive_(data.drive, world.random("linear axis servo")) {
+      drive_(data.drive, world, "linear axis") {
   if (lender != nullptr) lender->drive_.lend_to(drive_, rotor());
 }
 

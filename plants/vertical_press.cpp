@@ -26,7 +26,7 @@ VerticalPress::VerticalPress(const VerticalPressData& data, World& world)
       screw_(data, "press", data.drive.rotor_inertia(),
              {.name = "press ram", .mass = data.mass + data.load, .axis = {0, 1, 0}, .gravity = true}, world,
              carrying_twist(data)),
-      drive_(data.drive, world.random("press servo")),
+      drive_(data.drive, world, "press"),
       workpiece_(data.workpiece, data.workpiece_height, -1) {}
 
 // Against a motion that the motor must drive the screw rubs with (1/efficiency - 1) of its torque, against

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "plants/friction.hpp"
 #include "tests/plants/plants_lookup.hpp"
 
 namespace drycut::plants {
@@ -69,7 +71,8 @@ TEST(AxisDrive, EveryKindHasItsPlugsFaultsAndChannels) {
       AxisDriveData data;
       data.kind = kind;
       data.brake.torque = torque;
-      AxisDrive drive(data, Random());
+      World world;
+      AxisDrive drive(data, world, "axis");
       std::vector<Port> ports;
       std::vector<Channel> channels;
       std::vector<Fault> faults;
@@ -99,8 +102,8 @@ TEST(AxisDrive, EveryKindHasItsPlugsFaultsAndChannels) {
 TEST(AxisDrive, TripsAreToldOnce) {
   AxisDriveData data;
   data.kind = "contactors";
-  AxisDrive drive(data, Random());
   World world;
+  AxisDrive drive(data, world, "axis");
   Shaft& rotor = world.add_shaft({.name = "rotor", .inertia = 1});
   std::vector<Fault> faults;
   drive.offer_faults(faults);
@@ -118,8 +121,8 @@ TEST(AxisDrive, TripsAreToldOnce) {
 TEST(AxisDrive, AServoHasABrakeToo) {
   AxisDriveData data;
   data.brake.torque = 10;
-  AxisDrive drive(data, Random());
   World world;
+  AxisDrive drive(data, world, "axis");
   Shaft& rotor = world.add_shaft({.name = "rotor", .inertia = 0.01});
   std::vector<Port> ports;
   drive.offer_ports(ports);
@@ -134,6 +137,99 @@ TEST(AxisDrive, AServoHasABrakeToo) {
   run();
   EXPECT_EQ(drive.brake_torque(), 10);
   EXPECT_TRUE(drive.at_rest());
+}
+
+/// A servo axis with a brake of 10 N m on a free rotor of 0.01 kg m2 that turns at 50 rad/s, its amplifier
+/// off.
+struct BrakedRotor {
+  AxisDriveData data;
+  World world;
+  Shaft& rotor = world.add_shaft({.name = "rotor", .inertia = 0.01});
+  std::unique_ptr<AxisDrive> drive;
+  std::vector<Port> ports;
+  std::vector<Channel> channels;
+  std::vector<Fault> faults;
+  explicit BrakedRotor(double load) : load_(load) {
+    data.brake.torque = 10;
+    drive = std::make_unique<AxisDrive>(data, world, "axis");
+    drive->offer_ports(ports);
+    drive->offer_channels(channels);
+    drive->offer_faults(faults);
+    fault(faults, "brake", "stuck_open", 1);
+    std::get<CommandPort*>(ports[1].plug)->level = false;  // servo.enable
+    run(0.1);
+    rotor.speed = 50;
+  }
+  void run(double seconds) {
+    for (long i = std::lround(seconds / h); i > 0; --i) {
+      drive->drive(rotor, h);
+      rotor.add_torque(-load_);
+      const double brake = drive->brake_torque();
+      rotor.add_torque(friction_effort({}, rotor.speed, rotor.torque, rotor.inertia, h, {brake, brake}));
+      world.step(h);
+    }
+  }
+  double read(const std::string& name) {
+    for (const Channel& c : channels)
+      if (c.name == name) return c.read();
+    ADD_FAILURE() << name;
+    return 0;
+  }
+
+ private:
+  double load_;
+};
+
+TEST(HoldingBrake, ItsSlipWorkIsTheEnergyThatItTakes) {
+  // What a load helps or hinders over the way of braking comes on top: T_b w^2 J / 2 (T_b + T_l).
+  for (const double load : {0.0, 4.0, -4.0}) {
+    BrakedRotor braked(load);
+    fault(braked.faults, "brake", "stuck_open", 0);
+    braked.run(1);
+    EXPECT_NEAR(braked.rotor.speed, 0, 1e-12);
+    const double energy = 0.01 * 50 * 50 / 2 * 10 / (10 + load);
+    EXPECT_NEAR(braked.read("brake.energy") / energy, 1, 1e-4) << load;
+    EXPECT_EQ(braked.read("brake.last_energy"), braked.read("brake.energy"));
+    EXPECT_EQ(braked.read("brake.engagements"), 1);
+  }
+}
+
+TEST(HoldingBrake, CountsWhatItEngagesAtSpeed) {
+  BrakedRotor braked(0);
+  EXPECT_EQ(braked.read("brake.energy"), 0);
+  EXPECT_EQ(braked.read("brake.engagements"), 0);
+  const auto engage = [&](double speed) {
+    fault(braked.faults, "brake", "stuck_open", 1);
+    braked.run(0.01);
+    braked.rotor.speed = speed;
+    fault(braked.faults, "brake", "stuck_open", 0);
+    braked.run(0.2);
+  };
+  engage(20);
+  engage(-40);
+  EXPECT_EQ(braked.read("brake.engagements"), 2);
+  EXPECT_NEAR(braked.read("brake.last_energy"), 0.01 * 40 * 40 / 2, 0.001);
+  EXPECT_NEAR(braked.read("brake.energy"), 0.01 * (20 * 20 + 40 * 40) / 2, 0.002);
+  engage(0);  // a holding brake that holds wears nothing
+  EXPECT_EQ(braked.read("brake.engagements"), 2);
+  EXPECT_EQ(braked.read("brake.last_energy"), 0);
+}
+
+TEST(HoldingBrake, ItsDelaysScatterFromTimeToTime) {
+  HoldingBrakeData data;
+  data.torque = 25;
+  data.scatter = 2e-3;
+  HoldingBrake brake(data, Random(7));
+  std::vector<int> engaged;
+  for (int i = 0; i < 200; ++i) {
+    int steps = 0;
+    while (brake.update(true, h), !brake.released()) ++steps;
+    steps = 0;
+    while (brake.update(false, h), brake.released()) ++steps;
+    engaged.push_back(steps);
+  }
+  EXPECT_NEAR(mean_of(engaged), 400, 6);  // 40 ms; three standard errors
+  EXPECT_NEAR(deviation_of(engaged), 20, 3);
 }
 
 TEST(AxisDrive, WhatCannotBeIsRefused) {

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "tests/plants/drive_stand.hpp"
 
@@ -22,6 +25,33 @@ TEST(DelayedContact, FollowsToTheStepAndSwallowsShortCommands) {
   DelayedContact immediate(0, 0);
   EXPECT_TRUE(immediate.update(true, h));
   EXPECT_FALSE(immediate.update(false, h));
+}
+
+TEST(DelayedContact, ItsDelaysScatterAboutTheirMeansAndAreNeverNegative) {
+  const auto delays = [](double scatter, std::uint64_t seed) {
+    DelayedContact contact(20e-3, 15e-3, scatter);
+    Random random(seed);
+    std::vector<int> closing;
+    std::vector<int> opening;
+    for (int i = 0; i < 1000; ++i)
+      for (const bool close : {true, false}) {
+        int steps = 0;
+        while (contact.update(close, h, &random) != close) ++steps;
+        (close ? closing : opening).push_back(steps);
+      }
+    return std::pair(closing, opening);
+  };
+  const auto [closing, opening] = delays(1e-3, 1);
+  EXPECT_NEAR(mean_of(closing), 200, 1);  // three standard errors
+  EXPECT_NEAR(mean_of(opening), 150, 1);
+  EXPECT_NEAR(deviation_of(closing), 10, 0.7);
+  EXPECT_NEAR(deviation_of(opening), 10, 0.7);
+  EXPECT_EQ(delays(1e-3, 1), std::pair(closing, opening));
+  EXPECT_NE(delays(1e-3, 2), std::pair(closing, opening));
+  EXPECT_EQ(delays(0, 1).first, std::vector<int>(1000, 200));
+  // 15 ms with a scatter of 30: three of ten would follow before their command.
+  const auto wide = delays(30e-3, 1).second;
+  EXPECT_NEAR(static_cast<double>(std::ranges::count(wide, 0)) / 1000, 0.31, 0.05);
 }
 
 TEST(DelayedContact, StuckContacts) {
@@ -93,6 +123,21 @@ TEST(ContactorDrive, TheSlowWindingBrakesAFastMotor) {
   stand.drive.slow.level = false;
   stand.run(3);
   EXPECT_NEAR(stand.rotor.speed * rpm, -375, 1e-6);
+}
+
+TEST(ContactorDrive, BetweenSlowAndFastItHasNoTorque) {
+  ContactorStand stand;
+  stand.drive.forward.level = stand.drive.slow.level = true;
+  stand.run(2);
+  stand.drive.slow.level = false;
+  stand.run(15e-3);
+  EXPECT_NEAR(stand.drive.field_speed() * rpm, 375, 1e-9);
+  for (int i = 0; i < 200; ++i) {
+    stand.step();
+    EXPECT_EQ(stand.drive.torque(), 0);
+  }
+  stand.step();
+  EXPECT_NEAR(stand.drive.torque(), kloss(WindingData{}, sync - 375 / rpm), 0.1);
 }
 
 TEST(ContactorDrive, BothDirectionsTripTheBreakerUntilItIsReset) {

@@ -58,6 +58,18 @@ inline double value(const Event& event, const std::string& name) {
   return 0;
 }
 
+inline double mean_of(const std::vector<int>& all) {
+  double sum = 0;
+  for (const int one : all) sum += one;
+  return sum / static_cast<double>(all.size());
+}
+/// Standard deviation.
+inline double deviation_of(const std::vector<int>& all) {
+  double squares = 0;
+  for (const int one : all) squares += (one - mean_of(all)) * (one - mean_of(all));
+  return std::sqrt(squares / static_cast<double>(all.size()));
+}
+
 /// The pose of the part of that name, now.
 inline PartPose pose_of(Plant& plant, const std::string& name) {
   for (const Part& part : plant.parts())

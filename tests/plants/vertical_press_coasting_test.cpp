@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "tests/plants/drive_stand.hpp"
 #include "tests/plants/screw_prediction.hpp"
@@ -154,6 +156,62 @@ TEST(VerticalPressCoasting, UpAndDownDifferByWhatGravitySays) {
   d.start = 0.3;
   EXPECT_NEAR(measure(definition, 1, true, 0.5).distance / -measure(definition, -1, true, 0.5).distance, 1,
               1e-6);
+}
+
+TEST(VerticalPressCoasting, TheBrakeTakesSpeedAndWeight) {
+  // Without losses: all that moves, and what the weight does over the way.
+  auto definition = coasting_press("inverter");
+  auto& d = definition.data;
+  d.motor_friction = d.guide_friction = {};
+  d.efficiency = d.back_efficiency = 1;
+  d.drive.brake.engage_delay = 0;
+  const double mass = ScrewPrediction(d, d.drive.motor.rotor_inertia).total();
+  const double weight = d.mass * gravity - d.counterbalance;
+  for (const int direction : {1, -1}) {
+    d.start = direction > 0 ? 0.05 : 0.55;
+    Press press(definition);
+    press.command(direction, false);
+    press.run(1);
+    press.command(0, false);
+    while (press.read("drive.state") != 0) press.step();
+    const double speed = press.ram().speed_before;
+    const double from = press.ram().position_before;
+    press.run(3);
+    const double energy = mass * speed * speed / 2 - weight * (press.ram().position - from);
+    EXPECT_NEAR(press.read("brake.last_energy") / energy, 1, 5e-3) << direction;
+    EXPECT_EQ(press.read("brake.engagements"), 1);
+  }
+}
+
+TEST(VerticalPressCoasting, ScattersWithItsContactorsAndItsBrake) {
+  // Balanced and without losses the way is the speed times the two delays in a row, and scatters as they do.
+  const auto ways = [](double contactors, double brake, std::uint64_t seed) {
+    auto definition = coasting_press("contactors");
+    auto& d = definition.data;
+    d.motor_friction = d.guide_friction = {};
+    d.efficiency = d.back_efficiency = 1;
+    d.counterbalance = d.mass * gravity;
+    d.drive.contactors.scatter = contactors;
+    d.drive.brake.scatter = brake;
+    Press press(definition, seed);
+    std::vector<int> all;  // [um]
+    for (int i = 0; i < 60; ++i) {
+      press.command(i % 2 == 0 ? 1 : -1, true);
+      press.run(0.4);
+      press.command(0, false);
+      const double from = press.ram().position;
+      press.run(0.4);
+      all.push_back(static_cast<int>(std::lround(1e6 * std::abs(press.ram().position - from))));
+    }
+    return all;
+  };
+  const auto sound = ways(0, 0, 1);
+  const auto scattered = ways(2e-3, 2e-3, 1);
+  EXPECT_LT(deviation_of(sound), 5);
+  EXPECT_NEAR(mean_of(scattered), mean_of(sound), 70);  // three standard errors
+  EXPECT_NEAR(deviation_of(scattered), 62.5 * 2 * std::numbers::sqrt2, 50);
+  EXPECT_EQ(ways(2e-3, 2e-3, 1), scattered);
+  EXPECT_NE(ways(2e-3, 2e-3, 2), scattered);
 }
 
 TEST(VerticalPressCoasting, ConvergesWithTheStep) {

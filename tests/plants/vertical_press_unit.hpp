@@ -10,7 +10,8 @@ namespace drycut::plants {
 
 /// A press without a controller.
 struct Press : Machine {
-  explicit Press(VerticalPressDefinition definition = {}) : Machine(definition) {}
+  explicit Press(VerticalPressDefinition definition = {}, std::uint64_t seed = 1)
+      : Machine(definition, nullptr, seed) {}
   Slide& ram() { return static_cast<VerticalPress&>(*plant).ram(); }
   Shaft& rotor() { return static_cast<VerticalPress&>(*plant).rotor(); }
 };

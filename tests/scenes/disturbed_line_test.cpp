@@ -253,5 +253,28 @@ TEST(CardOfThePresetSearch, MissesAZeroPulseThatIsTooShort) {
   EXPECT_TRUE(with_least("150 us", "2").outcome.passed());
 }
 
+// What is learnt is right; what is left of a placement's miss are the delays of contactors and brake.
+TEST(PressThatScatters, MissesByMoreTheMoreItsDelaysScatter) {
+  const auto spread = [](const std::string& scatter) {
+    const LineRun run("press_learning.yaml", {{"plants.press.contactors.scatter", scatter},
+                                              {"plants.press.brake.scatter", scatter},
+                                              {"controller.qmove.set.slPause", "500"}});
+    const auto judge = run.column("gfJudge");
+    const auto tour = run.column("gbTour");
+    const auto miss = run.column("glMiss");
+    std::vector<double> misses;
+    for (std::size_t i = 1; i < judge.size(); ++i)
+      if (judge[i] > judge[i - 1] && tour[i] > 1) misses.push_back(miss[i]);
+    EXPECT_GE(misses.size(), 18U);
+    double squares = 0;
+    for (const double one : misses) squares += one * one;
+    return std::sqrt(squares / static_cast<double>(misses.size())) / 100;  // [mm]
+  };
+  EXPECT_LT(spread("0 ms"), 0.1);
+  const double some = spread("1 ms");
+  EXPECT_GT(some, 0.13);
+  EXPECT_GT(spread("2 ms"), 1.5 * some);
+}
+
 }  // namespace
 }  // namespace drycut::sim
