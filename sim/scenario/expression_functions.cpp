@@ -51,7 +51,7 @@ constexpr std::array functions{
     ExpressionFunction{"log2", Units::none, [](double x) { return std::log(x) / std::log(2.0); }},
     ExpressionFunction{"max", Units::same, nullptr, [](double a, double b) { return std::max(a, b); }, true},
     ExpressionFunction{"min", Units::same, nullptr, [](double a, double b) { return std::min(a, b); }, true},
-    ExpressionFunction{"rint", Units::same, [](double x) { return std::floor(x + 0.5); }},
+    ExpressionFunction{"rint", Units::whole, [](double x) { return std::floor(x + 0.5); }},
     ExpressionFunction{"sign", Units::free, [](double x) { return x < 0 ? -1.0 : as_number(x > 0); }},
     ExpressionFunction{"sin", Units::angle, [](double x) { return std::sin(x); }},
     ExpressionFunction{"sinh", Units::none, [](double x) { return std::sinh(x); }},

@@ -21,6 +21,7 @@ inline constexpr int comparison_level = 2;
 struct ExpressionFunction {
   enum class Units {
     same,   ///< the result is in the unit of the arguments
+    whole,  ///< so it is, but a ratio of two units of one quantity is the number that it comes to
     angle,  ///< takes an angle
     arc,    ///< gives an angle [rad]
     root,

@@ -289,6 +289,10 @@ class TreeBuilder {
     switch (function.units) {
       case Units::same:
         return of;
+      case Units::whole:  // 1 m / 5 mm is 200, and not 0.2 m/mm
+        if (of.text.find('/') == std::string::npos || !same_dimension(of.text, "")) return of;
+        convert(operand, {ExpressionUnit::Kind::known, ""}, std::string(function.name));
+        return {};
       case Units::root:
         return unit_of_root(of);
       case Units::angle:
