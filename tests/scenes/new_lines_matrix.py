@@ -15,6 +15,7 @@ import tempfile
 DRYCUT = str(pathlib.Path(sys.argv[1]).resolve())
 DEVICES = {"qmove": "camming4", "lx3vp": "lx3vp", "plcopen": "mc_camin"}
 KNIFE = ["rotary_knife", "--circumference", "600 mm", "--speed", "60 m/min"]
+CUT = ("rotary_knife", "flying_saw")  # by a cam; the others are positioned
 SAW = ["flying_saw", "--speed", "34 m/min"]
 COMMAND = re.compile(r"drycut (?:run|cam|check|design|envelope|size|sweep|tune|bode|edit) [^\n]*")
 
@@ -91,13 +92,22 @@ def commands_of(page):
     return "\n".join(re.findall(r"<pre>(drycut [^<]*)</pre>", page))
 
 
-def studies(folder, machine):
-    press = machine == "vertical_press"
-    over = "variables.tours=1..2:2" if press else "variables.length=900..1100 mm:2"
-    find = "variables.load=0..200 kg:100" if press else "variables.speed=20..60 m/min:20"
+def studies(folder, machine, controller):
+    cuts = machine in CUT
+    if machine == "length_stop":
+        over, find = "variables.length=200..400 mm:2", "variables.step=40..60 mm:10"
+    elif not cuts:
+        over, find = "variables.tours=1..2:2", "variables.load=0..200 kg:100"
+    else:
+        over, find = "variables.length=900..1100 mm:2", "variables.speed=20..60 m/min:20"
     printed = call(folder, ["envelope", "line.yaml", "--over", over, "--find-max", find])
     run_again(folder, printed)
-    choice = ["--motors", "IEC*", "--set", "drives.cycle=12 s"] if press else ["--motors", "HG-SR[12]*", "--gears", "4,5"]
+    if machine == "length_stop":
+        choice = ["--motors", "IEC*" if controller == "lx3vp" else "HG-SR[12]*"]
+    elif not cuts:
+        choice = ["--motors", "IEC*", "--set", "drives.cycle=12 s"]
+    else:
+        choice = ["--motors", "HG-SR[12]*", "--gears", "4,5"]
     printed = call(folder, ["size", "line.yaml", *choice], (0, 1))
     run_again(folder, printed)
     run_again(folder, commands_of(pages(folder)), (0, 1))  # the envelope's is the first that fails
@@ -113,11 +123,11 @@ def walk(root, machine, controller):
         for where, name in [(folder, table.relative_to(folder)), (table.parent, table.name), (root, table)]:
             assert "with the values of" in call(where, ["cam", str(name)])
         call(folder, ["check", str(table.relative_to(folder))])
-    if machine == "vertical_press":
-        refuses_cams(folder)
-    else:
+    if machine in CUT:
         design(folder, machine, controller)
-    studies(folder, machine)
+    else:
+        refuses_cams(folder)
+    studies(folder, machine, controller)
 
 
 def main():

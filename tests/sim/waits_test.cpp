@@ -99,7 +99,8 @@ TEST(WhyItFailed, ForwardAndBackwardSwappedAreTold) {
 
 TEST(WhyItFailed, ALineThatIsRightGoesNowhereAstray) {
   for (const auto* name : {"vertical_press_qmove.yaml", "rotary_knife_qmove.yaml",
-                           "rotary_knife_plcopen.yaml", "flying_saw_qmove.yaml", "flying_saw_plcopen.yaml"}) {
+                           "rotary_knife_plcopen.yaml", "flying_saw_qmove.yaml", "flying_saw_plcopen.yaml",
+                           "length_stop_qmove.yaml", "vertical_press_inverter_qmove.yaml"}) {
     Problems problems;
     const auto scenario = scenario::read_scenario(lines / name, {{"scene.duration", "4 s"}}, problems);
     Simulation simulation(scenario, problems);

@@ -2,6 +2,7 @@
 #include "sim/cli/new_command.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "base/text.hpp"
 #include "sim/cli/check_command.hpp"
@@ -30,6 +31,19 @@ struct NewLine : CommandTest {
     EXPECT_EQ(captured([&] { return run_scenarios(options); }), all_passed) << out << err;
     return content(folder / "out/line/events.csv");
   }
+  /// The farthest that the stop of the last run came [mm].
+  double farthest() const {
+    const auto trace = content(folder / "out/line/trace.csv");
+    const auto lines = split_lines(trace);
+    const auto before = lines.front().substr(0, lines.front().find("stop.position"));
+    double most = 0;
+    for (auto row : std::span(lines).subspan(1)) {
+      for (auto columns = std::ranges::count(before, ','); columns > 0; --columns)
+        row.remove_prefix(row.find(',') + 1);
+      most = std::max(most, std::stod(std::string(row.substr(0, row.find(',')))));
+    }
+    return most;
+  }
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : fs::recursive_directory_iterator(folder / "line"))
@@ -46,6 +60,8 @@ double last_length(const std::string& events) {
   const auto at = events.rfind(",cut,length=");
   return at == std::string::npos ? 0 : std::stod(events.substr(at + 12));
 }
+
+bool is_press(const Start& start) { return start.machine.starts_with("vertical_press"); }
 
 std::ptrdiff_t cuts(const std::string& events) {
   const auto lines = split_lines(events);
@@ -173,16 +189,22 @@ TEST_P(EveryStart, NeedsNothingOutside) {
 
 TEST_P(EveryStart, ReadmesExampleIsOfAVariable) {
   const auto readme = content(folder / "line/README.md");
-  const auto example = std::string(GetParam().machine == "vertical_press" ? "variables.tours=2"
-                                   : GetParam().machine == "flying_saw"   ? "variables.length=1.2 m"
-                                                                          : "variables.length=1 m");
+  const auto example = std::string(is_press(GetParam())                  ? "variables.tours=2"
+                                   : GetParam().machine == "flying_saw"  ? "variables.length=1.2 m"
+                                   : GetParam().machine == "length_stop" ? "variables.length=450 mm"
+                                                                         : "variables.length=1 m");
   EXPECT_THAT(readme, HasSubstr("--set \"" + example + "\" "));
   EXPECT_THAT(readme, testing::StartsWith("# line\n\n" + GetParam().about));
 }
 
 TEST_P(EveryStart, LengthAndSpeedMakeOtherPieces) {
-  if (GetParam().machine == "vertical_press") {
+  if (is_press(GetParam())) {
     EXPECT_NE(run(), run({"variables.load=100 kg"}));
+    return;
+  }
+  if (GetParam().machine == "length_stop") {  // its check of the place takes the length
+    run({"variables.length=450 mm", "variables.step=40 mm"});
+    EXPECT_NEAR(farthest(), 450 + 3 * 40, 0.3);
     return;
   }
   const bool saw = GetParam().machine == "flying_saw";
@@ -204,7 +226,7 @@ TEST_F(NewLine, ListsWhatThereIs) {
               HasSubstr("rotary_knife     plcopen    A rotary knife cuts a running web into pieces, under a "
                         "PLCopen controller: MC_CamIn plays cams/knife.tab.\n"));
   EXPECT_EQ(split_lines(out).size(), starts().size());
-  EXPECT_GE(starts().size(), 7U);
+  EXPECT_GE(starts().size(), 10U);
 }
 
 TEST_F(NewLine, SaysWhichPairsThereAre) {
@@ -214,8 +236,8 @@ TEST_F(NewLine, SaysWhichPairsThereAre) {
     std::string told;
   };
   const std::string all =
-      "there are: flying_saw under lx3vp, plcopen, qmove; rotary_knife under lx3vp, plcopen, qmove; "
-      "vertical_press under qmove\n";
+      "there are: flying_saw under lx3vp, plcopen, qmove; length_stop under lx3vp, qmove; rotary_knife under "
+      "lx3vp, plcopen, qmove; vertical_press under qmove; vertical_press_inverter under qmove\n";
   for (const auto& [machine, controller, told] : std::vector<Case>{
            {"", "", "--from:1:1: no machine is named; " + all},
            {"rotary_knive", "qmove",
