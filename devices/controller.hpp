@@ -123,12 +123,15 @@ class Controller {
   /// An axis that moves by an output of the controller and is counted by one of its counters.
   struct PositionLoop {
     std::string name;
-    std::function<double()> drive;         ///< above 0: forward; [V], or 1 of an output that is on
-    std::function<std::int64_t()> counts;  ///< in its counting direction [bits x4]
-    std::optional<Address> forward = {};   ///< the output that means forward, where there are two
-    std::string remedy;                    ///< what turns the count round
+    std::function<double()> drive;               ///< above 0: forward; [V], or 1 of an output that is on
+    std::function<std::int64_t()> counts;        ///< in its counting direction [bits x4]
+    std::optional<Address> forward = {};         ///< the output that means forward, where there are two
+    std::string remedy;                          ///< what turns the count round
+    std::optional<Address> counter = {};         ///< where it counts ...
+    std::optional<Address> reference = {};       ///< ... and drives, if both are named
+    std::function<double()> counts_at_10v = {};  ///< its parameters' speed at 10 V [bits x4/s], 0 = none
   };
-  /// Asked once, before it runs; what they read stays valid as long as the controller.
+  /// What they read stays valid as long as the controller.
   [[nodiscard]] virtual std::vector<PositionLoop> position_loops() { return {}; }
 
   [[nodiscard]] virtual bool has_events() const = 0;

@@ -175,6 +175,8 @@ class Device {
 
   /// Its cam, if it has one; the owner gives it its name.
   [[nodiscard]] virtual std::optional<CamAxis> cam_axis() { return std::nullopt; }
+  /// Of an analogue axis: what its parameters take for the speed at 10 V [bits x4/s], 0 = nothing.
+  [[nodiscard]] virtual double bits_at_10v() const { return 0; }
 
   [[nodiscard]] std::vector<Diagnostic> take_diagnostics();
   [[nodiscard]] bool has_diagnostics() const { return !diagnostics_.empty(); }

@@ -30,6 +30,7 @@ class AnaloguePositioner : public TableDevice<table> {
 
  public:
   [[nodiscard]] int period_ms() const override { return period_ms_; }
+  [[nodiscard]] double bits_at_10v() const override { return axis_.settings.max_speed; }
 
   void interrupt(int line, bool rising) override {
     if (state("st_init") && rising && line == zero_line_ && !zero_) zero_ = latched_total();

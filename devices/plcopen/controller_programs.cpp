@@ -153,18 +153,16 @@ ProgramPositions PlcopenController::positions(std::int64_t time_ns) const {
   return told;
 }
 
-// Of blocks that begin a motion. Those that end one, and readings, need not come.
+// Of blocks without which no axis works. Moves, blocks that end a motion, and readings need not come.
 std::vector<ProgramWait> PlcopenController::waits() {
-  constexpr std::array beginning{"MC_Power",          "MC_Home",  "MC_Move",
-                                 "MC_CamTableSelect", "MC_CamIn", "MC_GearIn"};
+  constexpr std::array needed{"MC_Power", "MC_Home", "MC_CamTableSelect", "MC_CamIn", "MC_GearIn"};
   std::vector<ProgramWait> waits;
   if (!powered_ || runtime_.fault()) return waits;
   const auto program = programs().front();
   for (const ErrorPins& block : blocks_) {
     const auto type = runtime_.block_type(block.error);
     if (block.commanded || !block.command ||
-        std::none_of(beginning.begin(), beginning.end(),
-                     [&](const char* name) { return type.starts_with(name); }))
+        std::none_of(needed.begin(), needed.end(), [&](const char* name) { return type.starts_with(name); }))
       continue;
     const std::string& pin = runtime_.symbols()[*block.command].name;
     for (const auto& [line, names] : program.values)

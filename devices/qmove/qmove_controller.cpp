@@ -258,23 +258,30 @@ std::vector<Controller::PositionLoop> QmoveController::position_loops() {
     const auto reversed = find_symbol(device.type(), "st_cntrev");
     const Counter* counter = nullptr;
     const AnalogueOutput* dac = nullptr;
+    PositionLoop loop;
     std::vector<Address> outputs;
     for (std::size_t f = 0; f < record.resources.size(); ++f) {
       const auto& address = record.resources[f].address;
       if (!address) continue;
       const Field& field = device.type().fields[f];
-      if (field.kind == Field::Kind::counter && counter == nullptr) counter = &cards_.counters[*address];
-      if (field.kind == Field::Kind::analogue) dac = &cards_.analogue_outputs[*address];
+      if (field.kind == Field::Kind::counter && counter == nullptr) {
+        counter = &cards_.counters[*address];
+        loop.counter = address;
+      }
+      if (field.kind == Field::Kind::analogue) {
+        dac = &cards_.analogue_outputs[*address];
+        loop.reference = address;
+      }
       if (field.name == "OutAva" || field.name == "OutInd") outputs.push_back(*address);
     }
     if (!reversed || counter == nullptr || (dac == nullptr && outputs.size() != 2)) continue;
-    PositionLoop loop;
     loop.name = record.name;
     loop.counts = [counter, &device, reversed] {
       return device.read(*reversed) != 0 ? -counter->count : counter->count;
     };
     loop.remedy = fmt::format("CNTREV {0} or CNTDIR {0}", record.name);
     if (dac != nullptr) {
+      loop.counts_at_10v = [&device] { return device.bits_at_10v(); };
       loop.drive = [dac] { return dac->word * (dac_full_scale_volts / dac_full_scale); };
     } else {
       loop.forward = outputs[0];

@@ -43,6 +43,15 @@ std::string scene_file_of(const Job& job) { return job.result.directory.filename
 void open_folders(Work& work, const RunOptions& options, Problems& problems) {
   work.folder.emplace(options.out, "runs", std::vector<std::string>{junit_file, report::index_file},
                       problems);
+  std::set<std::filesystem::path> between;
+  const auto add = [&](const std::filesystem::path& name) {
+    for (auto above = name.parent_path(); !above.empty(); above = above.parent_path()) between.insert(above);
+  };
+  for (const auto& job : work.jobs) add(job->result.name);
+  for (const auto& group : work.groups) add(group.result.name);
+  for (const auto& group : work.groups) between.erase(group.result.name);
+  for (const auto& name : between)
+    work.between.emplace_back(options.out / name, "runs", std::vector<std::string>{}, problems);
   for (auto& group : work.groups)
     group.folder.emplace(group.result.directory, "compare", studies::comparison_files, problems);
   for (auto& job : work.jobs) {
@@ -69,6 +78,7 @@ void take_back_results(const std::filesystem::path& out) {
 /// Old results go before new ones are made: what is killed half-way must not leave an old verdict.
 void begin(Work& work) {
   work.folder->begin();
+  for (auto& folder : work.between) folder.begin();
   for (auto& group : work.groups) group.folder->begin();
   for (auto& job : work.jobs) {
     job->folder->begin();

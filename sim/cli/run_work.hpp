@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,6 +56,7 @@ struct Refused {
 /// What is to be run: scenarios, and those of scenes that compare.
 struct Work {
   std::optional<OutputFolder> folder;
+  std::list<OutputFolder> between;  ///< between that and those of scenarios whose files have one name
   std::vector<std::unique_ptr<Job>> jobs;
   std::vector<Group> groups;
   std::vector<Refused> refused;

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 
 #include "base/text.hpp"
 
@@ -104,18 +106,53 @@ bool is_unread(const std::string& terminal, const std::vector<devices::ProgramTe
          });
 }
 
+std::optional<plants::PlugScale> scale_of(const std::vector<NamedPlant>& plants, const std::string& plug) {
+  for (const auto& [name, plant] : plants)
+    if (plug.starts_with(name + ".")) return plant->scale_of(std::string_view(plug).substr(name.size() + 1));
+  return {};
+}
+
+/// What is wired to a terminal, "" = nothing.
+std::string plug_at(const scenario::Scenario& scenario, devices::Controller& controller,
+                    const devices::Address& address) {
+  for (const auto& wire : scenario.wiring) {
+    const auto found = controller.terminal(wire.terminal.text);
+    const auto* at = std::get_if<devices::Address>(&found);
+    if (at != nullptr && *at == address) return wire.plug.text;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<std::string> contradictions(const scenario::Scenario& scenario,
                                         const std::vector<NamedPlant>& plants) {
   if (!scenario.controller) return {};
-  return scenario.controller->contradictions(
-      scenario, [&](const std::string& plug) -> std::optional<plants::PlugScale> {
-        for (const auto& [name, plant] : plants)
-          if (plug.starts_with(name + "."))
-            return plant->scale_of(std::string_view(plug).substr(name.size() + 1));
-        return {};
-      });
+  return scenario.controller->contradictions(scenario,
+                                             [&](const std::string& plug) { return scale_of(plants, plug); });
+}
+
+std::vector<std::string> contradicting_speeds(const scenario::Scenario& scenario,
+                                              devices::Controller& controller,
+                                              const std::vector<NamedPlant>& plants) {
+  constexpr double tolerance = 0.02;
+  std::vector<std::string> found;
+  for (const auto& loop : controller.position_loops()) {
+    const double told = loop.counts_at_10v ? loop.counts_at_10v() : 0;
+    if (told <= 0 || !loop.counter || !loop.reference) continue;
+    const auto counted = plug_at(scenario, controller, *loop.counter);
+    const auto driven = plug_at(scenario, controller, *loop.reference);
+    const auto counts = scale_of(plants, counted);
+    const auto speed = scale_of(plants, driven);
+    if (!counts || !speed || counts->turns != speed->turns) continue;
+    const double given = std::abs(counts->value * speed->value);
+    if (std::abs(told - given) <= tolerance * given) continue;
+    found.push_back(
+        fmt::format("{}: by its parameters 10 V are {:.0f} counts/s (maxvel, unitvel, decpt, counts a "
+                    "unit), by {} and {} {:.0f}",
+                    loop.name, told, driven, counted, given));
+  }
+  return found;
 }
 
 std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devices::Controller& controller) {

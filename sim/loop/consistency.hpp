@@ -17,6 +17,12 @@ std::vector<std::string> contradictions(const scenario::Scenario& scenario,
 std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devices::Controller& controller);
 
 /// Terminals that nothing is wired to, a phrase each: "Y1 gives pulses, and nothing is wired to it".
+/// Axes whose parameters take another speed for 10 V than drive and encoder give, a phrase each: asked when
+/// the program has set them.
+std::vector<std::string> contradicting_speeds(const scenario::Scenario& scenario,
+                                              devices::Controller& controller,
+                                              const std::vector<NamedPlant>& plants);
+
 struct OpenTerminals {
   std::vector<std::string> moving;  ///< pulses, references, counters: without them nothing moves as it should
   std::vector<std::string> others;  ///< inputs and outputs that the program names

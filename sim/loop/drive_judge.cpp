@@ -206,7 +206,8 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
   if (whole) means = "from the first motion on";
   const std::string peaks_from =
       cycle_ == 0 && drive.cycles.running() ? "from the first cut on" : "whole run";
-  verdict.cycles = whole ? "the whole run: no cycle from cut to cut, none named (drives.cycle)"
+  verdict.cycles = whole ? cycle_ > 0 ? "the whole run: it is shorter than drives.cycle"
+                                      : "the whole run: no cycle from cut to cut, none named (drives.cycle)"
                    : cycle_ > 0
                        ? fmt::format("{} of {} s", counted(drive.counted, "cycle"), seconds_text(cycle_))
                        : fmt::format("{} from cut to cut", counted(drive.counted, "cycle"));
@@ -278,7 +279,7 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
 }
 
 // What neither passes nor fails.
-void DriveJudge::remark(DriveVerdict& verdict, bool whole) {
+void DriveJudge::remark(DriveVerdict& verdict, bool whole) const {
   if (!whole) {
     if (!verdict.steady)
       verdict.notes.push_back(
@@ -288,10 +289,12 @@ void DriveJudge::remark(DriveVerdict& verdict, bool whole) {
                       verdict.drive, verdict.cycles));
     return;
   }
-  auto text = fmt::format(
-      "{}: heat is not judged, for no machine cycle is known; name its length, such as "
-      "drives: {{cycle: 2 s}}",
-      verdict.drive);
+  auto text = fmt::format("{}: heat is not judged, for ", verdict.drive);
+  text += cycle_ == 0 ? "no machine cycle is known; name its length, such as drives: {cycle: 2 s}"
+                      : fmt::format(
+                            "drives.cycle, {} s, is longer than the run from the first motion on; "
+                            "take a longer scene.duration",
+                            seconds_text(cycle_));
   bool over = false;
   const auto& means = verdict.figures.front().window;
   for (const auto& figure : verdict.figures) {

@@ -138,7 +138,7 @@ class DriveJudge : public Observer {
   static void end_cycle(Drive& drive, DriveCycles::Ended ended);
   static void judge_row(Drive& drive);
   static std::string judge_rest(Drive& drive);
-  static void remark(DriveVerdict& verdict, bool whole);
+  void remark(DriveVerdict& verdict, bool whole) const;
   [[nodiscard]] DriveVerdict verdict(Drive drive) const;
 
   bool judged_;

@@ -304,6 +304,7 @@ std::vector<std::string> Simulation::notes() const {
     notes.push_back(text_of(*strobe, scenario_.pictures, scenario_.scene.step));
   if (time_ > 0)  // it ran
     for (auto& undone : timeline_->left_undone(time_)) notes.push_back(std::move(undone));
+  for (auto& speed : contradicting_speeds()) notes.push_back(std::move(speed));
   if (directions_)
     for (const auto& found : directions_->found()) notes.push_back(found.text);
   for (auto& remark : remarks_.notes()) notes.push_back(std::move(remark));
@@ -348,6 +349,11 @@ Outcome Simulation::run(const std::function<void(Time)>& progress) {
   return outcome();
 }
 
+std::vector<std::string> Simulation::contradicting_speeds() const {
+  if (!controller_ || time_ == 0) return {};
+  return loop::contradicting_speeds(scenario_, *controller_, named_);
+}
+
 std::string Simulation::unpressed() const {
   const auto& pushes = scenario_.panel.push_buttons;
   std::string unpressed;
@@ -369,7 +375,9 @@ std::string Simulation::unpressed() const {
 Causes::Known Simulation::known() const {
   Causes::Known known;
   known.contradictions = contradictions_;
-  known.contradictions.insert(known.contradictions.end(), open_.moving.begin(), open_.moving.end());
+  for (const auto* open : {&open_.moving, &open_.others})
+    known.contradictions.insert(known.contradictions.end(), open->begin(), open->end());
+  for (auto& speed : contradicting_speeds()) known.contradictions.push_back(std::move(speed));
   for (const auto& found : directions_ ? directions_->found() : std::vector<Directions::Found>())
     known.astray.emplace_back(found.at, found.text);
   std::string standing;
@@ -392,6 +400,7 @@ Outcome Simulation::outcome() {
   outcome.end = time_;
   outcome.failure = failure_;
   outcome.checks = checks_->results(time_);
+  const bool missed = !outcome.passed();
   outcome.drives = drives_->verdicts();
   for (auto& check : drives_->results(outcome.drives)) outcome.checks.push_back(std::move(check));
   if (controller_) {
@@ -409,7 +418,11 @@ Outcome Simulation::outcome() {
     for (const auto& drive : outcome.drives)
       outcome.warnings.insert(outcome.warnings.end(), drive.warnings.begin(), drive.warnings.end());
   outcome.alarms = causes_.alarms();
-  if (outcome.failure.empty() && !outcome.passed()) outcome.cause = causes_.of(outcome.checks, known());
+  if (outcome.failure.empty() && !outcome.passed()) {
+    auto known = this->known();
+    if (!missed) known.hindrances.clear();  // only ratings, or what no check asks about
+    outcome.cause = causes_.of(outcome.checks, known);
+  }
   return outcome;
 }
 

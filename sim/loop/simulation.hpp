@@ -164,6 +164,8 @@ class Simulation {
   void look_after_program();
   /// What the run knows besides of why it failed.
   [[nodiscard]] Causes::Known known() const;
+  /// Of the parameters that the program has set.
+  [[nodiscard]] std::vector<std::string> contradicting_speeds() const;
   /// Switches that nobody pressed.
   [[nodiscard]] std::string unpressed() const;
 

@@ -369,6 +369,11 @@ TEST(DriveJudge, WithoutACycleTheVerdictSaysThatHeatIsNotJudgedAndWarnsOfWhatWou
   ASSERT_EQ(hot.verdict().warnings.size(), 1U);
   EXPECT_THAT(hot.verdict().warnings[0],
               testing::AllOf(HasSubstr(remedy), HasSubstr("rms torque would be 120 %")));
+
+  ByHand long_cycle(200);
+  for (int i = 0; i < 3; ++i) long_cycle.move();
+  EXPECT_THAT(long_cycle.verdict().notes,
+              ElementsAre(HasSubstr("drives.cycle, 200.0 s, is longer than the run")));
 }
 
 // Counting noise makes each cycle another one; ten of them are the machine's work all the same.

@@ -47,7 +47,7 @@ std::string cause_of(const std::string& program, const std::string& line = studi
   folder.file("axis.cnf", studies::tuning::configuration);
   folder.file("axis.mod", program);
   const auto outcome = outcome_of(
-      folder.file("line.yaml", line + "checks:\n  - {name: there, eventually: axis.position > 300}\n"));
+      folder.file("line.yaml", line + "checks:\n  - {name: there, eventually: axis.position > 399}\n"));
   EXPECT_FALSE(outcome.passed());
   return outcome.cause;
 }
@@ -84,6 +84,14 @@ TEST(WhyItFailed, PositiveFeedbackIsToldFromTheFirstSecond) {
 }
 
 const auto lines = std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/new";
+
+TEST(WhyItFailed, TenVoltsThatAreAnotherSpeedForTheAxisAreTold) {
+  const auto slow = replaced(studies::tuning::scenario, "speed_at_10v: 1000 mm/s", "speed_at_10v: 500 mm/s");
+  EXPECT_EQ(
+      cause_of(studies::tuning::program, slow),
+      "because AxisX: by its parameters 10 V are 400000 counts/s (maxvel, unitvel, decpt, counts a unit), by "
+      "axis.reference and axis.encoder 200000");
+}
 
 TEST(WhyItFailed, ForwardAndBackwardSwappedAreTold) {
   TestFolder folder;
@@ -123,7 +131,7 @@ TEST(WhyItFailed, ABlockWhoseCommandNeverComesIsNamed) {
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   folder.file("knife.st", program);
   const auto file = folder.file("line.yaml", "extends: " + (lines / "rotary_knife_plcopen.yaml").string() +
-                                                 "\nscene: {duration: 5 s}\n"
+                                                 "\nscene: {duration: 8 s}\n"
                                                  "controller: {plcopen: {program: knife.st}}\n");
   EXPECT_THAT(outcome_of(file).cause,
               AllOf(HasSubstr("knife.st stands at line " + std::to_string(line) + ", "),

@@ -196,11 +196,11 @@ TEST_F(ToldServices, ASummaryThatLiesElsewhereHasNoLinksUnlessToldWhere) {
 }
 
 TEST_F(ToldServices, AFailedRunTellsWhatItsAxisWarnedOf) {
-  folder.file("axis.mod", std::string("START AxisX\n") + studies::tuning::program);
+  folder.file("axis.mod", std::string("START AxisX\nWAIT 1\n") + studies::tuning::program);
   options.annotate = "github";
   EXPECT_EQ(run({failing()}), check_failed) << err;
   EXPECT_THAT(out,
-              HasSubstr("\n::warning file=line.yaml,line=1,col=1,title=line%3A warning of AxisX::AxisX at "));
+              HasSubstr("\n::warning file=line.yaml,line=1,col=1,title=line%3A alarm of AxisX::AxisX at "));
   EXPECT_THAT(content("out/junit.xml"),
               AllOf(HasSubstr("    <system-err>AxisX at "), HasSubstr("START: st_init is 0")));
   options.annotate = "gitlab";

@@ -95,7 +95,7 @@ TEST_F(RunMany, ASlipInOneKeepsNoOtherFromRunning) {
 TEST_F(RunMany, AWrongSetIsToldOnce) {
   options.set = {"plants.axis.sped_at_10v=1 m/s"};
   EXPECT_EQ(run({"a/line.yaml", "b/line.yaml", "c/line.yaml"}), bad_input);
-  EXPECT_EQ(times(err, "sped_at_10v"), 1U) << err;
+  EXPECT_EQ(times(err, "did you mean speed_at_10v?"), 1U) << err;
   EXPECT_FALSE(fs::exists(options.out));
 }
 

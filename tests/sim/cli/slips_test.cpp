@@ -67,7 +67,9 @@ struct Slips : CommandTest {
     check.files = {folder / "line/line.yaml"};
     EXPECT_EQ(captured([&] { return check_files(check); }), slip.note ? all_passed : bad_input);
     const auto lines = split_lines(slip.note ? out : err);
-    ASSERT_EQ(lines.size(), 2U) << out << err;  // and how many there are
+    // And how many there are; a wire that is refused makes no lamp, which checks then miss.
+    ASSERT_GE(lines.size(), 2U) << out << err;
+    EXPECT_LE(lines.size(), slip.note ? 2U : 3U) << out << err;
     EXPECT_NE(lines[0].find(place), std::string_view::npos) << place << '\n' << lines[0];
     EXPECT_TRUE(has_in_order(lines[0], slip.told)) << lines[0];
   }
@@ -192,7 +194,7 @@ TEST_F(Slips, InTheInstructionListOfAKnife) {
       {i, "DEMOV   E1.6666666 D506", "DEMOV   E1,@6666 D506", "E1,6666 has a decimal comma; write E1.6666"},
       {i, "MOV     K1 D1005", "MOV     K1 D1005\nLD X14\nSET @M12", "M12 has SET here and OUT in line 37",
        true},
-      {i, "MOV     K1 D1005", "MOV     K1 D1005\nLD X15\nOUT @M12",
+      {i, "MOV     K1 D1005", "MOV     K1 D1005\nLD X14\nOUT @M12",
        "M12 has OUT here and OUT in line 37: the last in a scan decides", true},
       {i, "K100 D1000", "@K102 D1000", "ECAMTBX has no type K102; write K0, K1, K100 or K101", true},
       {i, "DMOV    K20000 D502", "DMOV    K20000 @D50200", "does not exist; there are D0 to"},

@@ -50,7 +50,7 @@ TEST_F(CompareCommand, WhatIsJudgedIsGreenWhereItIsKept) {
 /// Two placements, the second of which comes a record instant later or earlier.
 RunTexts placed(const std::string& trace, const std::string& press_at) {
   RunTexts texts;
-  texts.trace = "time [s],gbPlace,ram.position [mm],lamp\n" + trace;
+  texts.trace = "time [s],gbPlace [],ram.position [mm],lamp []\n" + trace;
   texts.events = "time [s],source,event,values\n" + press_at + ",ram,pressed,force=900 N\n";
   return texts;
 }
