@@ -22,7 +22,7 @@ opcua:
 after(async () => {
   await client?.close();
   const { status } = await line.end();
-  assert.equal(status, 0);
+  assert.equal(status, 130);
 });
 
 test("the line has what its page has", async () => {
@@ -64,7 +64,7 @@ for (const { path, type, unit, code, range, writable } of [
   { path: "Controllers/qmove/AxisX.st_sync", type: Double },
   { path: "Panel/start", type: Bool, writable: true },
   { path: "Panel/in_sync", type: Bool },
-  { path: "Faults/web.wheel/slip", type: Double, unit: "%", code: "P1", range: [0, 100], writable: true },
+  { path: "Faults/web.wheel/slip", type: Double, unit: "%", code: "P1", range: [-100, 100], writable: true },
   { path: "Faults/web.wheel/stuck", type: Bool, writable: true },
   { path: "Faults/web.wheel/lose_counts", type: Int32, range: [-2147483648, 2147483647], writable: true },
   { path: "Line/Pace", type: Double, range: [0, 10000], writable: true },
@@ -105,7 +105,7 @@ for (const [path, type, value, status] of [
 for (const [path, value, words] of [
   ["Plants/web/Settings/speed", 1e6, /web\.speed does not hold 1000000; write -1000 to 1000 m\/min/],
   ["Plants/knife/Settings/drum_inertia", 1e9, /knife\.drum_inertia does not hold 1000000000; write 1e-05 to 10000 kg m2/],
-  ["Faults/web.wheel/slip", 101, /web\.wheel\.slip does not hold 101; write 0 to 100 %/],
+  ["Faults/web.wheel/slip", 101, /web\.wheel\.slip does not hold 101; write -100 to 100 %/],
   ["Line/Pace", -1, /pace is a number from 0\.0001 to 10000/],
 ])
   test(`why ${path} does not take ${value} is told in the line's words`, async () => {

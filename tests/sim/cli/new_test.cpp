@@ -213,6 +213,10 @@ TEST_P(EveryStart, LengthAndSpeedMakeOtherPieces) {
   const auto longer = run({"variables.length=1.2 m"});
   EXPECT_NEAR(last_length(longer), 1200, 0.2);
   EXPECT_LE(cuts(longer), cuts(plain));
+  CheckOptions check;  // a run whose length follows the pieces' ends at a whole step
+  check.files = {folder / "line/line.yaml"};
+  check.set = {"variables.length=1.6 m"};
+  EXPECT_EQ(captured([&] { return check_files(check); }), all_passed) << err;
   EXPECT_LT(cuts(run({"variables.speed=25 m/min"})), cuts(plain));
 }
 
