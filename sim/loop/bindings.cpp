@@ -4,6 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <tuple>
+
+#include "sim/scenario/units.hpp"
 
 namespace drycut::sim::loop {
 
@@ -26,6 +29,8 @@ class Binder {
     for (const auto& name : pictures_.live) add_channel(name);
     Captions captions;
     for (const auto* names : {&pictures_.caption, &pictures_.lamps}) add_captions(*names, captions);
+    check_units();
+    if (pictures_.quota) captions.quota = quota(*pictures_.quota);
     return captions;
   }
 
@@ -71,6 +76,37 @@ class Binder {
       captions.slots.push_back(slot);
       captions.units.push_back(lookup_.watch.unit(name.text));
     }
+  }
+
+  void check_units() {
+    for (const auto& [of, is] : pictures_.units)
+      if (!scenario::is_unit(is.unit) || is.unit.empty() || !(is.number > 0))
+        fault(is.place, fmt::format("pictures.units: {} says no unit", of.text),
+              "write how much 1 is, of a known unit: 0.01 mm");
+  }
+
+  Captions::Quota quota(const scenario::PicturesSection::Quota& wanted) {
+    Captions::Quota quota;
+    for (const auto& [name, plant] : lookup_.plants)
+      if (name == wanted.plant.text && plant->quota_line(0)) quota.plant = plant;
+    if (quota.plant == nullptr)
+      fault(wanted.plant.place, fmt::format("'{}' is no plant that shows a quota", wanted.plant.text),
+            "name one of type vertical_press");
+    quota.slot = lookup_.watch.slot(wanted.at.text);
+    if (quota.slot == nullptr) {
+      no_channel(wanted.at);
+      return {};
+    }
+    std::string unit = lookup_.watch.unit(wanted.at.text);
+    double number = 1;
+    if (const auto* own = pictures_.own_unit(wanted.at.text, unit))
+      std::tie(number, unit) = std::tie(own->number, own->unit);
+    if (scenario::is_unit(unit) && scenario::same_dimension(unit, "mm"))
+      quota.metres = scenario::to_si(number, unit);
+    else
+      fault(wanted.at.place, fmt::format("pictures.quota: how long 1 of {} is, is not known", wanted.at.text),
+            fmt::format("say it: pictures: {{units: {{{}: 0.01 mm}}}}", wanted.at.text));
+    return quota;
   }
 
   void add_plot(const scenario::PlotRequest& plot) {

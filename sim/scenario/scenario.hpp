@@ -294,11 +294,26 @@ struct PicturesSection {
   int height = 540;
   std::vector<Text> caption;  ///< channels in the caption bar
   std::vector<Text> lamps;    ///< channels shown there as lamps: lit unless 0
+  /// What 1 of a channel's unit is, where that is a device's own: {Axis: 0.01 mm, glMiss: 0.01 mm}
+  struct OwnUnit {
+    Text of;        ///< a channel, or a device: all its channels in Um
+    Quantity is{};  ///< with a unit
+  };
+  std::vector<OwnUnit> units;
+  [[nodiscard]] const Quantity* own_unit(std::string_view channel, std::string_view unit) const;
+  /// Where a plant is to go, as the frames show it.
+  struct Quota {
+    Text plant;
+    Text at;                  ///< a channel; in Um, of a unit that `units` knows
+    double tolerance = 1e-4;  ///< on either side [m]
+  };
+  std::optional<Quota> quota;
   /// What is drawn over the frames.
   struct Overlays {
     bool trail = true;    ///< where a tool's tip has just been
     bool lengths = true;  ///< of the cut pieces, from cut to cut
     bool forces = true;   ///< as arrows, while they act
+    bool speeds = true;   ///< as arrows in proportion
   };
   Overlays overlays;
   std::vector<Text> live;  ///< one or two channels that run along in the corner
