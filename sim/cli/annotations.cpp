@@ -78,7 +78,7 @@ std::vector<Annotation> annotations_of(const std::vector<report::RunResult>& res
                       result.outcome.cause, checks[i].expectation, margin.empty() ? "" : "; ", margin));
     }
     for (const auto& warning : result.outcome.warnings)
-      add(Annotation::Kind::warning, {result.scenario.string()}, result.name + ": warning", warning);
+      add(Annotation::Kind::warning, result.place_of(checks.size()), result.name + ": warning", warning);
     if (!result.outcome.failure.empty())
       add(Annotation::Kind::run, result.place_of(checks.size()), result.name + ": did not run to its end",
           result.outcome.failure);

@@ -55,8 +55,8 @@ std::string text_of(const Alarm& alarm) {
 
 void Causes::happened(const RecordedEvent& event) {
   const double at = event.at_seconds();
-  const auto keep = [&](std::vector<Told>& list, bool each_text) {
-    const bool known = std::any_of(list.begin(), list.end(), [&](const Told& told) {
+  const auto keep = [&](std::vector<Alarm>& list, bool each_text) {
+    const bool known = std::any_of(list.begin(), list.end(), [&](const Alarm& told) {
       return told.source == event.source && (!each_text || told.text == event.text);
     });
     if (!known && list.size() < most_causes)
@@ -67,7 +67,7 @@ void Causes::happened(const RecordedEvent& event) {
       faults_.push_back({at, event.event, event.text});
   } else if (const auto told = told_by_machine(event); !told.empty()) {
     const bool known = std::any_of(errors_.begin(), errors_.end(),
-                                   [&](const Told& one) { return one.source == event.source; });
+                                   [&](const Alarm& one) { return one.source == event.source; });
     if (!known) errors_.push_back({at, event.source, told});
   } else if (is_among(event.event, error_events)) {
     keep(errors_, false);
@@ -110,12 +110,12 @@ std::vector<Alarm> Causes::alarms() const {
   return all;
 }
 
-const Causes::Told* Causes::first_error(double until) const {
+const Alarm* Causes::first_error(double until) const {
   return errors_.empty() || errors_.front().at > until ? nullptr : &errors_.front();
 }
 
-const Causes::Told* Causes::last_warning(double until, const std::string& source) const {
-  const Told* last = nullptr;
+const Alarm* Causes::last_warning(double until, const std::string& source) const {
+  const Alarm* last = nullptr;
   for (const auto& warning : warnings_)
     if (warning.at <= until && (source.empty() || warning.source == source)) last = &warning;
   return last;
@@ -125,7 +125,7 @@ const Causes::Told* Causes::last_warning(double until, const std::string& source
 // limit.
 std::string Causes::by_time(double failed_at) const {
   constexpr double soon = 1;  // [s] what lies so little before a failure is held to be its cause
-  const Told* fault = nullptr;
+  const Alarm* fault = nullptr;
   for (const auto& one : faults_)
     if (one.at <= failed_at) fault = &one;
   if (fault != nullptr)
@@ -143,7 +143,7 @@ std::string Causes::by_time(double failed_at) const {
                          limit.begin);
   if (warning == nullptr) return "";
   // An error of the same source that follows confirms it.
-  const bool confirmed = std::any_of(errors_.begin(), errors_.end(), [&](const Told& later) {
+  const bool confirmed = std::any_of(errors_.begin(), errors_.end(), [&](const Alarm& later) {
     return later.source == warning->source && later.at - warning->at <= soon;
   });
   return fmt::format("{} {}", confirmed || failed_at - warning->at <= soon ? "because" : "after",
@@ -155,9 +155,7 @@ std::string Causes::of(const std::vector<CheckResult>& checks, const Known& know
     return "";
   if (!known.contradictions.empty()) {
     const auto* error = first_error(std::numeric_limits<double>::infinity());
-    return "because " + known.contradictions.front() +
-           (error != nullptr ? fmt::format("; {} at {:.6g} s: {}", error->source, error->at, error->text)
-                             : "");
+    return "because " + known.contradictions.front() + (error != nullptr ? "; " + text_of(*error) : "");
   }
   constexpr auto ever = std::numeric_limits<double>::infinity();
   const auto failed_at = first_failure(checks);

@@ -48,7 +48,6 @@ class Causes : public Observer {
   [[nodiscard]] std::vector<Alarm> alarms() const;
 
  private:
-  using Told = Alarm;
   struct State {
     std::string name;
     const double* number;
@@ -60,13 +59,13 @@ class Causes : public Observer {
     double begin = 0;  ///< [s]
     double end = 0;
   };
-  [[nodiscard]] const Told* first_error(double until) const;
-  [[nodiscard]] const Told* last_warning(double until, const std::string& source) const;
+  [[nodiscard]] const Alarm* first_error(double until) const;
+  [[nodiscard]] const Alarm* last_warning(double until, const std::string& source) const;
   [[nodiscard]] std::string by_time(double failed_at) const;
 
-  std::vector<Told> errors_;    ///< the first of each source
-  std::vector<Told> warnings_;  ///< the first of each source and text
-  std::vector<Told> faults_;
+  std::vector<Alarm> errors_;    ///< the first of each source
+  std::vector<Alarm> warnings_;  ///< the first of each source and text
+  std::vector<Alarm> faults_;
   std::vector<Limit> limits_;
   std::vector<State> states_;
 };

@@ -11,9 +11,6 @@
 
 namespace drycut::sim::loop {
 
-namespace {
-
-/// The text without comments, in small letters: of QCL and IL from ';' on, of Structured Text // and (* *).
 std::string program_words(const devices::ProgramText& program) {
   std::string words;
   const auto text = lower(program.text);
@@ -31,6 +28,8 @@ std::string program_words(const devices::ProgramText& program) {
   }
   return words;
 }
+
+namespace {
 
 bool is_word_at(const std::string& text, std::size_t at, std::size_t length) {
   const auto joins = [&](std::size_t i) { return i < text.size() && in_name(text[i]); };
@@ -112,17 +111,6 @@ std::optional<plants::PlugScale> scale_of(const std::vector<NamedPlant>& plants,
   return {};
 }
 
-/// What is wired to a terminal, "" = nothing.
-std::string plug_at(const scenario::Scenario& scenario, devices::Controller& controller,
-                    const devices::Address& address) {
-  for (const auto& wire : scenario.wiring) {
-    const auto found = controller.terminal(wire.terminal.text);
-    const auto* at = std::get_if<devices::Address>(&found);
-    if (at != nullptr && *at == address) return wire.plug.text;
-  }
-  return "";
-}
-
 }  // namespace
 
 std::vector<std::string> contradictions(const scenario::Scenario& scenario,
@@ -130,6 +118,16 @@ std::vector<std::string> contradictions(const scenario::Scenario& scenario,
   if (!scenario.controller) return {};
   return scenario.controller->contradictions(scenario,
                                              [&](const std::string& plug) { return scale_of(plants, plug); });
+}
+
+const scenario::Wire* wire_at(const scenario::Scenario& scenario, devices::Controller& controller,
+                              const devices::Address& address) {
+  for (const auto& wire : scenario.wiring) {
+    const auto found = controller.terminal(wire.terminal.text);
+    const auto* at = std::get_if<devices::Address>(&found);
+    if (at != nullptr && *at == address) return &wire;
+  }
+  return nullptr;
 }
 
 std::vector<std::string> contradicting_speeds(const scenario::Scenario& scenario,
@@ -140,17 +138,18 @@ std::vector<std::string> contradicting_speeds(const scenario::Scenario& scenario
   for (const auto& loop : controller.position_loops()) {
     const double told = loop.counts_at_10v ? loop.counts_at_10v() : 0;
     if (told <= 0 || !loop.counter || !loop.reference) continue;
-    const auto counted = plug_at(scenario, controller, *loop.counter);
-    const auto driven = plug_at(scenario, controller, *loop.reference);
-    const auto counts = scale_of(plants, counted);
-    const auto speed = scale_of(plants, driven);
+    const auto* counted = wire_at(scenario, controller, *loop.counter);
+    const auto* driven = wire_at(scenario, controller, *loop.reference);
+    if (counted == nullptr || driven == nullptr) continue;
+    const auto counts = scale_of(plants, counted->plug.text);
+    const auto speed = scale_of(plants, driven->plug.text);
     if (!counts || !speed || counts->turns != speed->turns) continue;
     const double given = std::abs(counts->value * speed->value);
     if (std::abs(told - given) <= tolerance * given) continue;
     found.push_back(
         fmt::format("{}: by its parameters 10 V are {:.0f} counts/s (maxvel, unitvel, decpt, counts a "
                     "unit), by {} and {} {:.0f}",
-                    loop.name, told, driven, counted, given));
+                    loop.name, told, driven->plug.text, counted->plug.text, given));
   }
   return found;
 }

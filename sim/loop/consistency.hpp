@@ -17,6 +17,13 @@ std::vector<std::string> contradictions(const scenario::Scenario& scenario,
 std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devices::Controller& controller);
 
 /// Terminals that nothing is wired to, a phrase each: "Y1 gives pulses, and nothing is wired to it".
+/// The wire at a terminal, nullptr = nothing is wired to it.
+const scenario::Wire* wire_at(const scenario::Scenario& scenario, devices::Controller& controller,
+                              const devices::Address& address);
+
+/// The text without comments, in small letters: of QCL and IL from ';' on, of Structured Text // and (* *).
+std::string program_words(const devices::ProgramText& program);
+
 /// Axes whose parameters take another speed for 10 V than drive and encoder give, a phrase each: asked when
 /// the program has set them.
 std::vector<std::string> contradicting_speeds(const scenario::Scenario& scenario,

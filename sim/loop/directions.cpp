@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "sim/loop/consistency.hpp"
 #include "sim/loop/recorder.hpp"
 
 namespace drycut::sim::loop {
@@ -19,13 +20,9 @@ constexpr std::int64_t clearly = 4;           // times as far the wrong way
 std::string swapped_wire(const scenario::Scenario& scenario, devices::Controller& controller,
                          const devices::Controller::PositionLoop& loop) {
   if (!loop.forward) return "";
-  for (const auto& wire : scenario.wiring) {
-    const auto found = controller.terminal(wire.terminal.text);
-    const auto* address = std::get_if<devices::Address>(&found);
-    if (address != nullptr && *address == *loop.forward && wire.plug.text.ends_with(".backward"))
-      return fmt::format("its forward output {} is wired to {}", wire.terminal.text, wire.plug.text);
-  }
-  return "";
+  const auto* wire = wire_at(scenario, controller, *loop.forward);
+  if (wire == nullptr || !wire->plug.text.ends_with(".backward")) return "";
+  return fmt::format("its forward output {} is wired to {}", wire->terminal.text, wire->plug.text);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "sim/loop/consistency.hpp"
 #include "sim/loop/recorder.hpp"
 
 namespace drycut::sim::loop {
@@ -59,9 +60,7 @@ Waits waits_of(devices::Controller& controller, Time now) {
 std::string without_loop(devices::Controller& controller) {
   std::string code;
   for (const auto& program : controller.programs())
-    if (program.language == "qcl")
-      for (const auto line : split_lines(program.text))
-        code += lower(std::string(line.substr(0, line.find(';')))) + "\n";
+    if (program.language == "qcl") code += program_words(program);
   for (const auto& name : controller.names()) {
     constexpr std::string_view state = ".st_loopon";
     if (!name.ends_with(state)) continue;

@@ -22,11 +22,22 @@ loop::Recording empty_like(const loop::Recording& recording,
   return made;
 }
 
-void add_row(const loop::Recording& from, std::size_t row, Time at, loop::Recording& to) {
-  std::vector<double> numbers;
-  for (const auto& column : to.columns()) numbers.push_back(from.column(column.name)->values[row]);
-  to.append(at, numbers);
-}
+/// Copies rows into a recording of the same channels, or of some of them.
+class RowCopy {
+ public:
+  RowCopy(const loop::Recording& from, loop::Recording& to) : to_(to), numbers_(to.columns().size()) {
+    for (const auto& column : to.columns()) sources_.push_back(from.column(column.name));
+  }
+  void add(std::size_t row, Time at) {
+    for (std::size_t i = 0; i < sources_.size(); ++i) numbers_[i] = sources_[i]->values[row];
+    to_.append(at, numbers_);
+  }
+
+ private:
+  loop::Recording& to_;
+  std::vector<const loop::Recording::Column*> sources_;
+  std::vector<double> numbers_;
+};
 
 bool is_named(const std::string& wanted, const std::string& channel) {
   if (!wanted.ends_with('*')) return wanted == channel;
@@ -64,12 +75,13 @@ loop::Recording laid_over(const RunFolder& first, const std::vector<Time>& first
                           const std::vector<Time>& begins) {
   const auto& old = run.recording;
   auto laid = empty_like(old, [](const std::string&) { return false; });
+  RowCopy copy(old, laid);
   const Time past = old.times().back() + 1;
   for (const Time at : first.recording.times()) {
     const auto stretch = std::min(stretch_at(first_begins, at), begins.size() - 1);
     const Time end = stretch + 1 < begins.size() ? begins[stretch + 1] : past;
-    add_row(old, nearest_row(old.times(), at - first_begins[stretch] + begins[stretch], begins[stretch], end),
-            at, laid);
+    copy.add(nearest_row(old.times(), at - first_begins[stretch] + begins[stretch], begins[stretch], end),
+             at);
   }
   for (auto event : old.events()) {
     const auto stretch = stretch_at(begins, event.time);
@@ -95,8 +107,9 @@ void leave_out(std::vector<RunFolder>& runs, const std::vector<std::string>& nam
       return std::any_of(names.begin(), names.end(),
                          [&](const std::string& name) { return is_named(name, channel); });
     });
+    RowCopy copy(run.recording, kept);
     for (std::size_t row = 0; row < run.recording.times().size(); ++row)
-      add_row(run.recording, row, run.recording.times()[row], kept);
+      copy.add(row, run.recording.times()[row]);
     for (const auto& event : run.recording.events()) kept.happened(event);
     run.recording = std::move(kept);
   }
