@@ -110,7 +110,7 @@ std::string gitlab_text(const std::vector<Annotation>& annotations) {
       own.add(part);
     auto numbered = own;
     numbered.add(std::to_string(twins[own.value()]++));
-    json.push_back({{"description", title + ": " + message},
+    json.push_back({{"description", fmt::format("{}: {}", title, message)},
                     {"check_name", name_of(kind)},
                     {"fingerprint", fmt::format("{:016x}", numbered.value())},
                     {"severity", severity_of(kind)},

@@ -194,15 +194,13 @@ OpenTerminals open_terminals(devices::Controller& controller, const std::vector<
     const auto tell = [&](auto& list, std::string_view what) {
       list.push_back(fmt::format("{} {}, and nothing is wired to it", name, what));
     };
-    if (pulses && !takes_pulses)
-      open.unnamed.push_back(name);
-    else if (pulses)
+    if (pulses && takes_pulses)
       tell(open.moving, "gives pulses");
     else if (address->kind == devices::Kind::analogue)
       tell(open.moving, "gives a reference");
     else if (address->kind == devices::Kind::counter)
       tell(open.moving, "is counted");
-    else if (!is_named(name, programs, Named::surely))
+    else if (pulses || !is_named(name, programs, Named::surely))
       open.unnamed.push_back(name);
     else if (address->kind == devices::Kind::output)
       tell(open.others, "is worked by the program");
