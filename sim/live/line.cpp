@@ -25,7 +25,7 @@ constexpr auto in_time = std::chrono::milliseconds(1);
 
 Line::Line(Options options, Problems& problems)
     : options_(std::move(options)), running_(options_.running), pace_(options_.pace) {
-  run_ = std::make_unique<LineRun>(options_, 1, problems);
+  run_ = std::make_unique<LineRun>(options_, problems);
 }
 
 Line::~Line() = default;
@@ -124,7 +124,7 @@ Problems Line::restart() {
   } catch (const std::runtime_error& not_kept) {
     return {{"restart", 1, 1, not_kept.what(), "make room for it; the line goes on as it is"}};
   }
-  auto fresh = std::make_unique<LineRun>(options_, run_->number() + 1, problems);
+  auto fresh = std::make_unique<LineRun>(options_, *run_, problems);
   if (!problems.empty()) return problems;
   end_run();
   for (const auto& [asker, sample] : run_->wanted()) fresh->want(asker, sample);

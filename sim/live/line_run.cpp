@@ -60,13 +60,23 @@ std::string web_of(const scenario::PlantEntry& plant) {
 
 }  // namespace
 
-LineRun::LineRun(const Line::Options& options, int number, Problems& problems)
-    : replay_(read(options, notes_, problems)), number_(number) {
-  if (!problems.empty()) return;
-  std::vector<std::string> told;
-  machine_ = machine_of(read(options, told, problems).scenario, parts_, problems);
+LineRun::LineRun(const Line::Options& options, Problems& problems) : LineRun(options, nullptr, problems) {}
+
+LineRun::LineRun(const Line::Options& options, const LineRun& before, Problems& problems)
+    : LineRun(options, &before, problems) {}
+
+LineRun::LineRun(const Line::Options& options, const LineRun* before, Problems& problems)
+    : replay_(read(options, notes_, problems)), number_(before == nullptr ? 1 : before->number_ + 1) {
   if (!problems.empty()) return;
   if (!options.from) replay_.fingerprint = fingerprint_of(scenario_);
+  if (before != nullptr && looks_like(*before)) {
+    machine_ = before->machine_;
+    parts_ = before->parts_;
+  } else {
+    std::vector<std::string> told;
+    machine_ = machine_of(read(options, told, problems).scenario, parts_, problems);
+    if (!problems.empty()) return;
+  }
   simulation_ = std::make_unique<loop::Simulation>(scenario_, problems);
   if (!problems.empty()) return;
   simulation_->keep_nothing();
@@ -78,6 +88,11 @@ LineRun::LineRun(const Line::Options& options, int number, Problems& problems)
     if (auto target = names.target(name)) targets_.push_back(std::move(*target));
   for (const auto& name : names.lamp_names())
     if (auto lamp = names.reading(name)) lamps_.push_back(std::move(*lamp));
+}
+
+// The fingerprint knows nothing of what is in the files of meshes.
+bool LineRun::looks_like(const LineRun& other) const {
+  return replay_.fingerprint == other.replay_.fingerprint && scenario_.pictures.meshes.empty();
 }
 
 void LineRun::begin(const fs::path& folder, const Inbox& inbox) {

@@ -17,7 +17,10 @@ namespace drycut::sim::live {
 class LineRun : public loop::Observer {
  public:
   /// May be used if there are no problems.
-  LineRun(const Line::Options& options, int number, Problems& problems);
+  LineRun(const Line::Options& options, Problems& problems);
+  /// The next one of the same line; with the machine of `before` if nothing of the scenario has changed, for
+  /// to make that takes ten times as long as all the rest.
+  LineRun(const Line::Options& options, const LineRun& before, Problems& problems);
 
   /// Simulates up to where the session ended that it goes on from. Records all of the run in a new folder in
   /// `folder`, which has the next number, unless that is "". Gives up as soon as the line is to stop.
@@ -61,6 +64,8 @@ class LineRun : public loop::Observer {
   std::shared_ptr<const LineDescription> describe();
 
  private:
+  LineRun(const Line::Options& options, const LineRun* before, Problems& problems);
+  [[nodiscard]] bool looks_like(const LineRun& other) const;
   void choose_samples();
   void count(const std::vector<std::string>& names, int by);
   [[nodiscard]] const std::function<double()>* known(const std::string& name);

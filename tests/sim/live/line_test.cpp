@@ -244,6 +244,40 @@ TEST_F(LiveLine, RestartsFromTimeZeroWithTheFilesReadAgain) {
   EXPECT_EQ(line.description()->title, "Other");
 }
 
+// It is made only where something has changed, but then always.
+TEST_F(LiveLine, TheMachineOfARestartIsWhatTheFilesSayNow) {
+  const auto triangle = [](int length) {
+    return fmt::format(
+        "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex {} 0 0\nvertex 0 10 0\n"
+        "endloop\nendfacet\nendsolid x\n",
+        length);
+  };
+  RunningLine line(options);
+  int run = 1;
+  const auto restarted = [&] {
+    EXPECT_THAT(line.ask(Restart{}), testing::IsEmpty());
+    ++run;
+    line.until([&](const News& news) { return news.run == run; });
+    return *line.description();
+  };
+  const auto first = line.description()->machine;
+  const auto same = restarted();
+  EXPECT_EQ(same.machine, first);
+  EXPECT_EQ(same.parts, line.description()->parts);
+  auto text = web_alone;
+  text.replace(text.find("type: web"), 9, "type: web, wheel: {circumference: 300 mm}");
+  folder.file("web.yaml", text);
+  const auto wider = restarted().machine;
+  EXPECT_NE(wider, first);
+  folder.file("part.stl", triangle(10));
+  folder.file("web.yaml", text + "pictures: {meshes: {web.measuring wheel: {file: part.stl}}}\n");
+  const auto own = restarted().machine;
+  EXPECT_NE(own, wider);
+  EXPECT_EQ(restarted().machine, own);
+  folder.file("part.stl", triangle(20));
+  EXPECT_NE(restarted().machine, own);
+}
+
 // Events that a flood of acts makes do not grow without end, and those of the machine come through.
 TEST_F(LiveLine, TellsTheLatestOfTooManyEvents) {
   RunningLine line(options);
