@@ -7,9 +7,6 @@ import { add_variable, bad } from "./variables.mjs";
 
 const cutter_uri = "http://opcfoundation.org/UA/PlasticsRubber/Extrusion_v2/Cutter/";
 const rubber_uri = "http://opcfoundation.org/UA/PlasticsRubber/GeneralTypes/";
-const kinds = new Set(["rotary_knife", "flying_saw"]);
-
-export const is_cutter = ({ type }) => kinds.has(type);
 
 /// The types, once.
 export function add_cutter_types(space) {

@@ -1,10 +1,8 @@
 // The line's events, and what it refuses, as events of OPC UA.
 import { DataType, Variant, VariantArrayType } from "./ua.mjs";
 
-// Severities of OPC 10000-5: low 1..333, medium, high 667..1000.
-const severe = new Set(["error", "errorstop", "block_error", "stopped", "tear", "crash", "held_back", "clamped_moving", "opened_early", "overload", "bus_overvoltage", "bus_undervoltage", "following_error", "alarm"]);
-const medium = new Set(["refused", "out_of_range", "warning", "contradiction", "held_up", "overrun", "buckle", "saturated", "counts_lost", "pulse_lost"]);
-export const severity_of = (event) => (severe.has(event) ? 800 : medium.has(event) ? 500 : 100);
+// Of OPC 10000-5: low 1..333, medium, high 667..1000.
+const severities = { note: 100, warning: 500, error: 800, damage: 1000 };
 
 const scalar = (dataType, value) => new Variant({ dataType, value });
 const list = (dataType, value) => new Variant({ dataType, arrayType: VariantArrayType.Array, value });
@@ -40,21 +38,21 @@ export class Events {
     this.#cutters = cutters;
   }
 
-  happened({ source, event, values, numbers, time }) {
+  happened({ source, event, severity, values, numbers, time }) {
     const message = [source, event, values].filter((part) => part !== "").join(" ");
-    this.#raise(source, event, message, time, numbers);
+    this.#raise(source, event, severity, message, time, numbers);
     if (event === "cut") this.#cutters.get(source)?.cut(message, Object.fromEntries(numbers));
   }
   /// A write or a call that the line does not take, with its words.
   refused(path, message) {
-    this.#raise(path, "refused", message, this.time ?? 0, []);
+    this.#raise(path, "refused", "warning", message, this.time ?? 0, []);
   }
 
-  #raise(source, event, message, time, numbers) {
+  #raise(source, event, severity, message, time, numbers) {
     this.#line.raiseEvent(this.#type, {
       sourceName: scalar(DataType.String, source),
       message: scalar(DataType.LocalizedText, { text: message }),
-      severity: scalar(DataType.UInt16, severity_of(event)),
+      severity: scalar(DataType.UInt16, severities[severity]),
       event: scalar(DataType.String, event),
       machineTime: scalar(DataType.Double, time),
       valueNames: list(DataType.String, numbers.map(([name]) => name)),

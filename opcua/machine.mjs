@@ -1,5 +1,5 @@
 // The machine that the line's description tells of, anew when it tells of another one.
-import { add_cut_event, add_cutter_types, Cutter, is_cutter } from "./cutter.mjs";
+import { add_cut_event, add_cutter_types, Cutter } from "./cutter.mjs";
 import { Events } from "./events.mjs";
 import { add_identification, add_machinery, add_packml, needs_packml, put_among_machines } from "./machinery.mjs";
 import { build_space, our_namespace } from "./space.mjs";
@@ -68,7 +68,7 @@ export class Machine {
     if (needs_packml(described.opcua)) add_packml(space, namespace, root, line, described.opcua);
     const told = (path, message) => this.#events.refused(path, message);
     const cutters = new Map();
-    for (const plant of described.plants.filter(is_cutter)) {
+    for (const plant of described.plants.filter(({ cuts }) => cuts)) {
       const made = { space, namespace, types: this.#types, cut_event: this.#cut_event, line, told };
       cutters.set(plant.name, new Cutter(made, plant));
       this.#nodes.push(space.findNode(`ns=${namespace.index};s=Cutter/${plant.name}`));

@@ -246,16 +246,19 @@ void AxisDrive::offer_events(std::vector<EventType>& types) {
   types.push_back({"trip",
                    {{"speed", "rpm"}},
                    "inverter or breaker has switched the motor off: both contactors closed, a phase lost "
-                   "behind the inverter, an overload, the fault trip; speed of the motor then"});
+                   "behind the inverter, an overload, the fault trip; speed of the motor then",
+                   Severity::error});
   types.push_back({"switched_live",
                    {{"torque", "N m"}, {"closed", ""}},
                    "a contactor between a shared drive and its motors has opened (closed 0) or closed (1) "
-                   "while the drive was on: it burns, or the motor jumps; torque that it has interrupted"});
+                   "while the drive was on: it burns, or the motor jumps; torque that it has interrupted",
+                   Severity::damage});
   types.push_back({"pulled_out",
                    {{"speed", "rpm"}, {"slip", "rpm"}},
                    "the motor has lost its load: on the mains beyond its pull-out torque, on an inverter at "
                    "the torque limit, it does not come nearer to the speed of its field for half a second, "
-                   "or the load drives it away from there; speed of the motor and slip then"});
+                   "or the load drives it away from there; speed of the motor and slip then",
+                   Severity::error});
   PowerStage::offer_events(types);
 }
 

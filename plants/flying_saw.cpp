@@ -180,18 +180,20 @@ std::vector<EventType> FlyingSaw::event_types() {
        {{"difference", "mm/s"}, {"blade", ""}},
        "the clamps have gripped material that ran at another speed by more than mismatch_limit, or the "
        "blade has come into it unclamped (blade 1): speed of the carriage less speed of the material",
-       true},
+       Severity::error},
       {"opened_early",
        {{"depth", "mm"}},
        "the clamps have let go with the blade so deep in the material",
-       true},
+       Severity::error},
       {"pinch",
        {{"force", "N"}, {"displacement", "mm"}},
-       "the material and the carriage pinch the blade: sideways force, displacement since the touch"},
+       "the material and the carriage pinch the blade: sideways force, displacement since the touch",
+       Severity::warning},
       {"crash",
        {{"side", ""}, {"speed", "mm/s"}, {"impulse", "N s"}, {"force", "N"}},
        "the carriage has been in an end stop: side -1 lower or 1 upper, speed when it touched, impulse "
-       "until it was off again (or 100 ms), largest force"}};
+       "until it was off again (or 100 ms), largest force",
+       Severity::damage}};
   station_.describe(types.front());
   station_.offer_events(types);
   ServoAxis::offer_events(types);

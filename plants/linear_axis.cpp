@@ -105,7 +105,8 @@ std::vector<EventType> LinearAxis::event_types() {
       {"end_stop",
        {{"side", ""}, {"speed", "mm/s"}, {"impulse", "N s"}, {"force", "N"}},
        "an end stop has stopped the carriage: side -1 lower or 1 upper, speed when it touched, impulse "
-       "taken until it stood, largest force"}};
+       "taken until it stood, largest force",
+       Severity::error}};
   AxisDrive::offer_events(types);
   return types;
 }

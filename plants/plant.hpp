@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/severity.hpp"
 #include "plants/parameters.hpp"
 #include "plants/part.hpp"
 #include "plants/ports.hpp"
@@ -106,8 +107,11 @@ struct EventType {
   std::string_view name;
   std::vector<Value> values;
   std::string_view meaning;
-  bool is_failure = false;  ///< it fails a run none of whose checks looks at it
+  Severity severity = Severity::note;
 };
+
+/// What severs the web tells so with an event of this name: its plant is a cutter.
+inline constexpr std::string_view cut_event = "cut";
 
 /// A drive of a plant, for whoever judges it.
 struct DriveOfPlant {

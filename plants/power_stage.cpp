@@ -233,17 +233,21 @@ void PowerStage::offer_events(std::vector<EventType>& types) {
         {{"begin", "s"}, {"end", "s"}, {"asked", "%"}, {"share", "%"}},
         "the torque limit has acted from begin to end (gaps under 10 ms are none): the largest "
         "torque that the loop asked for over the limit, and how much of the machine cycle that was, at "
-        "most 100 % (drives.cycle, else the last from cut to cut, else the run so far)"},
+        "most 100 % (drives.cycle, else the last from cut to cut, else the run so far)",
+        Severity::warning},
        {"overload",
         {{"i2t", "%"}, {"temperature", "degC"}, {"resistor", "%"}},
         "the drive has tripped: I2t of the amplifier or load of the brake resistor at 100 %, or "
-        "the winding at its limit; it is off until enabled anew"},
+        "the winding at its limit; it is off until enabled anew",
+        Severity::error},
        {"bus_overvoltage",
         {{"voltage", "V"}},
-        "the drive has tripped: braking has lifted the DC link over its limit"},
+        "the drive has tripped: braking has lifted the DC link over its limit",
+        Severity::error},
        {"bus_undervoltage",
         {{"voltage", "V"}},
-        "the drive has tripped: the DC link has sunk below its limit"}});
+        "the drive has tripped: the DC link has sunk below its limit",
+        Severity::error}});
 }
 
 std::vector<PlantDefinition::Objection> power_objections(const std::string& group,

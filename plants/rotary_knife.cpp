@@ -175,8 +175,11 @@ std::vector<EventType> RotaryKnife::event_types() {
   station_.describe(cut);
   std::vector<EventType> types = {
       cut,
-      {"tear", {{"mismatch", "mm/s"}}, "the blade in the web was too fast: it tears"},
-      {"buckle", {{"mismatch", "mm/s"}}, "the blade in the web was too slow: the web buckles"}};
+      {"tear", {{"mismatch", "mm/s"}}, "the blade in the web was too fast: it tears", Severity::error},
+      {"buckle",
+       {{"mismatch", "mm/s"}},
+       "the blade in the web was too slow: the web buckles",
+       Severity::warning}};
   station_.offer_events(types);
   ServoAxis::offer_events(types);
   return types;

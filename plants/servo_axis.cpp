@@ -34,7 +34,8 @@ void ServoAxis::offer_events(std::vector<EventType>& types) {
   types.push_back({"following_error",
                    {{"turns", ""}, {"speed", "rpm"}},
                    "the drive's position loop has tripped: its deviation in turns of the motor, speed of the "
-                   "motor; the motor coasts until reset"});
+                   "motor; the motor coasts until reset",
+                   Severity::error});
   PowerStage::offer_events(types);
 }
 

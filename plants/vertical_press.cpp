@@ -144,14 +144,16 @@ std::vector<EventType> VerticalPress::event_types() {
       {"end_stop",
        {{"side", ""}, {"speed", "mm/s"}, {"impulse", "N s"}, {"force", "N"}},
        "an end stop has stopped the ram: side -1 lower or 1 upper, speed when it touched, impulse taken "
-       "until it stood, largest force"},
+       "until it stood, largest force",
+       Severity::error},
       {"pressed",
        {{"speed", "mm/s"}, {"impulse", "N s"}, {"force", "N"}},
        "the workpiece has stopped the ram: speed when it touched, impulse taken until it stood, largest "
        "force"},
       {"sag",
        {{"speed", "mm/s"}, {"position", "mm"}},
-       "the ram goes down 0.5 s after drive and brake were told to hold it: once each time"}};
+       "the ram goes down 0.5 s after drive and brake were told to hold it: once each time",
+       Severity::error}};
   AxisDrive::offer_events(types);
   return types;
 }

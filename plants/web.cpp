@@ -77,12 +77,13 @@ std::vector<EventType> Web::event_types() {
   return {{"slack",
            {{"loop", "mm"}},
            "the elastic web does not push: so much of it lies in loops before the cut; once until it is "
-           "straight again"},
+           "straight again",
+           Severity::warning},
           {"held_back",
            {{"force", "N"}, {"speed", "m/min"}, {"set_speed", "m/min"}},
            "the line drive has stood at its largest force for 20 ms while the web ran at less than 95 % of "
            "its set speed: something holds the web; once until the force is below its limit again",
-           true}};
+           Severity::error}};
 }
 
 double Web::travel(double fraction) const {

@@ -7,37 +7,13 @@
 #include <memory>
 
 #include "plants/plant.hpp"
-#include "plants/world.hpp"
 #include "sim/cli/pages.hpp"
+#include "sim/loop/specimens.hpp"
 #include "sim/scenario/parameter_text.hpp"
 
 namespace drycut::sim::cli {
 
 namespace {
-
-/// A plant with its defaults, built, to ask it what it offers; plants that it needs are built too.
-struct Specimen {
-  plants::World world{1};
-  std::map<std::string, std::unique_ptr<plants::PlantDefinition>, std::less<>> definitions;
-  std::map<std::string, std::unique_ptr<plants::Plant>, std::less<>> plants;
-
-  void build(const plants::PlantType& type, const std::string& name, const std::string& drive = "") {
-    auto& definition = *(definitions[name] = type.define());
-    for (auto& parameter : definition.parameters()) {
-      if (!drive.empty() && parameter.name == "drive") *std::get<std::string*>(parameter.value) = drive;
-      if (parameter.reference.empty() || *std::get<std::string*>(parameter.value) == plants::no_plant)
-        continue;
-      const std::string other(parameter.reference);
-      *std::get<std::string*>(parameter.value) = other;
-      if (!plants.contains(other))
-        build(*std::ranges::find(plants::plant_types(), other, &plants::PlantType::name), other);
-    }
-    plants[name] = definition.build(world, [this](std::string_view wanted) -> plants::Plant* {
-      const auto found = plants.find(wanted);
-      return found == plants.end() ? nullptr : found->second.get();
-    });
-  }
-};
 
 /// Something that a plant of the type offers, and with which drives if not with all of them.
 template <typename Item>
@@ -46,27 +22,13 @@ struct Offered {
   std::vector<std::string> drives;
 };
 
-/// A specimen for every choice of the parameter `drive`, the default one first; one if it has no such
-/// choice. A drive brings plugs, channels and faults of its own.
+/// What the specimens of a type offer. A drive brings plugs, channels and faults of its own.
 class Specimens {
  public:
-  explicit Specimens(const plants::PlantType& type) {
-    const auto definition = type.define();  // its parameters point into it
-    for (const auto& p : definition->parameters()) {
-      if (p.name != "drive" || p.choices.empty()) continue;
-      drives_ = {*std::get<std::string*>(p.value)};
-      for (const auto& choice : p.choices)
-        if (choice != drives_.front()) drives_.push_back(choice);
-    }
-    if (drives_.empty()) drives_ = {""};
-    for (const auto& drive : drives_) {
-      specimens_.push_back(std::make_unique<Specimen>());
-      specimens_.back()->build(type, "it", drive);
-    }
-  }
+  explicit Specimens(const plants::PlantType& type) : specimens_(loop::specimens_of(type)) {}
 
   [[nodiscard]] plants::Parameters parameters() const {
-    return specimens_.front()->definitions.at("it")->parameters();
+    return specimens_.front()->definition().parameters();
   }
 
   /// What the specimens offer by `list`, each once: those whose `same` is equal are one.
@@ -74,21 +36,20 @@ class Specimens {
   std::vector<Offered<Item>> offered(std::vector<Item> (plants::Plant::*list)(), Same same) const {
     std::vector<Offered<Item>> all;
     for (std::size_t i = 0; i < specimens_.size(); ++i) {
-      for (auto& item : (*specimens_[i]->plants.at("it").*list)()) {
+      for (auto& item : (specimens_[i]->plant().*list)()) {
         auto known =
             std::find_if(all.begin(), all.end(), [&](const auto& o) { return same(o.item) == same(item); });
         if (known == all.end()) known = all.insert(all.end(), {std::move(item), {}});
-        known->drives.push_back(drives_[i]);
+        known->drives.push_back(specimens_[i]->drive());
       }
     }
     for (auto& one : all)
-      if (one.drives.size() == drives_.size()) one.drives.clear();
+      if (one.drives.size() == specimens_.size()) one.drives.clear();
     return all;
   }
 
  private:
-  std::vector<std::string> drives_;
-  std::vector<std::unique_ptr<Specimen>> specimens_;
+  std::vector<std::unique_ptr<loop::Specimen>> specimens_;
 };
 
 /// In text with the drives that have it: "runs forward (drive: inverter, contactors)".
@@ -218,9 +179,9 @@ Page plant_page(const plants::PlantType& type) {
            &plants::Plant::faults, [](const auto& f) { return std::tuple(f.component, f.name, f.unit); }))
     faults.add({o.item.component, o.item.name, o.item.unit, range_text(o.item.range), meaning_cell(o),
                 drives_cell(o)});
-  Sheet events("events", "Events, for checks", {"name=event", "values", "meaning", "drives="});
+  Sheet events("events", "Events, for checks", {"name=event", "values", "severity", "meaning", "drives="});
   for (const auto& o : specimens.offered(&plants::Plant::event_types, name))
-    events.add({o.item.name, values_cell(o.item), meaning_cell(o), drives_cell(o)});
+    events.add({o.item.name, values_cell(o.item), name_of(o.item.severity), meaning_cell(o), drives_cell(o)});
   std::vector<Sheet> sheets = {parameters};
   const auto table = specimens.parameters();
   for (const auto& row : table)

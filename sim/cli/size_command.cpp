@@ -9,6 +9,7 @@
 
 #include "base/plain_text.hpp"
 #include "base/text.hpp"
+#include "plants/plant.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/progress.hpp"
 #include "sim/file.hpp"
@@ -36,9 +37,9 @@ struct SizePlan {
 /// Means over a run that has no cycles are told and not judged.
 void check_cycle(const SizePlan& plan, const scenario::Scenario& scenario, Problems& problems) {
   const auto& drive = plan.choices.drive;
-  const bool cuts =
-      std::any_of(plan.question.events.begin(), plan.question.events.end(),
-                  [&](const auto& event) { return event.source == drive.plant && event.name == "cut"; });
+  const bool cuts = std::any_of(
+      plan.question.events.begin(), plan.question.events.end(),
+      [&](const auto& event) { return event.source == drive.plant && event.name == plants::cut_event; });
   if (scenario.drives.cycle == 0 && !cuts)
     problems.push_back(
         {"--drive", 1, 1,

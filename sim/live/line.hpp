@@ -91,6 +91,7 @@ struct LineDescription {
     std::string name;
     std::string type;
     std::string web;  ///< that it works on, "" = none
+    bool cuts = false;
   };
   std::vector<Plant> plants;
   std::string controller;           ///< its kind: "qmove"; "" = none

@@ -294,8 +294,13 @@ std::shared_ptr<const LineDescription> LineRun::describe() {
     told->channels.push_back(
         {name, reading->unit, target.has_value(), target ? target->range : std::nullopt});
   }
+  const auto cuts = [&](const std::string& plant) {
+    return std::ranges::any_of(simulation_->known_events(), [&](const auto& event) {
+      return event.source == plant && event.name == plants::cut_event;
+    });
+  };
   for (const auto& plant : scenario_.plants)
-    told->plants.push_back({plant.name.text, plant.type.text, web_of(plant)});
+    told->plants.push_back({plant.name.text, plant.type.text, web_of(plant), cuts(plant.name.text)});
   if (scenario_.controller) told->controller = scenario_.controller->kind();
   told->opcua = scenario_.opcua;
   describe_programs(*told);

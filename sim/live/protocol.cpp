@@ -146,6 +146,7 @@ ordered_json events_json(const std::vector<loop::RecordedEvent>& events) {
     list.push_back({{"time", event.at_seconds()},
                     {"source", event.source},
                     {"event", event.event},
+                    {"severity", name_of(event.severity)},
                     {"values", loop::values_text(event, 6)},
                     {"numbers", numbers_json(event)}});
   return list;
@@ -257,7 +258,7 @@ std::string description_json(const LineDescription& line) {
   for (const auto& channel : line.channels) channels.push_back(channel_json(channel));
   auto plants = ordered_json::array();
   for (const auto& plant : line.plants)
-    plants.push_back({{"name", plant.name}, {"type", plant.type}, {"web", plant.web}});
+    plants.push_back({{"name", plant.name}, {"type", plant.type}, {"web", plant.web}, {"cuts", plant.cuts}});
   auto programs = ordered_json::array();
   for (const auto& program : line.programs) programs.push_back(program_json(program));
   return text_of({{"line",

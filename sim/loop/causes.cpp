@@ -1,12 +1,11 @@
 #include "sim/loop/causes.hpp"
+#include "sim/loop/recorder.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
 namespace drycut::sim::loop {
 
@@ -14,13 +13,8 @@ namespace {
 
 constexpr std::size_t most_causes = 200;  ///< of each kind
 
-bool is_among(std::string_view word, const auto& words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-constexpr std::array<std::string_view, 6> error_events = {"error",   "errorstop", "block_error",
-                                                          "stopped", "trip",      "pulled_out"};
-// Of machines, which tell numbers and no text.
-std::string told_by_machine(const RecordedEvent& event) {
+/// Machines tell numbers and no text.
+std::string text_of(const RecordedEvent& event) {
   const auto number = [&](const char* value) {
     const auto* found = event.find(value);
     return found != nullptr ? found->number : 0;
@@ -34,10 +28,8 @@ std::string told_by_machine(const RecordedEvent& event) {
                        number("blade") != 0 ? "the blade" : "the clamps", std::abs(number("difference")),
                        number("difference") < 0 ? "faster" : "slower");
   if (event.event == "opened_early") return "the clamps let go with the blade in the material";
-  return "";
+  return event.text.empty() ? fmt::format("{}: {}", event.event, values_text(event, 4)) : event.text;
 }
-constexpr std::array<std::string_view, 7> warning_events = {
-    "warning", "refused", "contradiction", "held_up", "overrun", "counts_lost", "pulse_lost"};
 
 // When the first check failed that can say so; those that found nothing to judge cannot.
 std::optional<double> first_failure(const std::vector<CheckResult>& checks) {
@@ -56,22 +48,18 @@ std::string text_of(const Alarm& alarm) {
 void Causes::happened(const RecordedEvent& event) {
   const double at = event.at_seconds();
   const auto keep = [&](std::vector<Alarm>& list, bool each_text) {
+    auto text = text_of(event);
     const bool known = std::any_of(list.begin(), list.end(), [&](const Alarm& told) {
-      return told.source == event.source && (!each_text || told.text == event.text);
+      return told.source == event.source && (!each_text || told.text == text);
     });
-    if (!known && list.size() < most_causes)
-      list.push_back({at, event.source, event.text.empty() ? event.event : event.text});
+    if (!known && list.size() < most_causes) list.push_back({at, event.source, std::move(text)});
   };
   if (event.source == "timeline") {
     if ((event.event == "fault" || event.text == "off") && faults_.size() < most_causes)
       faults_.push_back({at, event.event, event.text});
-  } else if (const auto told = told_by_machine(event); !told.empty()) {
-    const bool known = std::any_of(errors_.begin(), errors_.end(),
-                                   [&](const Alarm& one) { return one.source == event.source; });
-    if (!known) errors_.push_back({at, event.source, told});
-  } else if (is_among(event.event, error_events)) {
+  } else if (event.severity >= Severity::error) {
     keep(errors_, false);
-  } else if (is_among(event.event, warning_events)) {
+  } else if (event.severity == Severity::warning && !event.text.empty()) {
     keep(warnings_, true);
   } else if (event.event == "saturated" && limits_.size() < most_causes) {
     const auto* begin = event.find("begin");

@@ -183,7 +183,7 @@ void DriveJudge::happened(const RecordedEvent& event) {
     if (event.event == "saturated" && begin != nullptr && end != nullptr)
       (drive.cycles.running() ? drive.in_cycle : drive.elsewhere)
           .add({1, end->number - begin->number, begin->number});
-    if (event.event != "cut") continue;
+    if (event.event != plants::cut_event) continue;
     if (cycle_ == 0 && !drive.cycles.running()) drive.stage->forget_peaks();
     end_cycle(drive, drive.cycles.cut(drive.stage->totals()));
   }

@@ -12,11 +12,12 @@ const RecordedEvent::Value* RecordedEvent::find(const std::string& name) const {
 }
 
 bool EventLog::Kind::operator<(const Kind& other) const {
-  return std::tie(source, event, values) < std::tie(other.source, other.event, other.values);
+  return std::tie(source, event, values, severity) <
+         std::tie(other.source, other.event, other.values, other.severity);
 }
 
 void EventLog::push_back(const RecordedEvent& event) {
-  Kind kind{event.source, event.event, {}};
+  Kind kind{event.source, event.event, {}, event.severity};
   for (const auto& value : event.values) kind.values.emplace_back(value.name, value.unit);
   entries_.push_back({event.time, event.within, &*kinds_.insert(std::move(kind)).first,
                       &*texts_.insert(event.text).first, numbers_.size()});
@@ -31,7 +32,8 @@ void EventLog::clear() {
 
 RecordedEvent EventLog::operator[](std::size_t i) const {
   const auto& entry = entries_[i];
-  RecordedEvent event{entry.time, entry.within, entry.kind->source, entry.kind->event, {}, *entry.text};
+  RecordedEvent event{entry.time, entry.within, entry.kind->source,  entry.kind->event,
+                      {},         *entry.text,  entry.kind->severity};
   auto number = entry.numbers;
   for (const auto& [name, unit] : entry.kind->values)
     event.values.push_back({name, numbers_[number++], unit});

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/severity.hpp"
 #include "sim/loop/series.hpp"
 #include "sim/time.hpp"
 
@@ -24,6 +25,7 @@ struct RecordedEvent {
   std::string event;
   std::vector<Value> values;
   std::string text;
+  Severity severity = Severity::note;
 
   [[nodiscard]] double at_seconds() const { return seconds(time) + within; }
   [[nodiscard]] const Value* find(const std::string& name) const;
@@ -56,6 +58,7 @@ class EventLog {
     std::string source;
     std::string event;
     std::vector<std::pair<std::string, std::string>> values;  ///< name, unit
+    Severity severity;
     bool operator<(const Kind& other) const;
   };
   struct Entry {

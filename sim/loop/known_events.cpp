@@ -2,19 +2,81 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
 #include "base/text.hpp"
+#include "plants/plant.hpp"
 #include "sim/loop/names.hpp"
+#include "sim/loop/specimens.hpp"
 
 namespace drycut::sim::loop {
 
+namespace {
+
+struct EventRow {
+  const char* source;
+  const char* name;
+  Severity severity;
+  bool of_program = false;  ///< what a program may wait for in vain, or lose
+};
+using enum Severity;
+constexpr EventRow event_rows[] = {
+    {"timeline", "set", note},
+    {"timeline", "ramp", note},
+    {"timeline", "fault", warning},
+    {"timeline", "power", note},
+    {"controller", "refused", warning},
+    {"controller", "out_of_range", warning},
+    {"controller", "error", error},
+    {"controller", "warning", warning},
+    {"controller", "note", note},
+    {"controller", "contradiction", warning, true},
+    {"controller", "held_up", warning, true},
+    {"controller", "overrun", warning, true},
+    {"controller", "stopped", error},
+    {"controller", "errorstop", error},
+    {"controller", "block_error", error},
+    {"card", "counts_lost", warning},
+    {"card", "pulse_lost", warning},
+};
+
+const EventRow* row_of(std::string_view event) {
+  const auto* found = std::ranges::find(event_rows, event, &EventRow::name);
+  return found == std::end(event_rows) ? nullptr : found;
+}
+
+}  // namespace
+
 std::vector<KnownEvent> events_of_every_run() {
   std::vector<KnownEvent> events;
-  for (const auto* name : {"set", "ramp", "fault", "power"}) events.push_back({"timeline", name, {}});
-  for (const auto* name : {"refused", "out_of_range", "error", "warning", "note", "contradiction", "held_up",
-                           "overrun", "stopped", "errorstop", "block_error"})
-    events.push_back({"controller", name, {}});
-  for (const auto* name : {"counts_lost", "pulse_lost"}) events.push_back({"card", name, {}});
+  for (const auto& row : event_rows) events.push_back({row.source, row.name, {}, row.severity});
   return events;
+}
+
+Severity severity_of_every_run(std::string_view event) {
+  const auto* row = row_of(event);
+  if (row == nullptr) throw std::logic_error(fmt::format("{} is no event of a controller", event));
+  return row->severity;
+}
+
+bool is_of_program(std::string_view event) {
+  const auto* row = row_of(event);
+  return row != nullptr && row->of_program;
+}
+
+Severity severity_of(const std::string& event) {
+  static const auto severities = [] {
+    std::map<std::string, Severity, std::less<>> found;
+    for (const auto& row : event_rows) found.emplace(row.name, row.severity);
+    for (const auto& type : plants::plant_types())
+      for (const auto& specimen : specimens_of(type))
+        for (const auto& kind : specimen->plant().event_types()) found.emplace(kind.name, kind.severity);
+    return found;
+  }();
+  const auto found = severities.find(event);
+  return found == severities.end() ? note : found->second;
 }
 
 bool names_event(const std::string& wanted, const std::string& source, const std::string& event) {

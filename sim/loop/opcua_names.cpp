@@ -8,13 +8,8 @@
 
 namespace drycut::sim::loop {
 
-namespace {
-
-constexpr bool cuts(std::string_view type) { return type == "rotary_knife" || type == "flying_saw"; }
-
-}  // namespace
-
-void check_opcua_names(const scenario::Scenario& scenario, Names& names, Problems& problems) {
+void check_opcua_names(const scenario::Scenario& scenario, Names& names,
+                       const std::vector<KnownEvent>& events, Problems& problems) {
   const auto& opcua = scenario.opcua;
   const auto value = [&](const scenario::Text& name) {
     if (name.text.empty() || names.reading(name.text)) return;
@@ -28,14 +23,15 @@ void check_opcua_names(const scenario::Scenario& scenario, Names& names, Problem
   value(opcua.machinery.out_of_service);
   value(opcua.machinery.mode);
   std::vector<std::string> cutters;
-  for (const auto& plant : scenario.plants)
-    if (cuts(plant.type.text)) cutters.push_back(plant.name.text);
+  for (const auto& event : events)
+    if (event.name == plants::cut_event) cutters.push_back(event.source);
   for (const auto& cutter : opcua.cutters) {
     value(cutter.length);
     if (std::find(cutters.begin(), cutters.end(), cutter.plant.text) != cutters.end()) continue;
     problems.push_back(scenario::problem_at(
         scenario, cutter.plant.place, fmt::format("no plant '{}' cuts", cutter.plant.text),
-        did_you_mean(cutter.plant.text, cutters, "name a rotary_knife or a flying_saw")));
+        did_you_mean(cutter.plant.text, cutters,
+                     "name one that reports cuts: a rotary_knife, a flying_saw")));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "sim/loop/known_events.hpp"
 #include "sim/loop/recorder.hpp"
 
 namespace drycut::sim::loop {
@@ -10,8 +11,7 @@ void Remarks::happened(const RecordedEvent& event) {
   constexpr std::size_t shown = 5;
   if (event.text.empty() || event.source == "timeline") return;
   ++count_;
-  // What a program may wait for in vain, or lose, stands before remarks on values.
-  const bool urgent = event.event == "contradiction" || event.event == "held_up" || event.event == "overrun";
+  const bool urgent = is_of_program(event.event);  // stands before remarks on values
   if ((urgent ? urgent_ : remarks_.size()) >= shown) return;
   const auto place = urgent ? urgent_++ : remarks_.size();
   remarks_.insert(

@@ -46,14 +46,14 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
   if (!scenario.disturbances.empty())
     disturbances_ = std::make_unique<Disturbances>(scenario, *names_, problems);
   timeline_ = std::make_unique<Timeline>(scenario, *names_, controller_.get(), problems);
-  check_opcua_names(scenario, *names_, problems);
   for (const auto& [name, plant] : named_) {
     for (const auto& type : plant->event_types()) {
-      KnownEvent event{name, std::string(type.name), {}, type.is_failure};
+      KnownEvent event{name, std::string(type.name), {}, type.severity};
       for (const auto& value : type.values) event.values.emplace_back(value.name, value.unit);
       known_events_.push_back(std::move(event));
     }
   }
+  check_opcua_names(scenario, *names_, known_events_, problems);
   all_events_ = known_events_;
   for (auto& event : events_of_every_run()) all_events_.push_back(std::move(event));
   checks_ = std::make_unique<Checks>(scenario, *watch_, *names_, all_events_, problems);
@@ -228,10 +228,16 @@ void Simulation::add_share(RecordedEvent& event) const {
 }
 
 void Simulation::collect_events() {
+  const auto severity_of = [&](const std::string& source, std::string_view name) {
+    for (const auto& known : known_events_)
+      if (known.source == source && known.name == name) return known.severity;
+    throw std::logic_error(fmt::format("{} has not declared its event {}", source, name));
+  };
   for (const auto& [name, plant] : named_) {
     if (!plant->has_events()) continue;
     for (const auto& event : plant->take_events()) {
-      RecordedEvent recorded{time_, event.fraction * h_, name, std::string(event.name), {}, ""};
+      RecordedEvent recorded{time_, event.fraction * h_,          name, std::string(event.name), {},
+                             "",    severity_of(name, event.name)};
       for (const auto& value : event.values) {
         recorded.values.push_back({std::string(value.name), value.number, std::string(value.unit)});
       }
@@ -244,11 +250,13 @@ void Simulation::collect_events() {
       if (event.event == "error" && program_error_.empty()) {
         program_error_ = fmt::format("{}, at {} s", event.text, seconds_text(time_));
       }
+      const auto severity = severity_of_every_run(event.event);
       recording_.happened(
-          {time_, 0, std::move(event.source), std::move(event.event), {}, std::move(event.text)});
+          {time_, 0, std::move(event.source), std::move(event.event), {}, std::move(event.text), severity});
     }
   }
-  for (auto& loss : bus_.take_losses()) recording_.happened({time_, 0, "card", loss.event, {}, loss.text});
+  for (auto& loss : bus_.take_losses())
+    recording_.happened({time_, 0, "card", loss.event, {}, loss.text, severity_of_every_run(loss.event)});
   if (events_seen_ == recording_.events().size()) return;
   watch_->update();
   while (events_seen_ < recording_.events().size()) {

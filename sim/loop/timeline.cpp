@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "sim/loop/known_events.hpp"
 #include "sim/loop/live_parameters.hpp"
 #include "sim/loop/quantities.hpp"
 #include "sim/scenario/units.hpp"
@@ -211,7 +212,7 @@ void Timeline::trigger(Time now) {
 
 void Timeline::act(const Entry& entry, Time now, Recording& recording) {
   const auto tell = [&](const char* event, const std::string& text) {
-    recording.happened({now, 0, "timeline", event, {}, text});
+    recording.happened({now, 0, "timeline", event, {}, text, severity_of_every_run(event)});
   };
   for (const auto& set : entry.sets) {
     // A ramp of the same target that is still under way ends here.

@@ -15,7 +15,7 @@ Unasked::Unasked(const scenario::Scenario& scenario, const std::vector<KnownEven
         std::any_of(scenario.checks.begin(), scenario.checks.end(), [&](const scenario::Check& check) {
           return names_event(check.event.text, event.source, event.name);
         });
-    if (event.is_failure && !asked) watched_.push_back({event.source, event.name, 0, 0, {}});
+    if (event.severity >= Severity::error && !asked) watched_.push_back({event.source, event.name, 0, 0, {}});
   }
 }
 

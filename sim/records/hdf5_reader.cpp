@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "base/text.hpp"
+#include "sim/loop/known_events.hpp"
 #include "sim/records/hdf5_table.hpp"
 
 namespace drycut::sim::records {
@@ -195,6 +196,7 @@ void read_events(hid_t file, loop::Recording& recording) {
       if (!given.name.empty()) told.values.push_back(std::move(given));
       first = false;
     } while (row < count && rows.number(row, id) == number);
+    told.severity = loop::severity_of(told.event);
     recording.happened(told);
   }
 }

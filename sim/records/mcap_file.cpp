@@ -83,19 +83,9 @@ std::string log_schema() {
       .dump();
 }
 
-int log_level(const std::string& event) {
-  constexpr int info = 2;
-  constexpr int warning = 3;
-  constexpr int error = 4;
-  if (is_one_of(
-          std::array{"error", "errorstop", "block_error", "held_back", "clamped_moving", "opened_early"},
-          event))
-    return error;
-  return is_one_of(std::array{"warning", "refused", "out_of_range", "contradiction", "held_up", "overrun",
-                              "stopped", "fault", "counts_lost", "pulse_lost"},
-                   event)
-             ? warning
-             : info;
+int log_level(Severity severity) {
+  constexpr int info = 2;  // and WARNING, ERROR, FATAL behind it
+  return info + static_cast<int>(severity);
 }
 
 /// JSON has no word for what is no number.
@@ -248,7 +238,7 @@ void McapFile::happened(const loop::RecordedEvent& event) {
   const auto words = loop::values_text(event);
   add_message(log_, time,
               Json{{"timestamp", {{"sec", time / second}, {"nsec", time % second}}},
-                   {"level", log_level(event.event)},
+                   {"level", log_level(event.severity)},
                    {"message", words.empty() ? event.event : event.event + ": " + words},
                    {"name", event.source},
                    {"file", ""},

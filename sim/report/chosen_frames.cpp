@@ -1,4 +1,5 @@
 #include "sim/report/chosen_frames.hpp"
+#include "plants/plant.hpp"
 
 #include <fmt/format.h>
 
@@ -60,7 +61,7 @@ std::vector<Moment> moments_of(const loop::EventLog& events, const std::vector<l
   std::set<std::string> known;
   for (const auto& event : events) {
     const auto at = event.at_seconds();
-    if (event.event == "cut") {
+    if (event.event == plants::cut_event) {
       cuts_before += at < begin_s ? 1 : 0;
       if (is_in(at)) cuts.push_back(at);
       const auto* length = event.find("length");

@@ -84,7 +84,7 @@ SplitCycles cycles_of_drive(const scenario::Scenario& scenario, const loop::Simu
     std::reverse(bounds.begin(), bounds.end());
   } else {
     for (const auto& event : simulation.recording().events()) {
-      if (event.source != drive.plant || event.event != "cut") continue;
+      if (event.source != drive.plant || event.event != plants::cut_event) continue;
       const double index = std::round((event.at_seconds() - seconds(drive.begin)) / step);
       if (index >= 0 && index <= static_cast<double>(drive.count()) &&
           (bounds.empty() || index > static_cast<double>(bounds.back())))

@@ -3,12 +3,14 @@
 
 #include <gmock/gmock.h>
 
+#include "sim/loop/known_events.hpp"
+
 namespace drycut::sim::loop {
 namespace {
 
 RecordedEvent told(double at, const std::string& source, const std::string& event, const std::string& text,
                    std::vector<RecordedEvent::Value> values = {}) {
-  return {static_cast<Time>(at * 1e9), 0, source, event, std::move(values), text};
+  return {static_cast<Time>(at * 1e9), 0, source, event, std::move(values), text, severity_of(event)};
 }
 
 CheckResult failed(std::optional<double> at) {

@@ -54,10 +54,37 @@ class FlywheelDefinition : public plants::PlantDefinition {
   double decay_ = 2;
 };
 
+/// A wheel of a knife, which cuts once and then bursts.
+class Cutter : public Flywheel {
+ public:
+  using Flywheel::Flywheel;
+  std::vector<plants::EventType> event_types() override {
+    return {{plants::cut_event, {{"length", "mm"}}, "a piece"},
+            {"burst", {{"speed", "rad/s"}}, "it flies apart", Severity::damage}};
+  }
+  void sense(double) override {
+    if (++steps_ == 1) happened({"cut", 1, {{"length", 800, "mm"}}});
+    if (steps_ == 2) happened({"burst", 1, {{"speed", 100, "rad/s"}}});
+  }
+
+ private:
+  int steps_ = 0;
+};
+
+class CutterDefinition : public FlywheelDefinition {
+ public:
+  std::unique_ptr<plants::Plant> build(plants::World&,
+                                       const std::function<plants::Plant*(std::string_view)>&) override {
+    return std::make_unique<Cutter>(1, 1);
+  }
+};
+
 // The line in the registry.
 const plants::PlantType types[] = {
     {"flywheel", "a wheel that slows down",
-     [] { return std::unique_ptr<plants::PlantDefinition>(std::make_unique<FlywheelDefinition>()); }}};
+     [] { return std::unique_ptr<plants::PlantDefinition>(std::make_unique<FlywheelDefinition>()); }},
+    {"cutter", "a wheel that cuts",
+     [] { return std::unique_ptr<plants::PlantDefinition>(std::make_unique<CutterDefinition>()); }}};
 
 constexpr auto* wheel_scenario = R"(scene: {title: A wheel, duration: 2 s, step: 1 ms}
 plants: {wheel: {type: flywheel, speed: 600 deg/s}}
@@ -77,6 +104,31 @@ TEST(APlantOfOnesOwn, IsReadRunRecordedSetAndChecked) {
   const double start = 600 * std::acos(-1.0) / 180;
   EXPECT_NEAR(speed[10], start * std::pow(1 - 1e-3 / 2, 1000), 1e-9);
   EXPECT_NEAR(speed[20], speed[10] * std::pow(1 - 1e-2 / 2, 1000), 1e-9);
+}
+
+// What it declares of its events is all that anybody needs to know of them.
+TEST(APlantOfOnesOwn, CutsAndBreaksBySayingSo) {
+  Problems problems;
+  auto scenario = scenario::read_scenario_text(
+      "scene: {title: A cutter, duration: 10 ms, step: 1 ms}\n"
+      "plants: {blade: {type: cutter}, wheel: {type: flywheel}}\n"
+      "opcua: {cutters: {blade: {length: blade.speed}, wheel: {length: blade.speed}}}\n",
+      "cutter.yaml", {}, problems, types);
+  loop::Simulation refused(scenario, problems);
+  ASSERT_EQ(problems.size(), 1U) << lines_of(problems);
+  EXPECT_THAT(to_string(problems[0]), HasSubstr("cutter.yaml:3:49: no plant 'wheel' cuts"));
+  problems.clear();
+  scenario.opcua.cutters.pop_back();
+  loop::Simulation simulation(scenario, problems);
+  ASSERT_EQ(lines_of(problems), "");
+  const auto outcome = simulation.run();
+  const auto& events = simulation.recording().events();
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].severity, Severity::note);
+  EXPECT_EQ(events[1].severity, Severity::damage);
+  ASSERT_EQ(outcome.checks.size(), 1U);
+  EXPECT_EQ(outcome.checks[0].name, "no blade.burst");
+  EXPECT_FALSE(outcome.passed());
 }
 
 TEST(APlantOfOnesOwn, IsWrittenOutWithItsDefaults) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "sim/loop/known_events.hpp"
 
 namespace drycut::sim::studies {
 
@@ -187,7 +188,13 @@ void read_events(std::string_view text, const std::string& file, loop::Recording
   while (!found.full() && rows.next(row)) {
     if (!has_width(row, width, found)) continue;
     const auto time = time_of(row.cells[0], row.line, found);
-    loop::RecordedEvent event{time.value_or(0), 0, row.cells[1].text, row.cells[2].text, {}, ""};
+    loop::RecordedEvent event{time.value_or(0),
+                              0,
+                              row.cells[1].text,
+                              row.cells[2].text,
+                              {},
+                              "",
+                              loop::severity_of(row.cells[2].text)};
     take_values(row.cells[3].text, event);
     recording.happened(std::move(event));
   }

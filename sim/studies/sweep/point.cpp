@@ -9,6 +9,7 @@
 #include <regex>
 
 #include "base/text.hpp"
+#include "plants/plant.hpp"
 #include "sim/report/statistics.hpp"
 #include "sim/studies/compare/recorded_csv.hpp"
 #include "sim/studies/fingerprint.hpp"
@@ -77,7 +78,7 @@ std::optional<std::pair<double, double>> length_limits(const scenario::PicturesS
   for (const auto& plot : pictures.plots)
     for (const auto& panel : plot.panels)
       if (panel.limits && panel.values.size() == 1 && panel.values[0].text == "length" &&
-          (panel.event.text == "cut" || panel.event.text == source + ".cut"))
+          (panel.event.text == plants::cut_event || panel.event.text == source + ".cut"))
         return panel.limits;
   return {};
 }
@@ -93,7 +94,7 @@ std::vector<PointQuestion::Piece> pieces_of(const std::vector<loop::KnownEvent>&
                                             const scenario::Scenario& scenario) {
   std::vector<PointQuestion::Piece> pieces;
   for (const auto& event : events) {
-    if (event.name != "cut") continue;
+    if (event.name != plants::cut_event) continue;
     PointQuestion::Piece piece{event.source, 0, false, "", ""};
     if (const auto limits = length_limits(scenario.pictures, event.source))
       piece.tolerance = loop::without_noise((limits->second - limits->first) / 2);
@@ -105,7 +106,8 @@ std::vector<PointQuestion::Piece> pieces_of(const std::vector<loop::KnownEvent>&
     if (piece.length_unit.empty()) continue;
     const auto looks =
         std::find_if(scenario.checks.begin(), scenario.checks.end(), [&](const scenario::Check& check) {
-          return (check.event.text == "cut" || check.event.text == event.source + ".cut") && check.from > 0;
+          return (check.event.text == plants::cut_event || check.event.text == event.source + ".cut") &&
+                 check.from > 0;
         });
     if (looks != scenario.checks.end()) piece.from = seconds(looks->from);
     pieces.push_back(std::move(piece));

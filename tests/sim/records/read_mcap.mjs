@@ -46,6 +46,7 @@ const log = [];
 for await (const message of reader.readMessages({ topics: ["/events"] }))
   log.push(JSON.parse(new TextDecoder().decode(message.data)));
 assert.strictEqual(log.length, told.length);
+assert.ok(log.every(({ level, message }) => !message.startsWith("cut") || level === 2));
 log.forEach((entry, i) => {
   const [time, source, event, values] = told[i].split(",");
   assert.strictEqual(`${entry.timestamp.sec}.${String(entry.timestamp.nsec).padStart(9, "0")}`, time);
