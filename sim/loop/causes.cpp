@@ -52,7 +52,8 @@ void Causes::happened(const RecordedEvent& event) {
     const bool known = std::any_of(list.begin(), list.end(), [&](const Alarm& told) {
       return told.source == event.source && (!each_text || told.text == text);
     });
-    if (!known && list.size() < most_causes) list.push_back({at, event.source, std::move(text)});
+    if (!known && list.size() < most_causes)
+      list.push_back({at, event.source, std::move(text), event.text.empty()});
   };
   if (event.source == "timeline") {
     if ((event.event == "fault" || event.text == "off") && faults_.size() < most_causes)
@@ -119,8 +120,8 @@ std::string Causes::by_time(double failed_at) const {
   if (fault != nullptr)
     return fmt::format("because the timeline had at {:.6g} s: {} {}", fault->at, fault->source, fault->text);
   const auto* error = first_error(failed_at);
-  const auto* warning =
-      last_warning(error != nullptr ? error->at : failed_at, error != nullptr ? error->source : "");
+  const auto* warning = last_warning(error != nullptr ? error->at : failed_at,
+                                     error != nullptr && !error->of_machine ? error->source : "");
   if (error != nullptr)
     return warning != nullptr
                ? fmt::format("because {}; then at {:.6g} s: {}", text_of(*warning), error->at, error->text)

@@ -15,6 +15,7 @@ struct Alarm {
   double at = 0;  ///< [s]
   std::string source;
   std::string text;
+  bool of_machine = false;  ///< it told numbers and no text: what a warning of any source may explain
 };
 /// "Axis at 6.49 s: warning 12"
 std::string text_of(const Alarm& alarm);

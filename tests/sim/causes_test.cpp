@@ -49,6 +49,18 @@ TEST(Causes, AWarningOfLongAgoIsOnlyWhatCameBefore) {
   EXPECT_EQ(causes.of({failed(9)}, {}), "after AxisX at 1 s: a value is out of range");
 }
 
+// A machine does what it is told: what its controller warned of comes before what broke.
+TEST(Causes, WhatAControllerWarnedOfExplainsWhatAMachineBreaks) {
+  Causes causes;
+  causes.happened(told(2.36, "AxisX", "warning", "slave out of syncrange"));
+  causes.happened(told(2.5147, "knife", "tear", "", {{"mismatch", 102.165, "mm/s"}}));
+  EXPECT_EQ(causes.of({failed(2.5147)}, {}),
+            "because AxisX at 2.36 s: slave out of syncrange; then at 2.5147 s: tear: mismatch=102.2 mm/s");
+  Causes alone;
+  alone.happened(told(2.5147, "knife", "tear", "", {{"mismatch", 102.165, "mm/s"}}));
+  EXPECT_EQ(alone.of({failed(2.5147)}, {}), "because knife at 2.5147 s: tear: mismatch=102.2 mm/s");
+}
+
 TEST(Causes, ADriveAtItsLimitIsTold) {
   Causes causes;
   causes.happened(told(2.6, "knife", "saturated", "", {{"begin", 2.4, "s"}, {"end", 2.6, "s"}}));
