@@ -70,6 +70,11 @@ std::string last_set(const std::vector<Alarm>& sets, const std::vector<CheckResu
   return "";
 }
 
+bool found_nothing(const std::vector<CheckResult>& checks) {
+  return std::any_of(checks.begin(), checks.end(),
+                     [](const CheckResult& check) { return !check.passed && check.idle; });
+}
+
 std::string joined(const std::string& text) { return text.empty() ? "" : "; " + text; }
 
 }  // namespace
@@ -200,16 +205,15 @@ std::string Causes::of(const std::vector<CheckResult>& checks, const Known& know
   if (cause.empty() && known.standing && known.standing->first <= failed_at.value_or(ever))
     cause = "while " + known.standing->second;
   if (cause.empty() || cause.starts_with("after ")) return last_resort(checks, known, cause);
-  const bool by_machine = faults_.empty() && !errors_.empty();
-  return by_machine && !known.doubts.empty() ? cause + joined(known.doubts.front()) : cause;
+  if (!faults_.empty()) return cause;
+  if (found_nothing(checks) && !known.hindrances.empty()) return cause + joined(known.hindrances.front());
+  return errors_.empty() || known.doubts.empty() ? cause : cause + joined(known.doubts.front());
 }
 
 // Where nothing to judge was found, the machine stands: where. Else what looks odd, and what was done to it.
 std::string Causes::last_resort(const std::vector<CheckResult>& checks, const Known& known,
                                 const std::string& before) const {
-  const bool stands = std::any_of(checks.begin(), checks.end(),
-                                  [](const CheckResult& check) { return !check.passed && check.idle; });
-  if (stands && !known.hindrances.empty()) {
+  if (found_nothing(checks) && !known.hindrances.empty()) {
     const auto* error = first_error(std::numeric_limits<double>::infinity());
     return "while " + known.hindrances.front() + joined(error != nullptr ? text_of(*error) : "");
   }

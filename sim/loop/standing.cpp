@@ -23,7 +23,7 @@ std::string never_on(const auto& levels) {
   std::vector<std::string> never;
   for (const auto& one : levels)
     if (!one.was_on) never.push_back(fmt::format("{} ({})", one.plug, one.terminal));
-  return never.empty() ? "" : fmt::format("never on: {}", fmt::join(never, ", "));
+  return never.empty() ? "" : fmt::format("never seen on: {}", fmt::join(never, ", "));
 }
 
 }  // namespace

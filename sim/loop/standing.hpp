@@ -18,7 +18,7 @@ class Standing : public Observer {
   void sample(Time now) override;
 
   /// What tells of a machine that stands at `now`, a phrase each: "2.CNT02 (tube.wheel) counted nothing",
-  /// "panel.too_long is on since 3.406 s", "never on: saw.clamp (2.OUT02)".
+  /// "panel.too_long is on since 3.406 s", "never seen on: saw.clamp (2.OUT02)".
   [[nodiscard]] std::vector<std::string> texts(Time now) const;
 
  private:

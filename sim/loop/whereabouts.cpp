@@ -11,10 +11,10 @@ namespace drycut::sim::loop {
 
 namespace {
 
-constexpr double told_scale = 0.03;  // of the way
-constexpr double told_place = 2;     // [mm], more than a play
-constexpr double enough_way = 10;    // [mm]
-constexpr double rounding = 0.1;     // [mm] a step of either and the time between two looks
+constexpr double told_scale = 0.1;  // of the way
+constexpr double told_place = 2;    // [mm], more than a play
+constexpr double enough_way = 10;   // [mm]
+constexpr double rounding = 0.1;    // [mm] a step of either and the time between two looks
 
 bool homes(devices::Controller& controller, const std::string& axis) {
   for (const auto& program : controller.programs())

@@ -106,6 +106,8 @@ TEST(Causes, WhereNothingWasFoundToJudgeWhatStandsComesBeforeOldWarnings) {
   idle.idle = true;
   EXPECT_EQ(causes.of({failed(3), idle}, known), "while gbPhase stands at 2 since 3.4 s");
   EXPECT_EQ(causes.of({failed(3)}, known), "after AxisX at 0.1 s: a value is out of range");
+  EXPECT_EQ(causes.of({failed(0.3), idle}, known),
+            "because AxisX at 0.1 s: a value is out of range; gbPhase stands at 2 since 3.4 s");
 }
 
 TEST(Causes, ABlowIsToldWhereNothingElseIs) {

@@ -142,7 +142,7 @@ TEST(WhyItFailed, WhereNothingCutsWhatStandsIsToldFirst) {
                               {{"controller.qmove.set.slTravel", "700"}, {"scene.duration", "10 s"}})
                   .cause,
               AllOf(StartsWith("while "), HasSubstr("panel.too_long is on since "),
-                    HasSubstr("never on: saw.clamp (2.OUT02), saw.head.plunge (2.OUT03)")));
+                    HasSubstr("never seen on: saw.clamp (2.OUT02), saw.head.plunge (2.OUT03)")));
 }
 
 TEST(WhyItFailed, OfAMachineThatWorksNothingStands) {
