@@ -129,6 +129,7 @@ class Controller {
     std::string remedy;                          ///< what turns the count round
     std::optional<Address> counter = {};         ///< where it counts ...
     std::optional<Address> reference = {};       ///< ... and drives, if both are named
+    std::optional<Address> zero = {};            ///< the interrupt line of its zero pulse
     std::function<double()> counts_at_10v = {};  ///< its parameters' speed at 10 V [bits x4/s], 0 = none
   };
   /// What they read stays valid as long as the controller.

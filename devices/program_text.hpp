@@ -31,11 +31,12 @@ struct ProgramText {
   }
 };
 
-/// A place at which a program stands until something comes.
+/// A place at which a program stands until something comes, or for ever.
 struct ProgramWait {
   std::string program;        ///< ProgramText::name
   int line = 0;               ///< from 1
   std::int64_t since_ns = 0;  ///< it has stood there all the time
+  bool ended = false;         ///< it came to its end: nothing comes any more
 };
 
 /// What programs do at a moment.

@@ -219,7 +219,7 @@ Parameters web_parameters(WebData& data) {
               "solid board"),
           row("width", "mm", "width of the strip, or outer diameter of the tube", data.width, 1, 10000,
               "a narrow line"),
-          row("density", "kg/m3", "density of the material", data.density, 1, 20000, "solid board"),
+          row("density", "kg/m3", "density of the material", data.density, 10, 20000, "solid board"),
           row("shear_strength", "MPa", "shear resistance of the material, mean over the length of the blade",
               data.shear_strength, 0, 2000, "estimate: solid board, blade with a slight helix"),
           row("elastic", "the web stretches between line drive, measuring wheel and cut", data.strip.on,

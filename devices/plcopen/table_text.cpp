@@ -46,7 +46,11 @@ void TableReader::row(CamTable& table, const Words& words, bool decimal_comma) {
   if (type == nullptr || type->columns == 0) return;
   if (static_cast<int>(words.size()) != type->columns)
     return fault(words.front().place, fmt::format("{} numbers", words.size()),
-                 fmt::format("a line of type {} ({}) has {}", type->number, type->meaning, type->columns));
+                 fmt::format("a line of type {} ({}) has {}{}", type->number, type->meaning, type->columns,
+                             words.front().text.find(';') != std::string::npos ? ", with commas between them"
+                             : type->columns > 1 && static_cast<int>(words.size()) == 2 * type->columns
+                                 ? "; decimals stand behind a point"
+                                 : ""));
   rows_.push_back(words.front().place.line);
   for (const Word& word : words) {
     const std::optional<double> value = number_of(word.text, decimal_comma);

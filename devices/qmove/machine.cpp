@@ -91,6 +91,12 @@ RunTimeError run(const Program& program, Task& task, Machine& machine, std::int6
     else
       *top = bits(result);
   };
+  const auto keep = [&](std::int32_t size, std::int32_t value) {
+    const auto kept = wrapped(size, value);
+    if (kept != value && static_cast<Size>(size) != Size::F) [[unlikely]]
+      machine.cut = {at, value, kept};
+    return kept;
+  };
   for (;; ++at) {
     if constexpr (timed) {
       if (program.begins[static_cast<std::size_t>(at)]) {
@@ -144,10 +150,10 @@ RunTimeError run(const Program& program, Task& task, Machine& machine, std::int6
         break;
 
       case Op::store:
-        machine.cells[now.a] = wrapped(now.b, *top--);
+        machine.cells[now.a] = keep(now.b, *top--);
         break;
       case Op::store_at:
-        machine.cells[top[-1]] = wrapped(now.b, *top);
+        machine.cells[top[-1]] = keep(now.b, *top);
         top -= 2;
         break;
       case Op::store_device:
@@ -320,6 +326,8 @@ RunTimeError run(const Program& program, Task& task, Machine& machine, std::int6
         break;
       case Op::end:
         task.ended = true;
+        task.waits_at = at;
+        task.waits_since = machine.now;
         return suspend(at);
     }
   }

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <set>
 #include <vector>
 
 #include "devices/cards.hpp"
@@ -30,6 +32,14 @@ struct Machine {
   std::vector<std::unique_ptr<Device>> devices;
   std::int64_t now = 0;  ///< [ns]
 
+  /// A store of which the variable could not keep all.
+  struct Cut {
+    int at;  ///< instruction
+    std::int32_t value;
+    std::int32_t kept;
+  };
+  std::optional<Cut> cut = {};  ///< the last one of a turn
+
   /// Writes and commands to devices so far: each has its number, from 1.
   std::uint64_t posts = 0;
   std::vector<std::uint64_t> oldest_post;  ///< by device: the first of those that wait for its next sample
@@ -56,11 +66,12 @@ struct Task {
   std::uint64_t reached = 0;             ///< Machine::posts when the reading statement was reached
   std::vector<std::uint64_t> last_post;  ///< by device: the task's last write or command
   std::int64_t turned = 0;               ///< when it last came to WAIT or END [ns]
+  std::set<int> cuts;                    ///< lines that have been told to cut a value off
   bool told = false;                     ///< that it has not come there for long
   bool in_turn = false;                  ///< its turn goes on when there is time for its next statement
   int left = 0;                          ///< work that is left for this turn then
-  int waits_at = -1;                     ///< the condition of the WAIT at which it stands; -1: at none
-  std::int64_t waits_since = 0;          ///< [ns]
+  int waits_at = -1;             ///< the condition of the WAIT, or the END, at which it stands; -1: at none
+  std::int64_t waits_since = 0;  ///< [ns]
 };
 
 /// Work that a task may do in one turn [instructions]; a program that loops without WAIT comes to more.

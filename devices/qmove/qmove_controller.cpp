@@ -154,6 +154,7 @@ bool QmoveController::turn(std::size_t number) {
 
 bool QmoveController::finish_turn(std::size_t number, RunTimeError error) {
   const Task& task = tasks_[number];
+  if (machine_.cut) tell_of_cut(number);
   if (error != RunTimeError::none) {
     stop(error, number);
     return false;
@@ -161,6 +162,18 @@ bool QmoveController::finish_turn(std::size_t number, RunTimeError error) {
   if (task.wait != Task::Wait::none && !task.told && machine_.now - task.turned >= long_turn_ns)
     tell_of_long_turn(number);
   return true;
+}
+
+void QmoveController::tell_of_cut(std::size_t number) {
+  const Program& program = programs_[number];
+  const auto [at, value, kept] = *std::exchange(machine_.cut, {});
+  const int line = program.lines[static_cast<std::size_t>(at)];
+  if (!tasks_[number].cuts.insert(line).second) return;
+  const bool byte = static_cast<Size>(program.code[static_cast<std::size_t>(at)].b) == Size::B;
+  events_.push_back(
+      {program.name, "warning",
+       fmt::format("{}:{}: {} does not fit into a variable of size {}, which keeps {}", program.file, line,
+                   value, byte ? "B (-128..127)" : "W (-32768..32767)", kept)});
 }
 
 void QmoveController::tell_of_long_turn(std::size_t number) {
@@ -262,8 +275,12 @@ std::vector<Controller::PositionLoop> QmoveController::position_loops() {
     std::vector<Address> outputs;
     for (std::size_t f = 0; f < record.resources.size(); ++f) {
       const auto& address = record.resources[f].address;
-      if (!address) continue;
       const Field& field = device.type().fields[f];
+      // The first line is that of its own zero pulse.
+      if (field.kind == Field::Kind::interrupt_line && !loop.zero && record.resources[f].number != 0 &&
+          counter != nullptr && outputs.empty() && dac == nullptr)
+        loop.zero = Address{Kind::interrupt, 0, record.resources[f].number};
+      if (!address) continue;
       if (field.kind == Field::Kind::counter && counter == nullptr) {
         counter = &cards_.counters[*address];
         loop.counter = address;

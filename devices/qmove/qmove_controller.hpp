@@ -120,6 +120,7 @@ class QmoveController : public Controller {
   bool finish_turn(std::size_t number, RunTimeError error);
   void run_timed(std::int64_t time_ns);
   bool run_place(std::int64_t time_ns);
+  void tell_of_cut(std::size_t number);
   void tell_of_long_turn(std::size_t number);
   void stop(RunTimeError error, std::size_t task);
   void collect_diagnostics(std::size_t device);

@@ -100,9 +100,10 @@ std::vector<ProgramWait> QmoveController::waits() {
   if (!powered_ || mode_ != OsMode::run) return waits;
   for (std::size_t i = 0; i < programs_.size(); ++i) {
     const int at = tasks_[i].waits_at;
-    if (at < 0 || tasks_[i].ended) continue;
+    if (at < 0) continue;
     const ProgramText named(programs_[i].file, "qcl", "");
-    waits.push_back({named.name, programs_[i].lines[static_cast<std::size_t>(at)], tasks_[i].waits_since});
+    waits.push_back({named.name, programs_[i].lines[static_cast<std::size_t>(at)], tasks_[i].waits_since,
+                     tasks_[i].ended});
   }
   return waits;
 }

@@ -304,6 +304,9 @@ void Compiler::unknown_statement() {
   else if (is_one_of(commands, peek().text))
     syntax_error(peek(), fmt::format("{} needs a device", in_quotes(peek().text)),
                  fmt::format("write {} Device", peek().text));
+  else if (peek().word("ELSEIF") || peek().word("ELSIF") || peek().word("ELIF"))
+    syntax_error(peek(), "QCL has no " + std::string(peek().text),
+                 "write ELSE, and an IF with an ENDIF of its own in it");
   else
     syntax_error(peek(), "unknown statement " + in_quotes(peek().text),
                  suggestion(peek().text, words, usual));

@@ -30,6 +30,17 @@ std::string text_of(const RecordedEvent& event) {
   if (event.event == "opened_early") return "the clamps let go with the blade in the material";
   return event.text.empty() ? fmt::format("{}: {}", event.event, values_text(event, 4)) : event.text;
 }
+/// What a machine suffers from what went wrong before.
+std::string blow_of(const RecordedEvent& event) {
+  if (event.event == "tear") return "it tore the web";
+  const auto* speed = event.find("speed");
+  if (speed == nullptr) return "";
+  const auto at = std::abs(speed->number);
+  if (event.event == "crash" || event.event == "end_stop")
+    return fmt::format("it ran into its end stop at {:.4g} {}", at, speed->unit);
+  return event.event == "sag" ? fmt::format("it sank at {:.4g} {} when it should stand", at, speed->unit)
+                              : "";
+}
 
 // When the first check failed that can say so; those that found nothing to judge cannot.
 std::optional<double> first_failure(const std::vector<CheckResult>& checks) {
@@ -38,6 +49,26 @@ std::optional<double> first_failure(const std::vector<CheckResult>& checks) {
     if (!check.passed && check.failed_at && (!first || *check.failed_at < *first)) first = check.failed_at;
   return first;
 }
+
+// What the timeline did to the machine just before a check failed, or while it counted too few events.
+std::string last_set(const std::vector<Alarm>& sets, const std::vector<CheckResult>& checks) {
+  constexpr double soon = 1;  // [s]
+  for (const auto& set : sets)
+    for (const auto& check : checks) {
+      const bool behind = check.failed_at && set.at <= *check.failed_at && *check.failed_at - set.at <= soon;
+      const bool within = check.too_few && set.at >= *check.too_few;
+      if (!check.passed && (behind || within))
+        return fmt::format("the timeline had at {:.6g} s: {}", set.at, set.text);
+    }
+  return "";
+}
+
+bool found_nothing(const std::vector<CheckResult>& checks) {
+  return std::any_of(checks.begin(), checks.end(),
+                     [](const CheckResult& check) { return !check.passed && check.idle; });
+}
+
+std::string joined(const std::string& text) { return text.empty() ? "" : "; " + text; }
 
 }  // namespace
 
@@ -52,12 +83,18 @@ void Causes::happened(const RecordedEvent& event) {
     const bool known = std::any_of(list.begin(), list.end(), [&](const Alarm& told) {
       return told.source == event.source && (!each_text || told.text == text);
     });
-    if (!known && list.size() < most_causes)
-      list.push_back({at, event.source, std::move(text), event.text.empty()});
+    if (!known && list.size() < most_causes) list.push_back({at, event.source, std::move(text)});
   };
   if (event.source == "timeline") {
     if ((event.event == "fault" || event.text == "off") && faults_.size() < most_causes)
       faults_.push_back({at, event.event, event.text});
+    const bool operates = event.text.starts_with("panel.");
+    if ((event.event == "set" || event.event == "ramp") && !operates && at > 1 && sets_.size() < most_causes)
+      sets_.push_back({at, event.event, event.text});
+  } else if (const auto blow = blow_of(event); !blow.empty()) {
+    const bool known = std::any_of(blows_.begin(), blows_.end(),
+                                   [&](const Alarm& one) { return one.source == event.source; });
+    if (!known) blows_.push_back({at, event.source, blow});
   } else if (event.severity >= Severity::error) {
     keep(errors_, false);
   } else if (event.severity == Severity::warning && !event.text.empty()) {
@@ -113,15 +150,16 @@ const Alarm* Causes::last_warning(double until, const std::string& source) const
 // What came before a failure: a fault that was put in, an error and the warning behind it, a drive at its
 // limit.
 std::string Causes::by_time(double failed_at) const {
-  constexpr double soon = 1;  // [s] what lies so little before a failure is held to be its cause
+  constexpr double soon = 1;         // [s] what lies so little before a failure is held to be its cause
+  constexpr double told_late = 0.1;  // [s] an error is told once it has lasted
   const Alarm* fault = nullptr;
   for (const auto& one : faults_)
     if (one.at <= failed_at) fault = &one;
   if (fault != nullptr)
     return fmt::format("because the timeline had at {:.6g} s: {} {}", fault->at, fault->source, fault->text);
-  const auto* error = first_error(failed_at);
-  const auto* warning = last_warning(error != nullptr ? error->at : failed_at,
-                                     error != nullptr && !error->of_machine ? error->source : "");
+  const auto* error = first_error(failed_at + told_late);
+  const auto* warning =
+      last_warning(error != nullptr ? error->at : failed_at, error != nullptr ? error->source : "");
   if (error != nullptr)
     return warning != nullptr
                ? fmt::format("because {}; then at {:.6g} s: {}", text_of(*warning), error->at, error->text)
@@ -151,11 +189,32 @@ std::string Causes::of(const std::vector<CheckResult>& checks, const Known& know
   for (const auto& [at, text] : known.astray)
     if (at <= failed_at.value_or(ever)) return "because " + text;
   if (const auto* error = first_error(ever); !failed_at && error == nullptr && !known.hindrances.empty())
-    return fmt::format("because {}", known.hindrances.front());
+    return "because " + known.hindrances.front() + joined(last_set(sets_, checks));
   auto cause = by_time(failed_at.value_or(ever));
   if (cause.empty() && known.standing && known.standing->first <= failed_at.value_or(ever))
     cause = "while " + known.standing->second;
-  return cause;
+  if (cause.empty() || cause.starts_with("after ")) return last_resort(checks, known, cause);
+  if (!faults_.empty()) return cause;
+  if (found_nothing(checks) && !known.hindrances.empty()) return cause + joined(known.hindrances.front());
+  return errors_.empty() || known.doubts.empty() ? cause : cause + joined(known.doubts.front());
+}
+
+// Where nothing to judge was found, the machine stands: where. Else what looks odd, and what was done to it.
+std::string Causes::last_resort(const std::vector<CheckResult>& checks, const Known& known,
+                                const std::string& before) const {
+  if (found_nothing(checks) && !known.hindrances.empty()) {
+    const auto* error = first_error(std::numeric_limits<double>::infinity());
+    return "while " + known.hindrances.front() + joined(error != nullptr ? text_of(*error) : "");
+  }
+  if (!before.empty()) return before + joined(known.doubts.empty() ? "" : known.doubts.front());
+  if (!known.doubts.empty()) return "while " + known.doubts.front();
+  constexpr double soon = 1;  // [s]
+  const auto failed_at = first_failure(checks);
+  for (const auto& blow : blows_)
+    if (failed_at && std::abs(blow.at - *failed_at) <= soon)
+      return fmt::format("{} {}", blow.at <= *failed_at ? "after" : "shortly before", text_of(blow));
+  const auto set = last_set(sets_, checks);
+  return set.empty() ? "" : "after " + set;
 }
 
 }  // namespace drycut::sim::loop

@@ -15,7 +15,6 @@ struct Alarm {
   double at = 0;  ///< [s]
   std::string source;
   std::string text;
-  bool of_machine = false;  ///< it told numbers and no text: what a warning of any source may explain
 };
 /// "Axis at 6.49 s: warning 12"
 std::string text_of(const Alarm& alarm);
@@ -38,6 +37,8 @@ class Causes : public Observer {
     std::vector<std::pair<double, std::string>> astray = {};
     /// Where the whole program stands, and since when [s].
     std::optional<std::pair<double, std::string>> standing = {};
+    /// What may be a slip, where nothing tells more: positions that differ, doubtful wires.
+    std::vector<std::string> doubts = {};
   };
   /// Why the checks failed, as the end of a sentence: "because Knife at 2.282 s: the cam asks for ...", or
   /// where it only came before, "after ..."; "" if nothing tells or all passed.
@@ -63,10 +64,14 @@ class Causes : public Observer {
   [[nodiscard]] const Alarm* first_error(double until) const;
   [[nodiscard]] const Alarm* last_warning(double until, const std::string& source) const;
   [[nodiscard]] std::string by_time(double failed_at) const;
+  [[nodiscard]] std::string last_resort(const std::vector<CheckResult>& checks, const Known& known,
+                                        const std::string& before) const;
 
   std::vector<Alarm> errors_;    ///< the first of each source
   std::vector<Alarm> warnings_;  ///< the first of each source and text
   std::vector<Alarm> faults_;
+  std::vector<Alarm> sets_;   ///< what the timeline did to the machine
+  std::vector<Alarm> blows_;  ///< the first of each source: it ran into a stop, it sank
   std::vector<Limit> limits_;
   std::vector<State> states_;
 };

@@ -387,6 +387,8 @@ CheckResult Checks::result(State& state, Time end) {
         "{} between {} s and {} s, at least {} expected",
         state.count == 0 ? "no " + what : fmt::format("only {} x {}", state.count, what),
         seconds_text(check.from), seconds_text(std::min(end, check.until.value_or(end))), check.at_least);
+    result.idle = state.count == 0;
+    result.too_few = seconds(check.from);
     return result;
   }
   const auto never_looked_at = [&] {
@@ -432,6 +434,10 @@ CheckResult Checks::result(State& state, Time end) {
     return result;
   }
   result.passed = state.failed == 0;
+  const auto unmet = result.passed && !state.windowed ? state.expression->unmet() : "";
+  if (!unmet.empty())
+    result.doubt = fmt::format("check '{}' judged nothing: {} was 0 at all {} {}", check.name.text, unmet,
+                               state.count, looked_at(state));
   if (!result.passed && check.kind != scenario::Check::Kind::all) result.failed_at = state.first_failed_at;
   if (state.windowed && is_judged_once(check)) {
     result.detail = state.last_window;

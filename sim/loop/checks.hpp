@@ -36,6 +36,10 @@ struct CheckResult {
   std::optional<double> failed_at = {};  ///< [s] first, where that can be said before the end
   std::optional<double> used = {};       ///< share of the limit at the worst moment, above 1: beyond it
   std::vector<Tolerance> tolerances = {};
+  bool idle = false;  ///< it failed for it found nothing to judge
+  std::string doubt =
+      {};  ///< though it passed: "(gbStep == 2) was 0 at all 2601 instants: it judged nothing"
+  std::optional<double> too_few = {};  ///< [s] of events that it counts there were too few, from then on
 };
 
 /// Evaluates the checks of a scenario while it runs. always / eventually look at every record instant, the

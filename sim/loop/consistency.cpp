@@ -154,6 +154,28 @@ std::vector<std::string> contradicting_speeds(const scenario::Scenario& scenario
   return found;
 }
 
+namespace {
+
+/// Zero pulses of another encoder than the one that the axis counts.
+std::vector<std::string> strange_zero_pulses(const scenario::Scenario& scenario,
+                                             devices::Controller& controller) {
+  std::vector<std::string> notes;
+  for (const auto& loop : controller.position_loops()) {
+    if (!loop.zero || !loop.counter) continue;
+    const auto* pulse = wire_at(scenario, controller, *loop.zero);
+    const auto* counted = wire_at(scenario, controller, *loop.counter);
+    if (pulse == nullptr || counted == nullptr || !pulse->plug.text.ends_with(".index") ||
+        pulse->plug.text == counted->plug.text + ".index")
+      continue;
+    notes.push_back(fmt::format("{} takes its zero pulse from {} ({}), and counts {} ({})", loop.name,
+                                pulse->plug.text, pulse->terminal.text, counted->plug.text,
+                                counted->terminal.text));
+  }
+  return notes;
+}
+
+}  // namespace
+
 std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devices::Controller& controller) {
   std::vector<std::string> notes;
   const auto programs = controller.programs();
@@ -173,6 +195,7 @@ std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devi
     if (!fresh)
       notes.push_back(fmt::format("{} and {} are both wired to {}", first->second, name, wire.plug.text));
   }
+  for (auto& strange : strange_zero_pulses(scenario, controller)) notes.push_back(std::move(strange));
   return notes;
 }
 

@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/opcua_names.hpp"
+#include "sim/loop/overwritten.hpp"
 #include "sim/loop/waits.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/motor_catalogue.hpp"
@@ -97,7 +98,9 @@ void Simulation::compare_with_machine() {
 // at.
 void Simulation::look_after_program() {
   directions_ = std::make_unique<Directions>(scenario_, *controller_);
-  observers_.push_back(directions_.get());
+  standing_ = std::make_unique<Standing>(scenario_, *controller_);
+  whereabouts_ = std::make_unique<Whereabouts>(scenario_, *controller_, *names_);
+  observers_.insert(observers_.end(), {directions_.get(), standing_.get(), whereabouts_.get()});
   watch_->each([&](const Reading& reading, const double* slot) {
     const bool of_program = reading.unit.empty() && reading.name.find('.') == std::string::npos;
     if (of_program && controller_->find(reading.name)) causes_.follow(reading.name, slot);
@@ -380,7 +383,7 @@ std::string Simulation::unpressed() const {
   return unpressed;
 }
 
-Causes::Known Simulation::known() const {
+Causes::Known Simulation::known() {
   Causes::Known known;
   known.contradictions = contradictions_;
   for (const auto* open : {&open_.moving, &open_.others})
@@ -388,19 +391,42 @@ Causes::Known Simulation::known() const {
   for (auto& speed : contradicting_speeds()) known.contradictions.push_back(std::move(speed));
   for (const auto& found : directions_ ? directions_->found() : std::vector<Directions::Found>())
     known.astray.emplace_back(found.at, found.text);
+  // An axis that only counts needs no loop.
+  const auto moves = [&](const std::string& without) {
+    const auto loops = controller_->position_loops();
+    return std::any_of(loops.begin(), loops.end(), [&](const auto& loop) {
+      return without.starts_with(loop.name + " ") && loop.reference &&
+             wire_at(scenario_, *controller_, *loop.reference) != nullptr;
+    });
+  };
   std::string standing;
   if (controller_) {
     const auto waits = waits_of(*controller_, time_);
     standing = fmt::format("{}", fmt::join(waits.texts, "; "));
     if (waits.all) known.standing.emplace(waits.since, standing);
     if (standing.empty()) standing = without_loop(*controller_);
-    if (standing.empty()) standing = causes_.state_that_stands(seconds(time_));
+    if (standing.empty()) {
+      auto signs = standing_ ? standing_->texts(time_) : std::vector<std::string>();
+      if (auto state = causes_.state_that_stands(seconds(time_)); !state.empty())
+        signs.insert(signs.begin(), std::move(state));
+      standing = fmt::format("{}", fmt::join(signs, "; "));
+    }
+    if (auto open = without_loop(*controller_); !open.empty() && moves(open))
+      known.contradictions.push_back(std::move(open));
+    for (auto& text : whereabouts_ ? whereabouts_->texts() : std::vector<std::string>())
+      known.doubts.push_back(std::move(text));
+    for (auto& doubt : doubtful_wires(scenario_, *controller_)) known.doubts.push_back(std::move(doubt));
   }
   if (auto first = unpressed(); !first.empty())
     known.hindrances.push_back(first + (standing.empty() ? "" : "; " + standing));
   else if (!standing.empty())
     known.hindrances.push_back(standing);
   return known;
+}
+
+void Simulation::warn_of_program(std::vector<std::string>& warnings) {
+  for (auto& text : overwritten(scenario_, *controller_)) warnings.push_back(std::move(text));
+  for (auto& text : ended_at_once(scenario_, *controller_, time_)) warnings.push_back(std::move(text));
 }
 
 Outcome Simulation::outcome() {
@@ -422,9 +448,12 @@ Outcome Simulation::outcome() {
   }
   for (auto& check : unasked_->results()) outcome.checks.push_back(std::move(check));
   outcome.warnings = warnings_;
+  for (const auto& check : outcome.checks)
+    if (!check.doubt.empty()) outcome.warnings.push_back(check.doubt);
   if (drives_->judges())
     for (const auto& drive : outcome.drives)
       outcome.warnings.insert(outcome.warnings.end(), drive.warnings.begin(), drive.warnings.end());
+  if (controller_ && time_ > 0) warn_of_program(outcome.warnings);
   outcome.alarms = causes_.alarms();
   if (outcome.failure.empty() && !outcome.passed()) {
     auto known = this->known();

@@ -23,11 +23,13 @@
 #include "sim/loop/recorder.hpp"
 #include "sim/loop/remarks.hpp"
 #include "sim/loop/shutter.hpp"
+#include "sim/loop/standing.hpp"
 #include "sim/loop/strobe.hpp"
 #include "sim/loop/timeline.hpp"
 #include "sim/loop/trace_files.hpp"
 #include "sim/loop/unasked.hpp"
 #include "sim/loop/watch.hpp"
+#include "sim/loop/whereabouts.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
@@ -163,9 +165,11 @@ class Simulation {
   void compare_with_machine();
   void look_after_program();
   /// What the run knows besides of why it failed.
-  [[nodiscard]] Causes::Known known() const;
+  [[nodiscard]] Causes::Known known();
   /// Of the parameters that the program has set.
   [[nodiscard]] std::vector<std::string> contradicting_speeds() const;
+  /// What may be a slip in a run that was sound else: tasks that ended at once, values set in vain.
+  void warn_of_program(std::vector<std::string>& warnings);
   /// Switches that nobody pressed.
   [[nodiscard]] std::string unpressed() const;
 
@@ -203,11 +207,14 @@ class Simulation {
   Captions captions_;
   Remarks remarks_;
   Causes causes_;
-  std::unique_ptr<Directions> directions_;  ///< nullptr without a controller
-  std::vector<Observer*> observers_;        ///< all of them, in the order in which they are told
-  std::vector<Observer*> steppers_;         ///< those that are told every step
-  std::vector<KnownEvent> known_events_;    ///< of the plants
-  std::vector<KnownEvent> all_events_;      ///< with those of timeline and controller
+  // Nullptr without a controller.
+  std::unique_ptr<Directions> directions_;
+  std::unique_ptr<Standing> standing_;
+  std::unique_ptr<Whereabouts> whereabouts_;
+  std::vector<Observer*> observers_;      ///< all of them, in the order in which they are told
+  std::vector<Observer*> steppers_;       ///< those that are told every step
+  std::vector<KnownEvent> known_events_;  ///< of the plants
+  std::vector<KnownEvent> all_events_;    ///< with those of timeline and controller
   std::string failure_;
   std::vector<std::string> notes_of_setup_;
   OpenTerminals open_;

@@ -34,6 +34,29 @@ std::string values_of(const devices::ProgramText& program, int line, devices::Co
   return values.empty() ? "" : fmt::format(" ({})", fmt::join(values, "; "));
 }
 
+/// A terminal that the program of that name works or reads by a name of the configuration: "2.OUT04
+/// (panel.alarm)"; "" = none.
+std::string wire_that_it_names(const scenario::Scenario& scenario, devices::Controller& controller,
+                               const std::string& program) {
+  const auto programs = controller.programs();
+  const auto own =
+      std::find_if(programs.begin(), programs.end(), [&](const auto& one) { return one.name == program; });
+  const auto setup =
+      std::find_if(programs.begin(), programs.end(), [](const auto& one) { return one.language == "cnf"; });
+  if (own == programs.end() || setup == programs.end()) return "";
+  const auto lines = split_lines(setup->text);
+  for (const auto& [number, names] : setup->values) {
+    const auto& line = lines[static_cast<std::size_t>(number) - 1];
+    for (const auto& wire : scenario.wiring) {
+      if (line.find(wire.terminal.text) == std::string_view::npos) continue;
+      for (const auto& [at, named] : own->values)
+        if (std::find(named.begin(), named.end(), names.front()) != named.end())
+          return fmt::format("{} ({})", wire.terminal.text, wire.plug.text);
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
 Waits waits_of(devices::Controller& controller, Time now) {
@@ -46,6 +69,11 @@ Waits waits_of(devices::Controller& controller, Time now) {
                                       [&](const auto& one) { return one.name == wait.program; });
     if (program == programs.end()) continue;
     found.since = std::max(found.since, seconds(wait.since_ns));
+    if (wait.ended) {
+      found.texts.push_back(fmt::format("{} came to its end, line {}, at {} s", wait.program, wait.line,
+                                        seconds_text(wait.since_ns)));
+      continue;
+    }
     found.texts.push_back(fmt::format(
         "{} stands at line {}, {}{}, since {} s", wait.program, wait.line, code_of(*program, wait.line),
         values_of(*program, wait.line, controller), seconds_text(wait.since_ns)));
@@ -54,6 +82,23 @@ Waits waits_of(devices::Controller& controller, Time now) {
   const auto running = std::count_if(programs.begin(), programs.end(),
                                      [](const auto& program) { return program.language == "qcl"; });
   found.all = running > 0 && static_cast<std::size_t>(running) == found.texts.size();
+  return found;
+}
+
+std::vector<std::string> ended_at_once(const scenario::Scenario& scenario, devices::Controller& controller,
+                                       Time now) {
+  constexpr Time at_once = 1 * second;
+  constexpr Time long_run = 2 * at_once;
+  std::vector<std::string> found;
+  // Of QCL alone: what is scanned never ends.
+  if (now < long_run || scenario.controller->kind() != "qmove") return found;
+  for (const auto& wait : controller.waits()) {
+    if (!wait.ended || wait.since_ns > at_once) continue;
+    const auto wire = wire_that_it_names(scenario, controller, wait.program);
+    if (!wire.empty())
+      found.push_back(fmt::format("{} came to its end at {} s, line {}, and looks after {} no more",
+                                  wait.program, seconds_text(wait.since_ns), wait.line, wire));
+  }
   return found;
 }
 

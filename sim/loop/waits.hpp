@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "devices/controller.hpp"
+#include "sim/scenario/scenario.hpp"
 #include "sim/time.hpp"
 
 namespace drycut::sim::loop {
@@ -15,6 +16,10 @@ struct Waits {
   bool all = false;  ///< every program stands
 };
 Waits waits_of(devices::Controller& controller, Time now);
+
+/// Tasks that ended as they began though they read or work what is wired, a phrase each.
+std::vector<std::string> ended_at_once(const scenario::Scenario& scenario, devices::Controller& controller,
+                                       Time now);
 
 /// "Axis is without LOOPON: no program closes its position loop", "" = there is no such axis.
 std::string without_loop(devices::Controller& controller);

@@ -55,8 +55,18 @@ struct Expression::Compiled {
     for (auto i = from; i <= to; ++i) values[i] = compute(tree.nodes[i], values);
   }
 
+  // A factor that is a condition or a number without unit: a switch of what it multiplies.
+  struct Factor {
+    std::size_t node = 0;
+    std::string text;
+    bool seen = false;  // other than 0
+  };
+  void add_factors(std::string_view text, const ExpressionTokens& tokens);
+
   ExpressionTree tree;
   std::vector<double> values;  // one a node
+  std::vector<Factor> factors;
+  bool evaluated = false;
   std::vector<Term> terms;
   std::vector<std::string> texts;
   bool has_margin = false;
@@ -97,6 +107,34 @@ void Expression::Compiled::add_terms(std::string_view text, const ExpressionToke
     if (tree.nodes[i].slot != nullptr && !tree.nodes[i].windowed) term.uses.push_back(tree.nodes[i].slot);
 }
 
+// Of (gbStep == 2) * abs(x) the condition, of flag * abs(x) the flag, of flag * (step > 1) * abs(x) both; the
+// number in step * number is none.
+void Expression::Compiled::add_factors(std::string_view text, const ExpressionTokens& tokens) {
+  using Node = ExpressionTree::Node;
+  const auto is_product = [](const Node& node) {
+    return node.kind == Node::Kind::two && node.sign == "*" && !node.windowed;
+  };
+  const auto is_condition = [](const Node& node) {
+    constexpr std::array<std::string_view, 4> signs{"==", "!=", "&&", "||"};
+    return is_relation(node.sign) || std::ranges::find(signs, node.sign) != signs.end();
+  };
+  std::vector<bool> is_factor(tree.nodes.size(), false);
+  for (const auto& node : tree.nodes)
+    if (is_product(node)) is_factor[node.of[0]] = is_factor[node.of[1]] = true;
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+    const auto& product = tree.nodes[i];
+    if (!is_product(product)) continue;
+    for (const bool second : {false, true}) {
+      const auto at = product.of[second ? 1 : 0];
+      const auto& other = tree.nodes[product.of[second ? 0 : 1]];
+      const auto& node = tree.nodes[at];
+      const bool is_flag = node.kind == Node::Kind::name &&
+                           (is_factor[i] ? is_condition(other) : other.kind == Node::Kind::one);
+      if (is_condition(node) || is_flag) factors.push_back({at, node_text(text, tokens, node)});
+    }
+  }
+}
+
 Expression::Compiled::Verdict Expression::Compiled::judge(const Term& term) const {
   const bool known = std::none_of(term.uses.begin(), term.uses.end(),
                                   [](const double* number) { return std::isnan(*number); });
@@ -128,6 +166,7 @@ std::optional<Expression> Expression::compile(std::string_view text, const Resol
   compiled->values.resize(tree.nodes.size());
   if (kind == Kind::number) return Expression(std::move(compiled));
   compiled->add_terms(text, tokens, tree.root);
+  compiled->add_factors(text, tokens);
   const auto compares = [](const Compiled::Term& term) { return !term.relation.empty(); };
   compiled->has_margin = std::all_of(compiled->terms.begin(), compiled->terms.end(), compares);
   for (const auto& term : compiled->terms) {
@@ -166,6 +205,8 @@ std::optional<Expression> Expression::compile(const Text& text, const Scenario& 
 
 Evaluation Expression::evaluate() const {
   compiled_->compute_nodes(0, compiled_->tree.nodes.size() - 1);
+  compiled_->evaluated = true;
+  for (auto& factor : compiled_->factors) factor.seen = factor.seen || compiled_->values[factor.node] != 0;
   Evaluation result{true, {}, 0};
   double least = std::numeric_limits<double>::infinity();
   bool known = true;
@@ -187,6 +228,13 @@ Evaluation Expression::evaluate() const {
   }
   if (compiled_->has_margin && known) result.margin = least;
   return result;
+}
+
+std::string Expression::unmet() const {
+  if (!compiled_->evaluated) return "";
+  for (const auto& factor : compiled_->factors)
+    if (!factor.seen) return factor.text;
+  return "";
 }
 
 std::optional<Expression::Compiled::Side> Expression::Compiled::side_of(const Term& term) const {

@@ -110,6 +110,9 @@ class Expression {
   [[nodiscard]] double value() const;
   /// The terms as they stand in the text; one if it is no conjunction.
   [[nodiscard]] const std::vector<std::string>& terms() const;
+  /// A factor that is 0 or not, as `(gbStep == 2) * abs(axis.speed)` has one, and was 0 whenever it was
+  /// evaluated: then nothing was judged. "" = there is none.
+  [[nodiscard]] std::string unmet() const;
   /// True if all terms compare by < <= > >=.
   [[nodiscard]] bool has_margin() const;
 

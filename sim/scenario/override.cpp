@@ -91,10 +91,15 @@ class OverrideSetter {
       const auto* controller = name.empty() ? child(map, "controller") : nullptr;
       const bool is_value =
           controller != nullptr && controller->entries.size() == 1 && nearest(first, keys).empty();
+      const auto* plants = name.empty() ? child(map, "plants") : nullptr;
+      const bool is_plant =
+          plants != nullptr && std::any_of(plants->entries.begin(), plants->entries.end(),
+                                           [&](const auto& entry) { return entry.key.text == first; });
       refuse(fmt::format("there is no '{}' in {}", first, name.empty() ? "the scenario" : name),
-             is_value ? fmt::format("of the controller's values write controller.{}.set.{}; {}",
-                                    controller->entries.front().key.text, rest, remedy)
-                      : remedy);
+             is_plant   ? fmt::format("it is a plant: --set plants.{}={}", override_.path, override_.value)
+             : is_value ? fmt::format("of the controller's values write controller.{}.set.{}; {}",
+                                      controller->entries.front().key.text, rest, remedy)
+                        : remedy);
     }
   }
 

@@ -58,6 +58,10 @@ std::vector<Candidate> candidates_for(const ParsedQuantity& present) {
         {written(std::round(number), unit), fmt::format("is {}, and a whole number is needed", is)});
   const auto kind = needs_unit(unit) ? fmt::format("is {} ({})", dimension_name(unit), is)
                                      : fmt::format("is {}, without a unit", is);
+  for (const auto& [small, large] : tried_units)
+    for (const auto other : {small, large})
+      if (needs_unit(unit) && other != unit && same_dimension(other, unit))
+        candidates.push_back({written(number, other), fmt::format("is {}, which is out of range", is)});
   for (const auto& [small, large] : tried_units) {
     const auto other = std::abs(number) < 10 ? small : large;
     if (needs_unit(other) ? same_dimension(other, unit) && needs_unit(unit) : !needs_unit(unit)) continue;

@@ -52,7 +52,13 @@ std::string with_decimal_point(std::string_view text) {
 void refuse_unit(const Text& text, const std::string& name, Findings& findings) {
   const auto quantity = parse_quantity(text.text);
   const auto pointed = with_decimal_point(text.text);
-  if (!pointed.empty())
+  const bool is_ratio = quantity->unit.starts_with(":");
+  if (is_ratio && parsed<double>(std::string_view(quantity->unit).substr(1)))
+    findings.add(text.place,
+                 fmt::format("{}: '{}' is a ratio of two numbers, and one is wanted", name, text.text),
+                 fmt::format("write {:.6g}",
+                             quantity->number / *parsed<double>(std::string_view(quantity->unit).substr(1))));
+  else if (!pointed.empty())
     findings.add(text.place, fmt::format("{}: '{}' has a decimal comma", name, text.text),
                  fmt::format("write {}", pointed));
   else

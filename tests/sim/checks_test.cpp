@@ -53,6 +53,31 @@ struct ChecksTest : testing::Test {
   std::unique_ptr<Checks> checks;
 };
 
+// What a check multiplies by a condition is judged only where that holds.
+TEST_F(ChecksTest, ACheckWhoseConditionNeverCameJudgedNothing) {
+  controller.values["step"] = 1;
+  controller.values["flag"] = 0;
+  add(scenario::Check::Kind::always, "", "(step == 2) * abs(error) <= 5");
+  add(scenario::Check::Kind::always, "", "flag * abs(error) <= 5");
+  add(scenario::Check::Kind::always, "", "(step == 1) * error <= 5");
+  add(scenario::Check::Kind::always, "", "error == 0");
+  add(scenario::Check::Kind::always, "", "2 * error <= 5");
+  start();
+  for (int i = 0; i < 3; ++i) sample(i * second, 0);
+  const auto doubts = [&] {
+    std::vector<std::string> all;
+    for (const auto& result : checks->results(10 * second)) all.push_back(result.doubt);
+    return all;
+  };
+  EXPECT_THAT(doubts(), testing::ElementsAre(
+                            "check 'the check' judged nothing: step == 2 was 0 at all 3 instants",
+                            "check 'the check' judged nothing: flag was 0 at all 3 instants", "", "", ""));
+  controller.values["step"] = 2;
+  controller.values["flag"] = 1;
+  sample(3 * second, 0);
+  EXPECT_THAT(doubts(), testing::Each(""));
+}
+
 TEST_F(ChecksTest, EachTellsTheWorstEventAndItsMargin) {
   add(scenario::Check::Kind::each, "cut", "abs(length - 800) <= 0.2").from = second;
   start();

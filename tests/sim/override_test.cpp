@@ -22,6 +22,13 @@ Scenario read(const std::string& text, const std::vector<Override>& overrides,
   return made;
 }
 
+TEST(Override, APlantWithoutItsSectionIsToldWhereItStands) {
+  std::vector<std::string> problems;
+  read(scenario, {{"axis.resolution", "1 um"}}, problems);
+  EXPECT_THAT(problems, ElementsAre(HasSubstr("there is no 'axis' in the scenario; it is a plant: --set "
+                                              "plants.axis.resolution=1 um")));
+}
+
 TEST(Override, MakesTheMapsOnItsWay) {
   std::vector<std::string> problems;
   const auto made = read(scenario,

@@ -60,11 +60,37 @@ TEST(WhyItFailed, AProgramThatWaitsIsNamedWithItsLineAndSinceWhen) {
                             "[(]AxisX.st_cntrev=1[)], since 0.0[0-9]+ s$"));
 }
 
+TEST(WhyItFailed, AProgramThatCameToItsEndIsNamed) {
+  const auto program = replaced(studies::tuning::program, "START AxisX\nMAIN:\nWAIT 1\nJUMP MAIN\n", "");
+  EXPECT_THAT(cause_of(program),
+              ContainsRegex("^because axis.mod came to its end, line 19, at 0.0[0-9]+ s$"));
+}
+
+TEST(WhyItFailed, AValueThatDoesNotFitItsVariableIsTold) {
+  const auto program = replaced(studies::tuning::program, "START AxisX\n",
+                                "AxisX:setpos = 300\ngbPhase = AxisX:setpos\nSTART AxisX\n");
+  EXPECT_THAT(cause_of(program), AllOf(HasSubstr("axis.mod:20: 300 does not fit into a variable of size B "
+                                                 "(-128..127), which keeps 44")));
+}
+
 // A loop's own pause is no waiting, however long it goes on.
 TEST(WhyItFailed, AnAxisWithoutLooponIsNamed) {
   const auto program =
       replaced(studies::tuning::program, "LOOPON AxisX\nWAIT AxisX:st_loopon\n", "; LOOPON AxisX\n");
   EXPECT_EQ(cause_of(program), "because AxisX is without LOOPON: no program closes its position loop");
+}
+
+TEST(WhyItFailed, AnAxisWithoutLooponComesBeforeItsWarnings) {
+  TestFolder folder;
+  std::ifstream shipped(std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/programs/flying_saw.mod");
+  const std::string program(std::istreambuf_iterator<char>(shipped), {});
+  folder.file("saw.mod", replaced(program, "LOOPON AxisX\nWAIT AxisX:st_loopon\n", ""));
+  const auto line = std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/new/flying_saw_qmove.yaml";
+  const auto file = folder.file("line.yaml", "extends: " + line.string() +
+                                                 "\nscene: {duration: 9 s}\n"
+                                                 "controller: {qmove: {tasks: [saw.mod]}}\n");
+  EXPECT_THAT(outcome_of(file).cause,
+              StartsWith("because AxisX is without LOOPON: no program closes its position loop"));
 }
 
 TEST(WhyItFailed, AStateThatStandsIsNamed) {
@@ -73,7 +99,9 @@ TEST(WhyItFailed, AStateThatStandsIsNamed) {
   const auto cause = cause_of(replaced(program, "WAIT 1\n", "IF gbPhase EQ 2\nSTART AxisX\nENDIF\nWAIT 1\n"),
                               replaced(replaced(studies::tuning::scenario, "duration: 1 s", "duration: 2 s"),
                                        "axis.position]", "axis.position, gbPhase]"));
-  EXPECT_THAT(cause, ContainsRegex("^because gbPhase stands at 3 since 0.0[0-9]+ s$"));
+  EXPECT_THAT(cause,
+              ContainsRegex(
+                  "^because gbPhase stands at 3 since 0.0[0-9]+ s; 2.CNT01 .axis.encoder. counted nothing$"));
 }
 
 TEST(WhyItFailed, PositiveFeedbackIsToldFromTheFirstSecond) {
@@ -103,6 +131,73 @@ TEST(WhyItFailed, ForwardAndBackwardSwappedAreTold) {
   EXPECT_THAT(outcome_of(swapped).cause,
               AllOf(StartsWith("because Axis went 1"), HasSubstr(" counts against its drive from "),
                     HasSubstr(": its forward output 2.OUT01 is wired to press.drive.backward")));
+}
+
+Outcome outcome_of_line(const std::string& name, const std::vector<scenario::Override>& set) {
+  return outcome_of(lines / name, set);
+}
+
+TEST(WhyItFailed, WhereNothingCutsWhatStandsIsToldFirst) {
+  EXPECT_THAT(outcome_of_line("flying_saw_qmove.yaml",
+                              {{"controller.qmove.set.slTravel", "700"}, {"scene.duration", "10 s"}})
+                  .cause,
+              AllOf(StartsWith("while "), HasSubstr("panel.too_long is on since "),
+                    HasSubstr("never seen on: saw.clamp (2.OUT02), saw.head.plunge (2.OUT03)")));
+}
+
+TEST(WhyItFailed, OfAMachineThatWorksNothingStands) {
+  const auto outcome = outcome_of_line("flying_saw_qmove.yaml",
+                                       {{"checks.cut length.at_least", "20"}, {"scene.duration", "12 s"}});
+  EXPECT_FALSE(outcome.passed());
+  EXPECT_EQ(outcome.cause, "");
+}
+
+TEST(WhyItFailed, AnAxisThatCountsAnotherWayThanTheMachineGoesIsTold) {
+  const std::vector<scenario::Override> one = {{"variables.tours", "1"}, {"scene.duration", "6 s"}};
+  auto scale = one;
+  scale.push_back({"plants.press.encoder.lines", "1000"});
+  EXPECT_THAT(outcome_of_line("vertical_press_qmove.yaml", scale).cause,
+              ContainsRegex("^because press at [0-9.]+ s: pulled_out; Axis counted [0-9.]+ where "
+                            "press.position went [0-9.]+ mm$"));
+  auto place = one;
+  place.push_back({"plants.press.start", "500 mm"});
+  EXPECT_THAT(outcome_of_line("vertical_press_qmove.yaml", place).cause,
+              ContainsRegex("^because press at [0-9.]+ s: pulled_out; Axis stood at 300 when it was driven "
+                            "first, and press.position at 5[0-9.]+ mm$"));
+}
+
+std::vector<std::string> warnings_of_watch(bool jumps) {
+  TestFolder folder;
+  std::ifstream shipped(std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/programs/press_watch.mod");
+  std::string program(std::istreambuf_iterator<char>(shipped), {});
+  folder.file("watch.mod", jumps ? program : replaced(program, "JUMP LOOK\n", ""));
+  const auto press = std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/programs/press.mod";
+  return outcome_of(
+             folder.file("line.yaml", "extends: " + (lines / "vertical_press_qmove.yaml").string() +
+                                          "\nvariables: {tours: 1}\nscene: {duration: 4 s}\nchecks: []\n"
+                                          "controller: {qmove: {tasks: [" +
+                                          press.string() + ", watch.mod]}}\n"))
+      .warnings;
+}
+
+TEST(WhyItFailed, ATaskThatEndsWhereItShouldGoOnIsAWarning) {
+  EXPECT_THAT(
+      warnings_of_watch(false),
+      testing::Contains(ContainsRegex("^watch.mod came to its end at 0.[0-9]+ s, line [0-9]+, and looks "
+                                      "after 2.INP03 .press.limit_min. no more$")));
+  EXPECT_THAT(warnings_of_watch(true), Not(testing::Contains(HasSubstr("watch.mod"))));
+}
+
+TEST(WhyItFailed, AZeroPulseOfAnotherEncoderIsAWarning) {
+  const auto warnings = [](const char* plug) {
+    return outcome_of_line("flying_saw_qmove.yaml", {{"wiring.INT1", plug}, {"scene.duration", "8.1 s"}})
+        .warnings;
+  };
+  EXPECT_THAT(
+      warnings("tube.wheel.index"),
+      testing::Contains("AxisX takes its zero pulse from tube.wheel.index (INT1), and counts saw.encoder "
+                        "(2.CNT01)"));
+  EXPECT_THAT(warnings("saw.encoder.index"), Not(testing::Contains(HasSubstr("zero pulse"))));
 }
 
 TEST(WhyItFailed, ALineThatIsRightGoesNowhereAstray) {

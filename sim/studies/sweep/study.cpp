@@ -99,6 +99,17 @@ void try_ends(const SweepAxis& axis, const PointQuestion& question, Problems& pr
   }
 }
 
+/// A sweep over a value that the program overwrites would be so many equal runs.
+void refuse_without_effect(const SweepAxis& axis, const PointQuestion& question, Problems& problems) {
+  const auto& parameter = axis.parameter;
+  const auto first = axis.is_range() ? number_text(parameter.low) : axis.values.front();
+  const auto last = axis.is_range() ? number_text(parameter.high) : axis.values.back();
+  refuse_overwritten(
+      parameter, first, last,
+      [&](const std::string& value) { return read_point(question, overrides_of({axis}, {value})).scenario; },
+      problems);
+}
+
 /// Nobody should have to know in which unit a number without one is read.
 bool says_its_unit(const SweepAxis& axis, const scenario::Scenario& scenario, Problems& problems) {
   auto known = axis.parameter;
@@ -134,6 +145,7 @@ void check_axes(SweepAxes& axes, const PointQuestion& question, Problems& proble
     const auto before = problems.size();
     present_value(parameter, scenario);
     if (has_own_dimension(parameter, scenario, problems)) try_ends(*axis, question, problems);
+    if (problems.size() == before) refuse_without_effect(*axis, question, problems);
     if (problems.size() == before) fill_axis(*axis, problems);
   }
 }

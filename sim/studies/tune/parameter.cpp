@@ -11,6 +11,7 @@
 #include "plants/plant.hpp"
 #include "sim/controllers/kinds.hpp"
 #include "sim/loop/controller_loader.hpp"
+#include "sim/loop/overwritten.hpp"
 #include "sim/scenario/units.hpp"
 
 namespace drycut::sim::studies {
@@ -236,6 +237,20 @@ void check_against_controller(TunedParameter& parameter, const scenario::Scenari
     const auto fault = value->misfit(upper ? parameter.high : parameter.low);
     const int column = upper ? parameter.high_column : parameter.low_column;
     if (fault) problems.push_back({parameter.option, 1, column, fault->what, fault->remedy});
+  }
+}
+
+void refuse_overwritten(const TunedParameter& parameter, const std::string& low, const std::string& high,
+                        const std::function<scenario::Scenario(const std::string& value)>& scenario_with,
+                        Problems& problems) {
+  const auto preset = preset_name(parameter.path);
+  if (!preset) return;
+  for (const auto& value : {low, high}) {
+    const auto told = loop::overwritten(scenario_with(value), preset->value);
+    if (told.empty()) continue;
+    problems.push_back({parameter.option, 1, 1, told,
+                        "take that line out of the program, or let it write only where the value is 0"});
+    return;
   }
 }
 

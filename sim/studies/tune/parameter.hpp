@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,6 +60,12 @@ std::optional<double> present_value(TunedParameter& parameter, const scenario::S
 /// Tells bounds that the controller's variable does not take: its range, its size, read-only.
 void check_against_controller(TunedParameter& parameter, const scenario::Scenario& scenario,
                               Problems& problems);
+
+/// Tells a value that the program overwrites before anything reads it, at one end of the range or the other:
+/// `scenario_with` reads the scenario with a value of it, in its unit.
+void refuse_overwritten(const TunedParameter& parameter, const std::string& low, const std::string& high,
+                        const std::function<scenario::Scenario(const std::string& value)>& scenario_with,
+                        Problems& problems);
 
 /// Point of the unit cube to values, integers rounded.
 Point from_unit(const TunedParameters& parameters, const std::vector<double>& unit);

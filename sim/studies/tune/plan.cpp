@@ -109,6 +109,15 @@ void check_parameter(TunedParameter& parameter, const Study& study, PresentValue
     if (&entry == &study.cases.front()) present = std::move(value);
     try_bounds(parameter, study, entry, problems);
     if (problems.size() == before) check_against_controller(parameter, scenario, problems);
+    if (problems.size() == before)
+      refuse_overwritten(
+          parameter, value_text(parameter, parameter.low), value_text(parameter, parameter.high),
+          [&](const std::string& number) {
+            auto overrides = study.set;
+            overrides.push_back({parameter.path, number});
+            return scenario::read_scenario_text(entry.text, entry.file, overrides, ignored);
+          },
+          problems);
   }
   if (problems.size() == told && parameter.integer &&
       (parameter.low != std::rint(parameter.low) || parameter.high != std::rint(parameter.high)))

@@ -151,6 +151,8 @@ TEST(Variables, ToldWhereTheyStand) {
            Case{"variables: {l: 800 mm}\n" + use + "${l}\n",
                 "1:16: variables.l is a length (800 mm); it is used as a time (at 3:13); write 800 ms"},
            Case{"variables: {l: 800 mm, bad: \"${l} + 1 s\"}\n", "1:16: variables.l is a length (800 mm); it is used as a time (at 1:37); write 800 ms"},
+           Case{"variables: {v: 90 m/s}\nplants: {web: {type: web, speed: \"${v}\"}}\n",
+                "1:16: variables.v is 90 m/s, which is out of range (at 2:35); write 90 m/min"},
            Case{"variables: {l: 800 mn}\n", "1:20: variables.l: unknown unit 'mn'"},
            Case{"variables: {2m: 2 m}\n", "1:13: '2m' is no name of a variable"},
            Case{"variables: {l: [1, 2]}\n", "1:16: variables.l must be a single value, not a list"},

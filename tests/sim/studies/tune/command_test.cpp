@@ -66,7 +66,8 @@ TEST_F(TuneCommand, ValuesThatTheProgramSetsStayUnderThatName) {
   std::string own = scenario;
   own.replace(own.find(", AxisX.feedfw: 900"), 19, "");
   test_folder.file("axis.yaml", own);
-  test_folder.file("axis.mod", "AxisX:feedfw = 1000\n" + std::string(program));
+  test_folder.file("axis.mod",
+                   "IF AxisX:feedfw EQ 0\nAxisX:feedfw = 1000\nENDIF\n" + std::string(program));
   options.vary = {feedfw + "=700..900"};
   ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_THAT(out, testing::StartsWith("The present values stay"));
@@ -177,6 +178,14 @@ TEST_F(TuneCommand, VariablesThatCannotBeVaried) {
     EXPECT_THAT(err, HasSubstr(told)) << vary;
     EXPECT_FALSE(fs::exists(folder / "out/patch.txt"));
   }
+}
+
+TEST_F(TuneCommand, AValueThatTheProgramOverwritesIsRefused) {
+  options.vary = {"controller.qmove.set.AxisX.toll=10..50"};
+  EXPECT_EQ(run(), cli::bad_input);
+  EXPECT_THAT(err,
+              HasSubstr("--vary:1:1: controller.qmove.set.AxisX.toll = 10 has no effect: the program writes "
+                        "100 at axis.mod:6; take that line out of the program"));
 }
 
 // A list's entry by its name is told as a path: it is nothing to paste.

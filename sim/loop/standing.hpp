@@ -1,0 +1,45 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/controller.hpp"
+#include "sim/loop/observer.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace drycut::sim::loop {
+
+/// Follows what is wired to the controller, from record instant to record instant: what never came, and what
+/// came and stays.
+class Standing : public Observer {
+ public:
+  Standing(const scenario::Scenario& scenario, devices::Controller& controller);
+
+  void sample(Time now) override;
+
+  /// What tells of a machine that stands at `now`, a phrase each: "2.CNT02 (tube.wheel) counted nothing",
+  /// "panel.too_long is on since 3.406 s", "never seen on: saw.clamp (2.OUT02)".
+  [[nodiscard]] std::vector<std::string> texts(Time now) const;
+
+ private:
+  struct Level {
+    std::string terminal;
+    std::string plug;
+    const bool* level;
+    bool last;
+    bool was_on;
+    std::optional<Time> changed = {};
+  };
+  struct Count {
+    std::string terminal;
+    std::string plug;
+    const devices::Counter* counter;
+    std::int64_t first;
+  };
+  std::vector<Level> lamps_;
+  std::vector<Level> outputs_;  ///< that move the machine
+  std::vector<Level> inputs_;   ///< limits apart, which a sound machine never reaches
+  std::vector<Count> counts_;
+};
+
+}  // namespace drycut::sim::loop

@@ -1,0 +1,81 @@
+#include "sim/loop/whereabouts.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/text.hpp"
+#include "sim/loop/consistency.hpp"
+
+namespace drycut::sim::loop {
+
+namespace {
+
+constexpr double told_scale = 0.1;  // of the way
+constexpr double told_place = 2;    // [mm], more than a play
+constexpr double enough_way = 10;   // [mm]
+constexpr double rounding = 0.1;    // [mm] a step of either and the time between two looks
+
+bool homes(devices::Controller& controller, const std::string& axis) {
+  for (const auto& program : controller.programs())
+    if (program_words(program).find("preset " + lower(axis)) != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace
+
+Whereabouts::Whereabouts(const scenario::Scenario& scenario, devices::Controller& controller, Names& names) {
+  for (auto& loop : controller.position_loops()) {
+    const auto posit = controller.find(loop.name + ".posit");
+    const auto decpt = controller.find(loop.name + ".decpt");
+    const auto* wire = loop.counter ? wire_at(scenario, controller, *loop.counter) : nullptr;
+    if (!posit || !decpt || wire == nullptr || homes(controller, loop.name)) continue;
+    const auto plant = wire->plug.text.substr(0, wire->plug.text.find('.')) + ".position";
+    const auto position = names.reading(plant);
+    if (!position || position->unit != "mm") continue;
+    axes_.push_back({loop.name, loop.drive, posit->read, decpt->read, plant, position->read});
+  }
+}
+
+double Whereabouts::unit_position(const Axis& axis) { return axis.posit() / std::pow(10.0, axis.decpt()); }
+
+void Whereabouts::sample(Time /*now*/) {
+  for (auto& axis : axes_) {
+    const double posit = unit_position(axis);
+    const double position = axis.position();
+    if (!axis.driven && axis.drive() != 0) {
+      axis.driven = true;
+      axis.began_posit = posit;
+      axis.began = position;
+    }
+    const double moved = position - axis.last_position;
+    const double went = posit - axis.last_posit;
+    axis.last_posit = posit;
+    axis.last_position = position;
+    if (!axis.driven) continue;
+    if (std::abs(moved) < rounding) {
+      if (std::abs(went) < told_place) continue;
+      axis.began_posit = posit;  // a program has set it while the machine stands
+      axis.began = position;
+      continue;
+    }
+    axis.went += std::abs(went);
+    axis.moved += std::abs(moved);
+  }
+}
+
+std::vector<std::string> Whereabouts::texts() const {
+  std::vector<std::string> texts;
+  for (const auto& axis : axes_) {
+    if (axis.moved < enough_way) continue;
+    if (std::abs(axis.went - axis.moved) > told_scale * axis.moved)
+      texts.push_back(fmt::format("{} counted {:.4g} where {} went {:.4g} mm", axis.name, axis.went,
+                                  axis.plant, axis.moved));
+    else if (std::abs(axis.began_posit - axis.began) > told_place)
+      texts.push_back(fmt::format("{} stood at {:.6g} when it was driven first, and {} at {:.6g} mm",
+                                  axis.name, axis.began_posit, axis.plant, axis.began));
+  }
+  return texts;
+}
+
+}  // namespace drycut::sim::loop

@@ -1,0 +1,46 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/controller.hpp"
+#include "sim/loop/names.hpp"
+#include "sim/loop/observer.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace drycut::sim::loop {
+
+/// Compares where axes believe to be with where their machine is: another scale, another place at the first
+/// command. Only of axes that count a machine with a position, and that no program homes.
+class Whereabouts : public Observer {
+ public:
+  Whereabouts(const scenario::Scenario& scenario, devices::Controller& controller, Names& names);
+
+  void sample(Time now) override;
+
+  /// What differs, a phrase each: "Axis counted 50 where press.position went 200 mm".
+  [[nodiscard]] std::vector<std::string> texts() const;
+
+ private:
+  struct Axis {
+    std::string name;
+    std::function<double()> drive;
+    std::function<double()> posit;  ///< in the axis' unit
+    std::function<double()> decpt;
+    std::string plant;                 ///< "press.position"
+    std::function<double()> position;  ///< [mm]
+    double last_posit = 0;
+    double last_position = 0;
+    double went = 0;   ///< by the axis' count, in its unit, without what a program set
+    double moved = 0;  ///< by the machine [mm], in the same time
+    bool driven = false;
+    double began_posit = 0;  ///< when it was driven first ...
+    double began = 0;        ///< ... and the machine then [mm]
+  };
+  [[nodiscard]] static double unit_position(const Axis& axis);
+
+  std::vector<Axis> axes_;
+};
+
+}  // namespace drycut::sim::loop
