@@ -12,6 +12,7 @@
 
 #include "sim/loop/simulation.hpp"
 #include "sim/report/film.hpp"
+#include "sim/report/gallery.hpp"
 #include "sim/report/part_meshes.hpp"
 #include "tests/sim/scenario/fake_plants.hpp"
 #include "tests/test_folder.hpp"
@@ -201,6 +202,8 @@ TEST(PicturesFilm, ThePressShowsItsQuotaAndHowFarItIsFromIt) {
     EXPECT_EQ(quota->tolerance, 3e-4);
   }
   EXPECT_GT(film.frames.back().quota->place, 0.1) << "it has been given one";
+  EXPECT_THAT(report::report_of(scenario, simulation, {}, {}).units,
+              ::testing::IsSupersetOf({"Axis counts in 0.01 mm.", "glMiss counts in 0.01 mm."}));
   EXPECT_FALSE(KnifeLine("frames: {every: 500 ms}").film().frames.at(0).quota);
 }
 
