@@ -168,6 +168,12 @@ void FlyingSaw::callouts(std::vector<Callout>& out) {
   if (clamp_.closed.level)
     for (const double side : {-1.0, 1.0})
       force("clamp", {x + side * vice_x, height + 0.05, 0.05}, {0, -clamp_.normal(), 0});
+  const double before = data_.station.place + data_.travel_min - saw_carriage / 2;
+  out.push_back({Callout::Kind::speed,
+                 web_.data().section == "tube" ? "tube" : "web",
+                 {before, height + 0.01, 0},
+                 {web_.material().speed, 0, 0}});
+  out.push_back({Callout::Kind::speed, "carriage", {x, -0.09, 0.2}, {carriage().speed, 0, 0}});
 }
 
 }  // namespace drycut::plants

@@ -58,6 +58,7 @@ class LinearAxis : public Plant, public TellsMotorLoad {
   std::vector<DriveOfPlant> drives() override;
   [[nodiscard]] MotorLoad motor_load(double h) const override;
   std::vector<Part> parts() override;
+  void callouts(std::vector<Callout>& out) override;
   Parameters live_parameters() override;
   void parameters_changed() override;
 

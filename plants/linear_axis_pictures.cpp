@@ -27,6 +27,22 @@ double carriage_length(const LinearAxisData& data) {
 double size_factor(const LinearAxisData& data) { return carriage_length(data) / 0.16; }
 double middle(const LinearAxisData& data) { return (data.travel_min + data.travel_max) / 2; }
 
+// The play is far too small to be seen: nut and flanks stand once more on the carriage, with it enlarged.
+constexpr double least_play = 1e-6;  // [m]: less is not shown
+constexpr double nut_length = 0.05;  // against a carriage of 160 mm [m]
+constexpr double flank = 0.018;
+constexpr double flank_height = 0.08;
+
+double play_of(const LinearAxisData& data) { return data.gear.backlash * data.lead / units::turn; }
+
+/// How much larger the play is drawn: 1, 2, 5, 10 ... so that it takes up to half of the carriage.
+double enlargement(const LinearAxisData& data) {
+  const double most = 0.5 * carriage_length(data) / play_of(data);
+  const double decade = std::pow(10, std::floor(std::log10(most)));
+  const double digit = most / decade;
+  return std::max(1.0, decade * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1));
+}
+
 }  // namespace
 
 Pose LinearAxis::base(double carrier_position) const {
@@ -66,6 +82,7 @@ struct LinearAxis::Picture : Assembly {
     if (data_.tool == "blade") add_blade();
     if (data_.tool == "guide") add_guide();
     if (data_.tool == "pen") add_pen();
+    if (play_of(data_) > least_play) add_play();
   }
 
   void add_beam();
@@ -74,6 +91,7 @@ struct LinearAxis::Picture : Assembly {
   void add_blade();
   void add_guide();
   void add_pen();
+  void add_play();
   /// Turns with `angle` about the screw's axis.
   template <class Angle>
   [[nodiscard]] Frame turning(double along, Angle angle) const {
@@ -185,6 +203,45 @@ void LinearAxis::Picture::add_pen() {
     on([&ink = axis_.ink_, i] { return i < ink.size() ? PartPose(at(ink[i])) : PartPose({}, false); });
     box(fmt::format("ink {}", i + 1), {1.4e-3, 1.4e-3, 1.4e-3}, ink_look, {});
   }
+}
+
+/// The carriage's two flanks and the nut between them. A flank that the nut pushes is red.
+void LinearAxis::Picture::add_play() {
+  const double y = (0.132 + flank_height / 2) * k;
+  const double z = 0.055 * k;
+  for (const double side : {-1.0, 1.0}) {
+    for (const bool touching : {false, true}) {
+      on([carriage = carriage_, axis = &axis_, side, touching, unit = k] {
+        const double half = play_of(axis->data_) / 2;
+        const double from_middle = enlargement(axis->data_) * half + (nut_length + flank) / 2 * unit;
+        const bool touches = side * axis->screw_.ahead() >= half;
+        return PartPose(carriage().pose * at(side * from_middle, 0, 0), touches == touching);
+      });
+      box(numbered(touching ? "pushed flank" : "flank", side), {flank * k, flank_height * k, 0.04 * k},
+          touching ? looks::red : looks::moving, at(0, y, z));
+    }
+  }
+  on([carriage = carriage_, axis = &axis_] {
+    const double half = play_of(axis->data_) / 2;
+    const double ahead = std::clamp(axis->screw_.ahead(), -half, half);
+    return carriage().pose * at(enlargement(axis->data_) * ahead, 0, 0);
+  });
+  box("nut", {nut_length * k, 0.75 * flank_height * k, 0.04 * k}, looks::brass, at(0, y, z));
+}
+
+void LinearAxis::callouts(std::vector<Callout>& out) {
+  const double play = play_of(data_);
+  if (play <= least_play) return;
+  const double k = size_factor(data_);
+  const double scale = enlargement(data_);
+  const double half = scale * play / 2 + nut_length / 2 * k;
+  const Pose carriage = base(carrier_position()) * at(this->carriage().position, 0, 0);
+  const auto end = [&](double side) {
+    return (carriage * at(side * half, (0.14 + flank_height) * k, 0.055 * k)).position;
+  };
+  const auto drawn = scale > 1 ? fmt::format("drawn x{:g}", scale) : std::string("to scale");
+  out.push_back(
+      {Callout::Kind::length, fmt::format("play {:.3g} mm, {}", play * 1e3, drawn), end(-1), end(1)});
 }
 
 std::vector<Part> LinearAxis::parts() { return Picture(*this).take(); }

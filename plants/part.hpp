@@ -51,11 +51,18 @@ struct Part {
 
 /// What a picture points out on the machine at this instant.
 struct Callout {
-  enum class Kind { length, force };
+  enum class Kind { length, force, speed };
   Kind kind = Kind::length;
-  std::string text;                      ///< of a length: "800.0 mm"; of a force: what it is, "cut"
-  std::array<double, 3> at = {0, 0, 0};  ///< one end of the length, or where the force acts [m, world]
-  std::array<double, 3> to = {0, 0, 0};  ///< the other end [m, world], or the force [N]
+  std::string text;  ///< a length: "800.0 mm"; a force: what it is, "cut"; a speed: what moves, "tube"
+  std::array<double, 3> at = {0, 0, 0};  ///< one end of the length, or where the arrow begins [m, world]
+  std::array<double, 3> to = {0, 0, 0};  ///< the other end [m, world], the force [N], the speed [m/s]
+};
+
+/// Where an axis is to go, as a picture shows it: a line across it [m, world].
+struct QuotaLine {
+  std::array<double, 3> left = {0, 0, 0};
+  std::array<double, 3> right = {0, 0, 0};
+  double miss = 0;  ///< where the axis is now less the quota [m]
 };
 
 }  // namespace drycut::plants

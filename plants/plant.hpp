@@ -168,6 +168,9 @@ class Plant {
   virtual void parameters_changed() {}
   /// Adds what a picture points out now; called only when a frame is taken.
   virtual void callouts(std::vector<Callout>& out) { (void)out; }
+  /// Where a picture shows the quota that the machine is driven to [m, along its axis]; none if it has no
+  /// such line.
+  [[nodiscard]] virtual std::optional<QuotaLine> quota_line(double /*quota*/) const { return {}; }
 
   [[nodiscard]] bool has_events() const { return !events_.empty(); }
   [[nodiscard]] std::vector<Event> take_events() { return std::exchange(events_, {}); }

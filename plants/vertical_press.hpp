@@ -60,6 +60,7 @@ class VerticalPress : public Plant, public TellsMotorLoad {
   std::vector<DriveOfPlant> drives() override;
   [[nodiscard]] MotorLoad motor_load(double h) const override;
   std::vector<Part> parts() override;
+  [[nodiscard]] std::optional<QuotaLine> quota_line(double quota) const override;
   Parameters live_parameters() override;
   void parameters_changed() override;
 

@@ -103,13 +103,16 @@ void VerticalPress::Picture::add_drive() {
   on(shaft);
   box("encoder mark", {0.03, 0.006, 0.008}, looks::red, at(0.018, 0.493, 0));
 
-  // A lamp on the crown: red while the brake holds, else green.
+  // A lamp on the crown: red while the brake holds, else green. Low, so that a close-up of the ram has it
+  // too.
+  on(table_);
+  rod("lamp cap", 0.13, 0.02, looks::dark, at(-0.36, top + 0.11, 0.1) * upright);
   for (const bool lamp : {false, true}) {
     on([table = table, lamp, &drive = press_.drive_] {
       return PartPose(table, lamp == drive.brake().released());
     });
-    box(lamp ? "lamp released" : "lamp brake", {0.06, 0.06, 0.02}, lamp ? looks::green : looks::red,
-        at(-0.42, top - crown_height / 2, 0.2));
+    rod(lamp ? "lamp released" : "lamp brake", 0.12, 0.1, lamp ? looks::green : looks::red,
+        at(-0.36, top + 0.05, 0.1) * upright);
   }
 }
 
@@ -167,5 +170,13 @@ void VerticalPress::Picture::add_load() {
 }
 
 std::vector<Part> VerticalPress::parts() { return Picture(*this).take(); }
+
+std::optional<QuotaLine> VerticalPress::quota_line(double quota) const {
+  constexpr double before_tool = 0.17;
+  const auto end = [&](double side) {
+    return std::array{data_.place_x + side * upright_x, data_.place_y + quota, data_.place_z + before_tool};
+  };
+  return QuotaLine{end(-1), end(1), screw_.slide.position - quota};
+}
 
 }  // namespace drycut::plants

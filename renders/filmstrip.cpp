@@ -16,6 +16,8 @@ constexpr int kFrameWidth = 320;
 constexpr int kGap = 6;
 constexpr int kLabelHeight = 30;
 constexpr double kLabelSize = 15;
+constexpr int kLabelLine = 19;  ///< more for each further line of words
+constexpr std::size_t kMostLabelLines = 4;
 
 }  // namespace
 
@@ -29,7 +31,13 @@ void draw_filmstrip(const std::vector<StripFrame>& frames, int caption_height,
   const int frame_height = std::max(1, static_cast<int>(std::lround(shown * scale)));
   const int count = static_cast<int>(frames.size());
   const int width = count * kFrameWidth + (count + 1) * kGap;
-  const int height = frame_height + kGap + kLabelHeight;
+  std::vector<std::vector<std::string>> labels;
+  int most = 1;
+  for (const StripFrame& frame : frames) {
+    labels.push_back(wrapped_text(one_line(frame.label), kLabelSize, kFrameWidth, kMostLabelLines));
+    most = std::max(most, static_cast<int>(labels.back().size()));
+  }
+  const int height = frame_height + kGap + kLabelHeight + (most - 1) * kLabelLine;
 
   const CairoSurface strip = cairo_surface(width, height);
   const Cairo page = cairo_pen(strip.get());
@@ -53,10 +61,12 @@ void draw_filmstrip(const std::vector<StripFrame>& frames, int caption_height,
     cairo_pattern_set_extend(cairo_get_source(page.get()), CAIRO_EXTEND_PAD);
     cairo_paint(page.get());
     cairo_restore(page.get());
-    const std::string label = fitted_text(page.get(), one_line(frame.label), kFrameWidth);
     cairo_set_source_rgb(page.get(), 0.12, 0.16, 0.20);
-    write_text(page.get(), left + (kFrameWidth - text_width(page.get(), label)) / 2,
-               kGap + frame_height + 0.68 * kLabelHeight, label);
+    double baseline = kGap + frame_height + 0.68 * kLabelHeight;
+    for (const std::string& line : labels[static_cast<std::size_t>(i)]) {
+      write_text(page.get(), left + (kFrameWidth - text_width(page.get(), line)) / 2, baseline, line);
+      baseline += kLabelLine;
+    }
   }
   Image picture(width, height);
   copy_rows(strip.get(), height, picture, 0);

@@ -36,6 +36,7 @@ constexpr double kClear = 14;  ///< between the outermost points and the axes
 constexpr double kLargestDot = 7;
 constexpr double kSmallestDot = 1.5;
 constexpr double kRow = 24;             ///< of the legend
+constexpr double kNextLine = 18;        ///< of words there that take more than one
 constexpr std::size_t kMostPieces = 4;  ///< of a level's line: more are noise
 
 /// Half-way to the neighbour on either side; at the ends no further.
@@ -214,7 +215,10 @@ class MapPainter : Paper {
     const double room = map_.width - left - sample - 16;
     double y = area_.top + 10;
     const auto words = [&](const std::string& label) {
-      text(left + sample + 8, y, fitted(label, kTextSize, room), Align::left, kTextSize);
+      constexpr std::size_t most_lines = 3;
+      y -= kNextLine;
+      for (const auto& line : wrapped_text(one_line(label), kTextSize, room, most_lines))
+        text(left + sample + 8, y += kNextLine, line, Align::left, kTextSize);
       y += kRow;
     };
     for (std::size_t i = 0; i < map_.regions.size(); ++i) {

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -11,6 +13,7 @@
 #include "renders/camera.hpp"
 #include "renders/geometry.hpp"
 #include "renders/label_room.hpp"
+#include "renders/quota_gauge.hpp"
 
 namespace drycut::renders {
 namespace {
@@ -20,6 +23,8 @@ constexpr double kFinest = 8;   ///< length of the lines of a trail, for a film 
 constexpr int kMostLines = 12;  ///< from one known place of the tip to the next
 constexpr double kLongestArrow = 0.18;  ///< of the picture's height, for the film's largest force
 constexpr double kShortestArrow = 0.04;
+constexpr double kFastestArrow = 0.25;  ///< for the film's highest speed; others in proportion
+constexpr double kSeenArrow = 2;        ///< what is shorter is a ring [pixels]
 
 using Point = std::array<double, 2>;  // pixels
 
@@ -98,25 +103,62 @@ std::optional<Marked> draw_length(const Sheet& sheet, const Callout& callout) {
                 std::hypot(to[0] - from[0], to[1] - from[1])};
 }
 
-std::optional<Marked> draw_force(const Sheet& sheet, const Callout& callout, double largest) {
-  const double force = callout.to.norm();
-  if (force < 1e-3 * largest || !sheet.before_eye(callout.at)) return std::nullopt;
-  const double reach = (callout.at - sheet.camera.eye).norm();
-  const Point from = sheet.at(callout.at);
-  const Point ahead = sheet.at(callout.at + (0.02 * reach / force) * callout.to);
-  const double way = std::hypot(ahead[0] - from[0], ahead[1] - from[1]);
-  if (way < 1e-6) return std::nullopt;
-  const Point unit = {(ahead[0] - from[0]) / way, (ahead[1] - from[1]) / way};
-  const double long_ =
-      sheet.height * (kShortestArrow + (kLongestArrow - kShortestArrow) * std::sqrt(force / largest));
-  const Point to = {from[0] + long_ * unit[0], from[1] + long_ * unit[1]};
-  const double head = 9 * sheet.scale;
+/// The path of an arrow from `at` along `way`, so many pixels long; its end. None where it points at the eye.
+std::optional<Point> arrow(const Sheet& sheet, const Vec3& at, const Vec3& way, double pixels) {
+  if (!sheet.before_eye(at)) return std::nullopt;
+  const double reach = (at - sheet.camera.eye).norm();
+  const Point from = sheet.at(at);
+  const Point ahead = sheet.at(at + 0.02 * reach * way.normalized());
+  const double seen = std::hypot(ahead[0] - from[0], ahead[1] - from[1]);
+  if (seen < 1e-6) return std::nullopt;
+  const Point unit = {(ahead[0] - from[0]) / seen, (ahead[1] - from[1]) / seen};
+  const Point to = {from[0] + pixels * unit[0], from[1] + pixels * unit[1]};
+  const double head = std::min(9 * sheet.scale, pixels);
   line(sheet, from, to);
   for (const double side : {-0.6, 0.6})
     line(sheet, {to[0] - head * (unit[0] + side * unit[1]), to[1] - head * (unit[1] - side * unit[0])}, to);
+  return to;
+}
+
+std::optional<Marked> draw_force(const Sheet& sheet, const Callout& callout, double largest) {
+  const double force = callout.to.norm();
+  if (force < 1e-3 * largest) return std::nullopt;
+  const double pixels =
+      sheet.height * (kShortestArrow + (kLongestArrow - kShortestArrow) * std::sqrt(force / largest));
+  const auto to = arrow(sheet, callout.at, callout.to, pixels);
+  if (!to) return std::nullopt;
   stroke(sheet, 1.0, 0.25, 0.18);
-  return Marked{{to[0] + 22 * sheet.scale * unit[0], to[1] + 14 * sheet.scale * unit[1]},
+  const Point from = sheet.at(callout.at);
+  const Point unit = {((*to)[0] - from[0]) / pixels, ((*to)[1] - from[1]) / pixels};
+  return Marked{{(*to)[0] + 22 * sheet.scale * unit[0], (*to)[1] + 14 * sheet.scale * unit[1]},
                 fmt::format("{} {:.0f} N", callout.text, force)};
+}
+
+/// As long as what moves is fast, so that two arrows can be compared, with words below; a ring where it is
+/// too short. Nothing else is written on it.
+std::optional<Marked> draw_speed(const Sheet& sheet, const Callout& callout, double fastest) {
+  if (!sheet.before_eye(callout.at)) return std::nullopt;
+  const double speed = callout.to.norm();
+  const Point from = sheet.at(callout.at);
+  const double pixels = speed > 0 ? sheet.height * kFastestArrow * speed / fastest : 0;
+  std::optional<Point> end;
+  if (pixels > kSeenArrow) end = arrow(sheet, callout.at, callout.to, pixels);
+  if (!end) cairo_arc(sheet.pen, from[0], from[1], 4 * sheet.scale, 0, 2 * std::numbers::pi), end = from;
+  stroke(sheet, 0.45, 0.95, 0.35);
+  const double half = 6 * sheet.scale;  // of its head
+  sheet.room.take({std::min(from[0], (*end)[0]) - half, std::min(from[1], (*end)[1]) - half,
+                   std::max(from[0], (*end)[0]) + half, std::max(from[1], (*end)[1]) + half});
+  const double shown = 60 * speed;  // [m/min]
+  const auto words =
+      shown < 0.05 ? callout.text + " stands" : fmt::format("{} {:.1f} m/min", callout.text, shown);
+  return Marked{{(from[0] + (*end)[0]) / 2, (from[1] + (*end)[1]) / 2 + 16 * sheet.scale}, words};
+}
+
+Marked draw_quota(const Sheet& sheet, const Quota& quota) {
+  const Point right = sheet.at(quota.right);
+  line(sheet, sheet.at(quota.left), right);
+  stroke(sheet, 1.0, 0.85, 0.20);
+  return {right, fmt::format("quota {:.2f} mm", quota.place * 1e3)};
 }
 
 /// Where a tip was at a time [s].
@@ -206,9 +248,11 @@ Overlays::Overlays(const Film& film, int caption_height)
       tiles_(tiles_of(1 + film.beside.size(), film.width, height_)),
       empty_(!film.trails && film.live.empty() && film.beside.empty()) {
   for (const Frame& frame : film.frames) {
-    empty_ = empty_ && frame.callouts.empty();
-    for (const Callout& callout : frame.callouts)
+    empty_ = empty_ && frame.callouts.empty() && !frame.quota;
+    for (const Callout& callout : frame.callouts) {
       if (callout.kind == Callout::Kind::force) largest_ = std::max(largest_, callout.to.norm());
+      if (callout.kind == Callout::Kind::speed) fastest_ = std::max(fastest_, callout.to.norm());
+    }
   }
 }
 
@@ -226,6 +270,7 @@ void Overlays::draw(std::size_t frame, Image& image) const {
     cairo_restore(pen.get());
   }
   live_.draw(pen.get(), film_.frames[frame].time_s, height_);
+  if (film_.frames[frame].quota) draw_gauge(pen.get(), film_, *film_.frames[frame].quota);
   copy_rows(surface.get(), height_, image, 0);
 }
 
@@ -233,10 +278,14 @@ void Overlays::draw_view(std::size_t frame, std::size_t view, cairo_t* pen) cons
   const Tile& tile = tiles_[view];
   const Camera camera = camera_of(film_, frame, view);
   LabelRoom room(tile.width, tile.height);
-  Box live = live_.box(height_);
-  live.left -= tile.left, live.right -= tile.left;
-  live.top -= tile.top, live.bottom -= tile.top;
-  room.take(live);
+  const auto keep_free = [&](Box box) {
+    box.left -= tile.left, box.right -= tile.left;
+    box.top -= tile.top, box.bottom -= tile.top;
+    room.take(box);
+  };
+  keep_free(live_.box(height_));
+  const std::optional<Quota>& quota = film_.frames[frame].quota;
+  if (quota) keep_free(gauge_box(film_));
   const Sheet sheet = {pen, camera, tile.width, tile.height, picture_scale(film_.height), room};
   if (tiles_.size() > 1) {
     const std::string& name = view == 0 ? film_.camera_name : film_.beside[view - 1].name;
@@ -256,8 +305,14 @@ void Overlays::draw_view(std::size_t frame, std::size_t view, cairo_t* pen) cons
       draw_all(Callout::Kind::length, [&](const Callout& one) { return draw_length(sheet, one); });
   const auto forces =
       draw_all(Callout::Kind::force, [&](const Callout& one) { return draw_force(sheet, one, largest_); });
+  const auto speeds =
+      draw_all(Callout::Kind::speed, [&](const Callout& one) { return draw_speed(sheet, one, fastest_); });
+  if (quota && sheet.before_eye(quota->left) && sheet.before_eye(quota->right)) {
+    const Marked one = draw_quota(sheet, *quota);
+    plate(sheet, one.at, one.words, one.length);
+  }
   // A force lasts a moment: its words have the first choice.
-  for (const auto* marked : {&forces, &lengths})
+  for (const auto* marked : {&forces, &speeds, &lengths})
     for (const Marked& one : *marked) plate(sheet, one.at, one.words, one.length);
 }
 

@@ -10,8 +10,8 @@
 
 namespace drycut::renders {
 
-/// What is written over the picture of the machine: trails of tips, lengths, forces, and the live curves in
-/// the corner. Nothing of it hides behind parts, and no words cover others.
+/// What is written over the picture of the machine: trails of tips, lengths, forces, speeds, the quota with
+/// its gauge, and the live curves in the corner. Nothing of it hides behind parts, and no words cover others.
 class Overlays {
  public:
   /// For a picture whose lowest `caption_height` pixels belong to the caption. `film` must outlive it.
@@ -28,6 +28,7 @@ class Overlays {
   int height_;               ///< of the picture of the machine [pixels]
   std::vector<Tile> tiles_;  ///< of the cameras
   double largest_ = 0;       ///< of all forces of the film [N]
+  double fastest_ = 0;       ///< of all its speeds [m/s]
   bool empty_ = true;
 };
 

@@ -52,13 +52,22 @@ struct CaptionItem {
   std::optional<bool> lamp = {};  ///< a lamp in place of the value: on or off
 };
 
-/// Something pointed out in the picture: a length between two points, or a force.
+/// Something pointed out in the picture: a length between two points, a force, or a speed.
 struct Callout {
-  enum class Kind { length, force };
+  enum class Kind { length, force, speed };
   Kind kind = Kind::length;
-  std::string text;     ///< "800.0 mm"; of a force: what it is
-  Vec3 at = {0, 0, 0};  ///< one end of the length, or where the force acts [m]
-  Vec3 to = {0, 0, 0};  ///< the other end [m], or the force [N]
+  std::string text;     ///< a length: "800.0 mm"; a force: what it is; a speed: what moves
+  Vec3 at = {0, 0, 0};  ///< one end of the length, or where the arrow begins [m]
+  Vec3 to = {0, 0, 0};  ///< the other end [m], the force [N], the speed [m/s]
+};
+
+/// Where an axis is to go: a line across it, and how far off it is.
+struct Quota {
+  Vec3 left = {0, 0, 0};   ///< ends of the line [m]
+  Vec3 right = {0, 0, 0};  ///< the one with the words
+  double place = 0;        ///< [m]
+  double miss = 0;         ///< where the axis is less that [m]
+  double tolerance = 0;    ///< on either side [m], > 0
 };
 
 /// A channel that runs along in the corner of the picture.
@@ -82,6 +91,7 @@ struct Frame {
   std::vector<Waypoint> before = {};  ///< since the frame before, those of each part in order of time
   std::vector<CaptionItem> caption;
   std::vector<Callout> callouts;
+  std::optional<Quota> quota = {};
 };
 
 struct Camera {

@@ -69,4 +69,22 @@ std::string fitted_text(std::string text, double font_size, double room, bool bo
   return fitted_text(measure.pen.get(), std::move(text), room);
 }
 
+std::vector<std::string> wrapped_text(const std::string& text, double font_size, double room,
+                                      std::size_t most_lines) {
+  std::vector<std::string> lines;
+  std::size_t begin = 0;
+  while (lines.size() + 1 < most_lines && text_width(text.substr(begin), font_size) > room) {
+    std::size_t end = text.find(' ', begin);
+    if (end == std::string::npos) break;
+    for (std::size_t next = end; next != std::string::npos; next = text.find(' ', next + 1)) {
+      if (text_width(text.substr(begin, next - begin), font_size) > room) break;
+      end = next;
+    }
+    lines.push_back(fitted_text(text.substr(begin, end - begin), font_size, room));
+    begin = end + 1;
+  }
+  lines.push_back(fitted_text(text.substr(begin), font_size, room));
+  return lines;
+}
+
 }  // namespace drycut::renders

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "sim/scenario/units.hpp"
+
 namespace drycut::sim::loop {
 
 namespace {
@@ -26,6 +28,8 @@ class Binder {
     for (const auto& name : pictures_.live) add_channel(name);
     Captions captions;
     for (const auto* names : {&pictures_.caption, &pictures_.lamps}) add_captions(*names, captions);
+    check_units();
+    if (pictures_.quota) captions.quota = quota(*pictures_.quota);
     return captions;
   }
 
@@ -71,6 +75,45 @@ class Binder {
       captions.slots.push_back(slot);
       captions.units.push_back(lookup_.watch.unit(name.text));
     }
+  }
+
+  void check_units() {
+    const auto is_axis = [&](const std::string& name) {
+      const auto names = lookup_.names.reading_names();
+      return std::any_of(names.begin(), names.end(),
+                         [&](const auto& reading) { return reading.starts_with(name + "."); });
+    };
+    for (const auto& [of, is] : pictures_.units) {
+      if (lookup_.watch.slot(of.text) == nullptr && !is_axis(of.text))
+        fault(of.place, fmt::format("pictures.units: there is no axis and no channel '{}'", of.text),
+              lookup_.names.suggest_reading(of.text));
+      if (!scenario::is_unit(is.unit) || is.unit.empty() || !(is.number > 0))
+        fault(is.place, fmt::format("pictures.units: {} is no unit's size", of.text),
+              "write what 1 is of a known unit: 0.01 mm");
+    }
+  }
+
+  Captions::Quota quota(const scenario::PicturesSection::Quota& wanted) {
+    Captions::Quota quota;
+    for (const auto& [name, plant] : lookup_.plants)
+      if (name == wanted.plant.text && plant->quota_line(0)) quota.plant = plant;
+    if (quota.plant == nullptr)
+      fault(wanted.plant.place, fmt::format("'{}' is no plant that shows a quota", wanted.plant.text),
+            "name one of type vertical_press");
+    quota.slot = lookup_.watch.slot(wanted.at.text);
+    if (quota.slot == nullptr) {
+      no_channel(wanted.at);
+      return {};
+    }
+    std::string unit = lookup_.watch.unit(wanted.at.text);
+    double number = 1;
+    if (const auto own = pictures_.own_unit(wanted.at.text, unit)) number = own->number, unit = own->unit;
+    if (scenario::is_unit(unit) && scenario::same_dimension(unit, "mm"))
+      quota.metres = scenario::to_si(number, unit);
+    else
+      fault(wanted.at.place, fmt::format("pictures.quota.at: {} is no length", wanted.at.text),
+            fmt::format("name a position, or say what 1 is: units: {{{}: 0.01 mm}}", wanted.at.text));
+    return quota;
   }
 
   void add_plot(const scenario::PlotRequest& plot) {

@@ -25,6 +25,13 @@ struct Lookup {
 struct Captions {
   std::vector<const double*> slots;
   std::vector<std::string> units;
+  /// Where the plant is to go, in a unit of so many metres; no plant: nothing is drawn.
+  struct Quota {
+    const plants::Plant* plant = nullptr;
+    const double* slot = nullptr;
+    double metres = 1;
+  };
+  Quota quota = {};
 };
 
 /// Adds to the recording what is to be recorded, then what the pictures need. What is not there, and what in

@@ -49,6 +49,7 @@ Snapshot* Shutter::hold(Time now) {
   auto& shot = held_.back();
   shot.caption.clear();
   shot.callouts.clear();
+  shot.quota.reset();
   return &shot;
 }
 

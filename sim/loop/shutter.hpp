@@ -18,6 +18,11 @@ struct Snapshot {
   std::vector<plants::PartPose> poses;  ///< of all plants, in order
   std::vector<double> caption;          ///< one a caption channel, then one a lamp
   std::vector<plants::Callout> callouts;
+  struct Quota {
+    plants::QuotaLine line;
+    double place = 0;  ///< [m]
+  };
+  std::optional<Quota> quota;
   std::vector<PoseKey> between;  ///< since the frame before, that of each part in order of time
   std::vector<double> turned;    ///< since then, one a part with a pitch [rad]
 };

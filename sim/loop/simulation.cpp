@@ -291,6 +291,8 @@ void Simulation::snapshot() {
   watch_->update();
   for (auto& plant : plants_) plant->callouts(shot->callouts);
   for (const auto* slot : captions_.slots) shot->caption.push_back(*slot);
+  if (const auto& [plant, slot, metres] = captions_.quota; plant != nullptr)
+    shot->quota = {plant->quota_line(*slot * metres).value(), *slot * metres};
 }
 
 std::vector<std::optional<Strobe>> Simulation::strobes() const {

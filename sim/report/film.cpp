@@ -71,6 +71,12 @@ std::string caption_number(double number, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
 }
 
+/// A number of which 1 is that much, with the digits that 1 has: 30000 of 0.01 mm is 300.00 mm.
+std::string caption_number(double number, const scenario::Quantity& one) {
+  const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(one.number) - 1e-9)), 0, 6);
+  return fmt::format("{:.{}f} {}", number * one.number + 0.0, digits, one.unit);
+}
+
 /// The film as the camera sees it: of one plant only its own parts, or one part, unless it shows the whole
 /// line. A camera that goes along needs no room for what the machine does later.
 renders::Film shown(const renders::Film& film, const std::string& camera, bool goes_along) {
@@ -89,9 +95,13 @@ std::vector<renders::Callout> chosen_callouts(const scenario::PicturesSection::O
   std::vector<renders::Callout> chosen;
   for (const auto& [kind, text, at, to] : callouts) {
     const bool length = kind == plants::Callout::Kind::length;
-    if (length ? !overlays.lengths : !overlays.forces) continue;
-    chosen.push_back({length ? renders::Callout::Kind::length : renders::Callout::Kind::force, text,
-                      renders::vec(at), renders::vec(to)});
+    const bool force = kind == plants::Callout::Kind::force;
+    if (length ? !overlays.lengths : force ? !overlays.forces : !overlays.speeds) continue;
+    using Kind = renders::Callout::Kind;
+    chosen.push_back({length  ? Kind::length
+                      : force ? Kind::force
+                              : Kind::speed,
+                      text, renders::vec(at), renders::vec(to)});
   }
   return chosen;
 }
@@ -180,13 +190,19 @@ renders::Film film_of(const scenario::Scenario& scenario, const loop::Simulation
       if (!film.frames.empty()) frame.before.push_back({key.part, seconds(key.time), placement(key.pose)});
     frame.caption = film_caption(scenario.pictures, simulation.frames_event(), frame.time_s);
     const auto& numbers = scenario.pictures.caption;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      frame.caption.push_back(
-          {numbers[i].text, caption_number(shot.caption[i], simulation.caption_units()[i])});
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const auto& unit = simulation.caption_units()[i];
+      const auto own = scenario.pictures.own_unit(numbers[i].text, unit);
+      frame.caption.push_back({numbers[i].text, own ? caption_number(shot.caption[i], *own)
+                                                    : caption_number(shot.caption[i], unit)});
+    }
     for (std::size_t i = numbers.size(); i < shot.caption.size(); ++i)
       frame.caption.push_back({scenario.pictures.lamps[i - numbers.size()].text, "", shot.caption[i] != 0});
     if (flickers) frame.caption.push_back(strobe_caption(strobes[film.frames.size()]));
     frame.callouts = chosen_callouts(scenario.pictures.overlays, shot.callouts);
+    if (const auto& quota = shot.quota)
+      frame.quota = {renders::vec(quota->line.left), renders::vec(quota->line.right), quota->place,
+                     quota->line.miss, scenario.pictures.quota->tolerance};
     film.frames.push_back(std::move(frame));
   }
   film.follow = part_number(film, scenario.pictures.follow.text);

@@ -138,8 +138,9 @@ renders::ReportTable controller_table(loop::Simulation& simulation) {
 
 std::string units_note(double simulated) { return fmt::format("{:g} s", simulated); }
 
-/// The units of the device in which something was recorded, explained.
-std::vector<std::string> units_explained(const loop::Recording& recording) {
+/// The units of the device in which something was recorded, explained; how large the user's own are.
+std::vector<std::string> units_explained(const loop::Recording& recording,
+                                         const scenario::PicturesSection& pictures) {
   std::vector<std::string> lines;
   const auto& columns = recording.columns();
   for (const auto& [unit, meaning] : unit_meaning_rows) {
@@ -147,6 +148,8 @@ std::vector<std::string> units_explained(const loop::Recording& recording) {
                     [&unit = unit](const auto& column) { return column.unit.starts_with(unit); }))
       lines.push_back(fmt::format("{}: {}.", unit, meaning));
   }
+  for (const auto& [of, is] : pictures.units)
+    lines.push_back(fmt::format("{} counts in {:g} {}.", of.text, is.number, is.unit));
   return lines;
 }
 
@@ -236,7 +239,7 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
     for (const auto& chosen : frames_to_show(simulation, outcome, wanted))
       report.frames.push_back({drawn.frames.at(chosen.frame), frame_label(simulation, chosen)});
   }
-  report.units = units_explained(simulation.recording());
+  report.units = units_explained(simulation.recording(), scenario.pictures);
   report.video = drawn.video;
   report.poster = drawn.poster;
   for (const auto& known : simulation.known_events()) {

@@ -136,6 +136,7 @@ void visit(Archive& archive, OpcuaSection::Cutter& cutter);
 void visit(Archive& archive, PicturesSection& pictures);
 void visit(Archive& archive, PicturesSection::Camera& camera);
 void visit(Archive& archive, PicturesSection::MeshRequest& mesh);
+void visit(Archive& archive, PicturesSection::OwnUnit& own);
 void visit(Archive& archive, PlotRequest::Panel& panel);
 void visit(Archive& archive, PlotRequest& plot);
 /// The same with a window about an event, which may stand in place of the plot's own.

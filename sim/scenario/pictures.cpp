@@ -93,34 +93,35 @@ void visit_frames(Archive& archive, PicturesSection& pictures) {
   });
 }
 
-// overlays: [trail, lengths, forces]
+// overlays: [trail, lengths, forces, speeds]
 Form overlays_form(PicturesSection::Overlays& overlays) {
   const auto flag = [&overlays](std::string_view name) -> bool* {
     if (name == "trail") return &overlays.trail;
     if (name == "lengths") return &overlays.lengths;
-    return name == "forces" ? &overlays.forces : nullptr;
+    if (name == "forces") return &overlays.forces;
+    return name == "speeds" ? &overlays.speeds : nullptr;
   };
   return whole(
       YamlNode::Kind::sequence,
       [&overlays, flag](const YamlNode& list, const Form::Name& name, Findings& findings) {
         std::vector<Text> given;
         form(given).read(list, name, findings);
-        overlays = {false, false, false};
+        overlays = {false, false, false, false};
         for (const auto& one : given) {
           if (bool* const chosen = flag(one.text))
             *chosen = true;
           else
             findings.add(one.place, fmt::format("{}: there is no overlay '{}'", name.full, one.text),
-                         "overlays: trail, lengths, forces");
+                         "overlays: trail, lengths, forces, speeds");
         }
       },
       [flag] {
         std::vector<std::string> names;
-        for (const auto* name : {"trail", "lengths", "forces"})
+        for (const auto* name : {"trail", "lengths", "forces", "speeds"})
           if (*flag(name)) names.emplace_back(name);
         return yaml_list(names);
       },
-      R"({"type": "array", "items": {"enum": ["trail", "lengths", "forces"]}})");
+      R"({"type": "array", "items": {"enum": ["trail", "lengths", "forces", "speeds"]}})");
 }
 
 }  // namespace
@@ -179,6 +180,33 @@ void visit(Archive& archive, PicturesSection::MeshRequest& mesh) {
   archive.value({"rotate", "about x, then y, then z"}, form(mesh.rotate, "deg"));
 }
 
+void visit(Archive& archive, PicturesSection::OwnUnit& own) { archive.alone(form(own.is)); }
+
+std::optional<Quantity> PicturesSection::own_unit(std::string_view channel, std::string_view unit) const {
+  constexpr std::string_view users = "Um";
+  for (const auto& own : units)
+    if (own.of.text == channel) return own.is;
+  if (!unit.starts_with(users)) return {};
+  for (const auto& own : units)
+    if (own.of.text == channel.substr(0, channel.find('.')))
+      return Quantity{own.is.number, own.is.unit + std::string(unit.substr(users.size())), own.is.place};
+  return {};
+}
+
+namespace {
+
+void visit_quota(Archive& archive, PicturesSection::Quota& quota) {
+  archive.in_line();
+  archive.value({"plant", "a vertical_press"}, form(quota.plant));
+  archive.value({"at", "the channel that says where it is to go"}, form(quota.at));
+  archive.value({"tolerance", "on either side"},
+                form(quota.tolerance, "mm", 1e-6, 1, "0.001 mm to 1 m; 0.1 mm is the default"));
+  archive.require("plant", "name the plant: plant: press");
+  archive.require("at", "name a channel: at: Axis.setpos");
+}
+
+}  // namespace
+
 void visit(Archive& archive, PicturesSection& pictures) {
   archive.section({"frames", "pictures of the machine", pictures.frames},
                   [&](Archive& inner) { visit_frames(inner, pictures); });
@@ -188,6 +216,16 @@ void visit(Archive& archive, PicturesSection& pictures) {
                 form(pictures.view));
   archive.value({"caption", "channels under the frames"}, form(pictures.caption));
   archive.value({"lamps", "channels there as lamps, lit unless 0", pictures.frames}, form(pictures.lamps));
+  archive.names(
+      {"units", "in captions and quota: what 1 of a channel is, or 1 Um of an axis: {Axis: 0.01 mm}",
+       !pictures.units.empty()},
+      pictures.units, &PicturesSection::OwnUnit::of);
+  archive.section({"quota", "a line where a plant is to go, and a gauge of how far off it is",
+                   pictures.quota.has_value()},
+                  [&](Archive& inner) {
+                    if (!pictures.quota) pictures.quota.emplace();
+                    visit_quota(inner, *pictures.quota);
+                  });
   archive.value({"overlays", "what is drawn over the frames", pictures.frames},
                 overlays_form(pictures.overlays));
   archive.value({"live", "one or two channels that run along in the corner", pictures.frames},

@@ -294,11 +294,27 @@ struct PicturesSection {
   int height = 540;
   std::vector<Text> caption;  ///< channels in the caption bar
   std::vector<Text> lamps;    ///< channels shown there as lamps: lit unless 0
+  /// How large a unit is that the user chose: {Axis: 0.01 mm, glMiss: 0.01 mm}
+  struct OwnUnit {
+    Text of;        ///< a channel, or an axis: what of it is in Um, Um/s ...
+    Quantity is{};  ///< with a unit
+  };
+  std::vector<OwnUnit> units;
+  /// What 1 is of a channel that has `unit`; none if `units` does not say it.
+  [[nodiscard]] std::optional<Quantity> own_unit(std::string_view channel, std::string_view unit) const;
+  /// Where a plant is to go, as the frames show it.
+  struct Quota {
+    Text plant;
+    Text at;                  ///< a channel: a length, or in a unit that `units` says
+    double tolerance = 1e-4;  ///< on either side [m]
+  };
+  std::optional<Quota> quota;
   /// What is drawn over the frames.
   struct Overlays {
     bool trail = true;    ///< where a tool's tip has just been
     bool lengths = true;  ///< of the cut pieces, from cut to cut
     bool forces = true;   ///< as arrows, while they act
+    bool speeds = true;   ///< as arrows in proportion
   };
   Overlays overlays;
   std::vector<Text> live;  ///< one or two channels that run along in the corner

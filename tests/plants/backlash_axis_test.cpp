@@ -42,6 +42,65 @@ TEST(BacklashAxis, DampingRatioAndRestitutionAreInverse) {
     EXPECT_LT(restitution_of(zeta + 0.01), restitution_of(zeta));
 }
 
+/// Nut and flanks as the picture has them, along the axis from the middle of the carriage [m].
+struct ShownPlay {
+  double nut, below, above;
+  bool below_red, above_red;
+  Callout words;
+};
+ShownPlay shown_play(Coupled& unit) {
+  const auto along = [&](const char* part) {
+    return pose_of(*unit.plant, part).pose.position[0] - pose_of(*unit.plant, "carriage").pose.position[0];
+  };
+  std::vector<Callout> words;
+  unit.plant->callouts(words);
+  EXPECT_EQ(words.size(), 1U);
+  return {along("nut"),
+          along("flank 1"),
+          along("flank 2"),
+          pose_of(*unit.plant, "pushed flank 1").visible,
+          pose_of(*unit.plant, "pushed flank 2").visible,
+          words.at(0)};
+}
+
+TEST(BacklashAxis, ThePictureShowsThePlayAsMuchLargerAsItSays) {
+  struct Case {
+    double gap;
+    const char* words;
+    double scale;
+  };
+  // Within half of the carriage of 200 mm.
+  for (const auto& [gap, words, scale] :
+       {Case{1e-3, "play 1 mm, drawn x100", 100}, Case{0.4e-3, "play 0.4 mm, drawn x200", 200},
+        Case{45e-3, "play 45 mm, drawn x2", 2}, Case{80e-3, "play 80 mm, to scale", 1}}) {
+    auto definition = frictionless_coupling();
+    definition.flanks.gap = gap;
+    Coupled unit(definition);
+    const auto middle = shown_play(unit);
+    EXPECT_EQ(middle.words.text, words);
+    EXPECT_NEAR(middle.nut, 0, 1e-12) << "it starts in the middle";
+    EXPECT_FALSE(middle.below_red || middle.above_red);
+    const auto shift = [&](double way) {  // of the motor, ahead of the load
+      unit.load().speed = -way / h;
+      unit.step();
+      unit.load().speed = unit.motor().speed = 0;
+    };
+    shift(gap / 4);
+    const auto ahead = shown_play(unit);
+    EXPECT_NEAR(ahead.nut, scale * gap / 4, 1e-9) << words;
+    // What is free between nut and flanks: their middles, less half a nut and half a flank on either side.
+    const double solid = (0.05 + 0.018) * 0.2 / 0.16;
+    EXPECT_NEAR(ahead.above - ahead.below - solid, scale * gap, 1e-9) << words;
+    EXPECT_NEAR(ahead.words.to[0] - ahead.words.at[0], scale * gap + 0.05 * 0.2 / 0.16, 1e-9);
+    shift(0.3 * gap);
+    EXPECT_TRUE(shown_play(unit).above_red) << "it pushes that flank";
+    EXPECT_FALSE(shown_play(unit).below_red);
+    shift(-1.2 * gap);
+    EXPECT_TRUE(shown_play(unit).below_red);
+    EXPECT_NEAR(shown_play(unit).nut, -scale * gap / 2, 1e-9) << "no further than the flank";
+  }
+}
+
 TEST(BacklashAxis, TheLoadIsFreeWithinTheGap) {
   const auto definition = frictionless_coupling();
   for (const double speed : {-0.05, 0.05}) {

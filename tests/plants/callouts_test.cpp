@@ -120,6 +120,27 @@ TEST(Callouts, TheSawsClampsPressDownOnBothSidesOfTheBladeWhileTheyAreClosed) {
   EXPECT_THAT(named(*line.plant, "clamp"), IsEmpty());
 }
 
+TEST(Callouts, TheSawTellsTheSpeedsOfTubeAndCarriageEachAsItIs) {
+  SawLine line(free_saw(), tube(0.5));
+  const auto speeds = [&] { return callouts_of(*line.plant, Callout::Kind::speed); };
+  ASSERT_THAT(speeds(), SizeIs(2));
+  EXPECT_EQ(speeds()[0].text, "tube");
+  EXPECT_EQ(speeds()[1].text, "carriage");
+  using Along = std::array<double, 3>;
+  EXPECT_EQ(speeds()[0].to, (Along{line.material().speed, 0, 0}));
+  EXPECT_NEAR(line.material().speed, 0.5, 1e-6);
+  EXPECT_EQ(speeds()[1].to, (Along{0, 0, 0})) << "it stands";
+  line.carriage().speed = -0.25;
+  line.carriage().position += 0.1;
+  const auto before = speeds()[1].at[0];
+  EXPECT_EQ(speeds()[1].to, (Along{-0.25, 0, 0})) << "against the line";
+  line.carriage().position += 0.1;
+  EXPECT_NEAR(speeds()[1].at[0] - before, 0.1, 1e-12) << "it goes along";
+  WebDefinition strip = free_web(0.5);
+  SawLine other(free_saw(), strip);
+  EXPECT_EQ(callouts_of(*other.plant, Callout::Kind::speed).at(0).text, "web");
+}
+
 TEST(Callouts, TheSawsCutIsPointedOutAtTheBladeWhileItCuts) {
   SawLine line(frictionless_saw(), tube(0));
   line.command("clamp", true);

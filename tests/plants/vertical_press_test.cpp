@@ -295,6 +295,35 @@ TEST(VerticalPress, PartsOfTheRamGoWithItAndTheOthersStand) {
   }
 }
 
+TEST(VerticalPress, ShowsTheQuotaAcrossTheRamAndHowFarItIs) {
+  Press press;
+  press.ram().position = 0.3;
+  const auto far = press.plant->quota_line(0.31);
+  ASSERT_TRUE(far);
+  EXPECT_NEAR(far->miss, -0.01, 1e-12) << "it stands below";
+  EXPECT_LT(far->left[0], far->right[0]);
+  const double tool = pose_of(*press.plant, "tool").pose.position[1];
+  press.ram().position = 0.31;
+  const auto there = press.plant->quota_line(0.31);
+  EXPECT_EQ(there->miss, 0);
+  EXPECT_EQ(there->left, far->left) << "the line stands, whatever the ram does";
+  EXPECT_NEAR(pose_of(*press.plant, "tool").pose.position[1] - tool, 0.01, 1e-12);
+  EXPECT_NEAR(pose_of(*press.plant, "tool").pose.position[1] - there->left[1], 0.06, 1e-12)
+      << "at the face of the tool, which is 120 mm high";
+  EXPECT_EQ(there->left[1], there->right[1]) << "level";
+}
+
+TEST(VerticalPress, TheLampIsRedWhileTheBrakeHoldsAndGreenOnceItHasLetGo) {
+  Press press;
+  EXPECT_TRUE(pose_of(*press.plant, "lamp brake").visible);
+  EXPECT_FALSE(pose_of(*press.plant, "lamp released").visible);
+  press.command("brake.release", true);
+  press.command(1, true);  // the drive releases it where it moves
+  press.run(0.2);
+  EXPECT_FALSE(pose_of(*press.plant, "lamp brake").visible);
+  EXPECT_TRUE(pose_of(*press.plant, "lamp released").visible);
+}
+
 TEST(VerticalPress, WhatCannotBeBuiltIsRefused) {
   expect_refusals<VerticalPressDefinition>({
       {[](auto& d) { d.gear.stiffness = 1e6; }, {"gear.stiffness: motor and ram oscillate at"}},

@@ -11,6 +11,7 @@
 #include "renders/camera.hpp"
 #include "renders/label_room.hpp"
 #include "renders/overlays.hpp"
+#include "renders/quota_gauge.hpp"
 #include "renders/tiles.hpp"
 
 namespace drycut::renders {
@@ -143,6 +144,101 @@ TEST(RendersOverlays, ArrowPointsAlongTheForceAndGrowsWithIt) {
   };
   EXPECT_NEAR(red(0), 0.18 * (film.height - kCaption), 4);
   EXPECT_NEAR(red(1), (0.04 + 0.14 * 0.25) * (film.height - kCaption), 4);
+}
+
+Callout speed_at(double y, double speed) {
+  return {Callout::Kind::speed, "tube", {-0.4, y, 0}, {speed, 0, 0}};
+}
+/// Columns with the green of a speed's arrow in the row of that height: the first, and how many.
+std::pair<int, int> green_columns(const Film& film, const Image& image, double y) {
+  const int row = static_cast<int>(projected(film.camera, film.width, film.height - kCaption, {0, y, 0})[1]);
+  std::pair<int, int> found = {-1, 0};
+  for (int x = 0; x < film.width; ++x) {
+    const std::uint8_t* p = image.row(row) + 3 * x;
+    if (p[1] < p[0] + 60 || p[1] < p[2] + 60) continue;
+    if (found.second++ == 0) found.first = x;
+  }
+  return found;
+}
+
+TEST(RendersOverlays, ArrowsOfSpeedsAreInProportion) {
+  Film film = turning_tool();
+  const int longest = (film.height - kCaption) / 4;
+  film.frames[0].callouts = {speed_at(0.3, 0.8), speed_at(-0.1, 0.2)};
+  film.frames[1].callouts = {speed_at(0.3, 0.4), speed_at(-0.1, -0.4)};
+  film.frames[2].callouts = {speed_at(0.3, 0.8), speed_at(-0.1, 0)};
+  const auto from = projected(film.camera, film.width, film.height - kCaption, {-0.4, 0, 0})[0];
+  const auto slow = drawn(film, 0);
+  EXPECT_NEAR(green_columns(film, slow, 0.3).second, longest, 3);
+  EXPECT_NEAR(green_columns(film, slow, -0.1).second, longest / 4.0, 3);
+  EXPECT_NEAR(green_columns(film, slow, -0.1).first, from, 2) << "it begins where it moves";
+  const auto half = drawn(film, 1);
+  EXPECT_NEAR(green_columns(film, half, 0.3).second, longest / 2.0, 3) << "of the fastest of the whole film";
+  EXPECT_NEAR(green_columns(film, half, -0.1).second, longest / 2.0, 3);
+  EXPECT_NEAR(green_columns(film, half, -0.1).first, from - longest / 2.0, 3) << "backwards";
+  const auto stands = drawn(film, 2);
+  EXPECT_NEAR(green_columns(film, stands, 0.3).second, longest, 3);
+  EXPECT_LE(green_columns(film, stands, -0.1).second, 6) << "a ring, no arrow";
+  EXPECT_GE(green_columns(film, stands, -0.1).second, 1);
+}
+
+TEST(RendersOverlays, NoWordsCoverASpeedsArrow) {
+  Film film = turning_tool();
+  const Callout speed = speed_at(0, 0.8);
+  film.frames[0].callouts = {speed};
+  const auto bare = green_columns(film, drawn(film, 0), 0);
+  // A force right above it, whose words would stand on the arrow.
+  const double metre = projected(film.camera, film.width, film.height - kCaption, {0, 0, 0})[1] -
+                       projected(film.camera, film.width, film.height - kCaption, {0, 1, 0})[1];
+  const double above = (0.18 * (film.height - kCaption) + 14 * film.height / 540.0) / metre;
+  film.frames[0].callouts.push_back({Callout::Kind::force, "clamp", {-0.3, above, 0}, {0, -2400, 0}});
+  EXPECT_EQ(green_columns(film, drawn(film, 0), 0), bare);
+}
+
+TEST(RendersOverlays, TheQuotaIsALineAndItsGaugeShowsHowFarOffItIs) {
+  Film film = turning_tool();
+  const double tolerance = 0.3e-3;
+  const Box gauge = gauge_box(film);
+  const double scale = film.height / 540.0;
+  EXPECT_GE(gauge.left, 0);
+  EXPECT_LE(gauge.right, film.width);
+  EXPECT_LE(gauge.bottom, film.height - kCaption);
+  struct Case {
+    double miss, tolerances;
+    bool in;
+  };
+  for (const auto& [miss, tolerances, in] :
+       {Case{0, 0, true}, Case{0.29e-3, 0.29 / 0.3, true}, Case{0.6e-3, 2, false},
+        Case{-0.31e-3, -0.31 / 0.3, false}, Case{0.1, 4, false}, Case{-0.1, -4, false}}) {
+    film.frames[0].quota = Quota{{-0.6, 0.2, 0}, {0, 0.2, 0}, 0.3, miss, tolerance};
+    const Image image = drawn(film, 0);
+    const auto line = pixel(film, image, {-0.48, 0.2, 0});
+    EXPECT_TRUE(line[0] > line[2] + 60 && line[1] > line[2] + 40) << "yellow";
+    // The mark beside the scale: its middle row, and whether it is green or orange.
+    const int column = static_cast<int>(gauge.left + (12 + 16 + 8) * scale);
+    double sum = 0, green = 0, orange = 0;
+    for (int y = static_cast<int>(gauge.top + 30 * scale); y < gauge.bottom - 30 * scale; ++y) {
+      const std::uint8_t* p = image.row(y) + 3 * column;
+      if (p[2] > 120 || std::max(p[0], p[1]) < 120) continue;
+      (p[0] > p[1] ? orange : green) += 1;
+      sum += y + 0.5;
+    }
+    ASSERT_GT(green + orange, 3) << miss;
+    EXPECT_EQ(green > 0, in) << miss;
+    EXPECT_EQ(orange > 0, !in) << miss;
+    EXPECT_NEAR(sum / (green + orange), (gauge.top + gauge.bottom) / 2 - 72 * scale * tolerances / 4, 1.5)
+        << miss;
+  }
+  EXPECT_EQ(drawn(film, 1).rgb, grey(film).rgb) << "a frame without a quota has none";
+}
+
+TEST(RendersOverlays, TheGaugeStandsInThePictureOfTheFirstCamera) {
+  Film film = turning_tool();
+  film.width = 960;
+  film.height = 540;
+  EXPECT_NEAR(gauge_box(film).right, 950, 1e-9);
+  film.beside = {{"ram", film.camera}};
+  EXPECT_LT(gauge_box(film).right, 479);
 }
 
 TEST(RendersOverlays, LiveCurveHasItsLastValueAtTheRightEdge) {

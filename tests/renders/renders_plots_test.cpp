@@ -353,5 +353,22 @@ TEST(RendersText, FittedTextFits) {
   EXPECT_THAT(cut, HasSubstr("…"));
 }
 
+TEST(RendersText, LongTextIsWrappedAtItsWords) {
+  using ::testing::ElementsAre;
+  EXPECT_THAT(wrapped_text("short", 15, 500, 3), ElementsAre("short"));
+  EXPECT_THAT(wrapped_text("", 15, 500, 3), ElementsAre(""));
+  const std::string text = "one two three four five six";
+  const double room = text_width("three four", 15);
+  EXPECT_THAT(wrapped_text(text, 15, room, 3), ElementsAre("one two", "three four", "five six"));
+  const auto two = wrapped_text(text, 15, room, 2);
+  EXPECT_THAT(two, ElementsAre("one two", HasSubstr("three"))) << "no third line";
+  EXPECT_THAT(two.back(), HasSubstr("…"));
+  EXPECT_LE(text_width(two.back(), 15), room);
+  const auto wide = wrapped_text("averyverylongwordindeed and more", 15, room, 3);
+  EXPECT_THAT(wide.at(0), HasSubstr("…"));
+  EXPECT_EQ(wide.at(1), "and more");
+  for (const auto& line : wide) EXPECT_LE(text_width(line, 15), room);
+}
+
 }  // namespace
 }  // namespace drycut::renders

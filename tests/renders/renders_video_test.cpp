@@ -139,6 +139,26 @@ TEST(Filmstrip, ShowsTheFramesSideBySideWithoutTheirCaptions) {
   EXPECT_GT(written, 100) << "labels below";
 }
 
+TEST(Filmstrip, ALongLabelTakesAnotherLineAndLosesNothing) {
+  const Scratch scratch;
+  const auto files = frames_in(scratch / "frames", 2, 160, 110);
+  const auto written = [&](const std::string& label) {
+    draw_filmstrip({{files[0], label}, {files[1], "0.08 s"}}, 20, scratch / "strip.png");
+    const Image strip = read_png(scratch / "strip.png");
+    int dark = 0;
+    for (int y = 187; y < strip.height; ++y)
+      for (int x = 0; x < strip.width; ++x) dark += strip.row(y)[3 * x] < 128 ? 1 : 0;
+    return std::pair(strip.height, dark);
+  };
+  const std::string words = "what happened in this frame of it";
+  const auto once = written(words);
+  const auto twice = written(words + " " + words);
+  EXPECT_EQ(once.first, 180 + 6 + 30);
+  EXPECT_EQ(twice.first, 180 + 6 + 30 + 19);
+  const int other = written("").second;  // the label of the second frame
+  EXPECT_NEAR(twice.second - other, 2 * (once.second - other), 0.1 * once.second);
+}
+
 TEST(Filmstrip, RefusesWhatCannotBeDrawn) {
   const Scratch scratch;
   const auto files = frames_in(scratch / "frames", 1);

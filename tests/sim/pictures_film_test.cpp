@@ -1,5 +1,6 @@
 // pictures: what lamps, overlays, live, follow and camera do to the film of a run, and what of them is
 // refused.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 #include "sim/loop/simulation.hpp"
 #include "sim/report/film.hpp"
+#include "sim/report/gallery.hpp"
 #include "sim/report/part_meshes.hpp"
 #include "tests/sim/scenario/fake_plants.hpp"
 #include "tests/test_folder.hpp"
@@ -117,6 +119,104 @@ TEST(PicturesFilm, OverlaysAreThoseAskedForAndAllByDefault) {
     EXPECT_EQ(film.trails, trail) << overlays;
     EXPECT_EQ(lengths_and_forces(film), std::pair(lengths, forces)) << overlays;
   }
+}
+
+renders::Film saw_film(const std::string& overlays) {
+  std::vector<Override> settings = {{"pictures.frames.until", "80 ms"}};
+  if (!overlays.empty()) settings.push_back({"pictures.overlays", overlays});
+  Problems problems;
+  const auto scenario =
+      read_scenario(std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/flying_saw.yaml", settings, problems);
+  loop::Simulation simulation(scenario, problems);
+  for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
+  simulation.run();
+  return report::film_of(scenario, simulation);
+}
+
+TEST(PicturesFilm, SpeedsOfTubeAndCarriageAreShownUnlessOthersAreAskedFor) {
+  for (const auto& [overlays, shown] :
+       {std::pair("", true), std::pair("[speeds]", true), std::pair("[trail, lengths, forces]", false)}) {
+    const auto film = saw_film(overlays);
+    ASSERT_FALSE(film.frames.empty());
+    std::vector<std::string> moving;
+    for (const auto& one : film.frames[0].callouts)
+      if (one.kind == renders::Callout::Kind::speed) moving.push_back(one.text);
+    if (shown)
+      EXPECT_THAT(moving, ElementsAre("tube", "carriage")) << overlays;
+    else
+      EXPECT_THAT(moving, IsEmpty()) << overlays;
+  }
+}
+
+TEST(PicturesFilm, CaptionsAreInTheUnitThatTheUserGivesTheirAxisOrThem) {
+  KnifeLine line(
+      "frames: {every: 500 ms}, caption: [AxisX.posit, AxisX.setpos, AxisX.follerr], "
+      "live: [AxisX.posit, AxisX.setpos], units: {AxisX: 0.01 mm, AxisX.setpos: 0.1 deg}");
+  const auto film = line.film();
+  ASSERT_FALSE(film.frames.empty());
+  double largest = 0;
+  for (const auto& frame : film.frames) {
+    const double posit = line.recorded("AxisX.posit", frame.time_s);
+    largest = std::max(largest, std::abs(posit));
+    EXPECT_EQ(frame.caption.at(0).value, fmt::format("{:.2f} mm", 0.01 * posit));
+    EXPECT_EQ(frame.caption.at(1).value,
+              fmt::format("{:.1f} deg", 0.1 * line.recorded("AxisX.setpos", frame.time_s)))
+        << "a channel's own unit goes before that of its axis";
+    EXPECT_THAT(frame.caption.at(2).value, ::testing::EndsWith("bits x4")) << "no unit of the user's";
+  }
+  EXPECT_GT(largest, 1000) << "it moved";
+  const auto plain = KnifeLine("frames: {every: 500 ms}, caption: [AxisX.posit]").film();
+  EXPECT_THAT(plain.frames.back().caption.at(0).value, ::testing::EndsWith(" Um"));
+}
+
+TEST(PicturesFilm, ARateInTheUsersUnitIsScaledWithIt) {
+  PicturesSection pictures;
+  pictures.units = {{{"Axis", {}}, {0.01, "mm", {}}}};
+  EXPECT_EQ(pictures.own_unit("Axis.vel", "Um/s").value().unit, "mm/s");
+  EXPECT_EQ(pictures.own_unit("Axis.vel", "Um/s").value().number, 0.01);
+  EXPECT_FALSE(pictures.own_unit("Axis.follerr", "bits x4"));
+  EXPECT_FALSE(pictures.own_unit("AxisX.posit", "Um")) << "another axis";
+}
+
+TEST(PicturesFilm, ThePressShowsItsQuotaAndHowFarItIsFromIt) {
+  Problems problems;
+  const auto scenario = read_scenario(std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/press_learning.yaml",
+                                      {{"pictures.frames.until", "2 s"},
+                                       {"pictures.live", "[Axis.setpos, press.position]"},
+                                       {"record.every", "100 ms"}},
+                                      problems);
+  loop::Simulation simulation(scenario, problems);
+  for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
+  simulation.run();
+  const auto film = report::film_of(scenario, simulation);
+  ASSERT_EQ(film.frames.size(), 20U);
+  const auto& recording = simulation.recording();
+  for (std::size_t i = 0; i < film.frames.size(); ++i) {
+    const auto& quota = film.frames[i].quota;
+    ASSERT_TRUE(quota);
+    std::size_t row = 0;
+    while (std::abs(seconds(recording.times()[row]) - film.frames[i].time_s) > 1e-9) ++row;
+    const double setpos = recording.column("Axis.setpos")->values[row];
+    EXPECT_NEAR(quota->place, 1e-5 * setpos, 1e-12) << "it counts in 0.01 mm";
+    EXPECT_NEAR(quota->miss, 1e-3 * recording.column("press.position")->values[row] - 1e-5 * setpos, 1e-9);
+    EXPECT_EQ(quota->tolerance, 3e-4);
+  }
+  EXPECT_GT(film.frames.back().quota->place, 0.1) << "it has been given one";
+  EXPECT_THAT(report::report_of(scenario, simulation, {}, {}).units,
+              ::testing::IsSupersetOf({"Axis counts in 0.01 mm.", "glMiss counts in 0.01 mm."}));
+  EXPECT_FALSE(KnifeLine("frames: {every: 500 ms}").film().frames.at(0).quota);
+}
+
+TEST(PicturesFilm, UnitsAndQuotasThatTheMachineDoesNotHaveAreRefusedWithTheirPlace) {
+  EXPECT_THAT(KnifeLine("units: {Axs: 0.01 mm}").told(),
+              ElementsAre(StartsWith("20: pictures.units: there is no axis and no channel 'Axs'; ")));
+  EXPECT_THAT(KnifeLine("units: {AxisX: 3}").told(),
+              ElementsAre("27: pictures.units: AxisX is no unit's size; write what 1 is of a known unit: "
+                          "0.01 mm"));
+  EXPECT_THAT(KnifeLine("units: {AxisX: 0 mm}").told(),
+              ElementsAre(StartsWith("27: pictures.units: AxisX is no unit's size; ")));
+  EXPECT_THAT(KnifeLine("quota: {plant: knife, at: web.position}").told(),
+              ElementsAre("27: 'knife' is no plant that shows a quota; name one of type vertical_press"));
 }
 
 TEST(PicturesFilm, PiecesTellTheLengthOfTheirCutAndTheBladeItsForce) {
@@ -248,10 +348,9 @@ TEST(PicturesFilm, NamesThatTheMachineDoesNotHaveAreRefusedWithTheirPlace) {
 }
 
 TEST(PicturesProblems, LampsOverlaysAndLive) {
-  EXPECT_THAT(
-      problems_of("pictures: {overlays: [trail, shadows]}\n"),
-      ElementsAre(
-          "1:30: pictures.overlays: there is no overlay 'shadows'; overlays: trail, lengths, forces"));
+  EXPECT_THAT(problems_of("pictures: {overlays: [trail, shadows]}\n"),
+              ElementsAre("1:30: pictures.overlays: there is no overlay 'shadows'; overlays: trail, lengths, "
+                          "forces, speeds"));
   EXPECT_THAT(
       problems_of("pictures: {overlays: trail}\n"),
       ElementsAre("1:22: pictures.overlays must be a list, not a single value; write [first, second], or a "
@@ -263,6 +362,46 @@ TEST(PicturesProblems, LampsOverlaysAndLive) {
   EXPECT_THAT(problems_of("pictures: {lamps: {a: b}}\n"),
               ElementsAre("1:19: pictures.lamps must be a list, not a map; write [first, second], or a line "
                           "'- ...' for each"));
+}
+
+TEST(PicturesProblems, UnitsAndQuota) {
+  EXPECT_THAT(problems_of("pictures: {quota: {plant: press}}\n"),
+              ElementsAre("1:19: pictures.quota.at is missing; name a channel: at: Axis.setpos"));
+  EXPECT_THAT(problems_of("pictures: {quota: {at: Axis.setpos}}\n"),
+              ElementsAre("1:19: pictures.quota.plant is missing; name the plant: plant: press"));
+  const std::string quota = "pictures: {quota: {plant: press, at: Axis.setpos, tolerance: ";
+  EXPECT_THAT(problems_of(quota + "0 mm}}\n"),
+              ElementsAre("1:62: pictures.quota.tolerance is 0 mm, out of range; 0.001 mm to 1 m; 0.1 mm is "
+                          "the default"));
+  EXPECT_THAT(problems_of(quota + "0.3 s}}\n"),
+              ElementsAre(StartsWith("1:66: pictures.quota.tolerance is a length, not a time")));
+}
+
+TEST(Pictures, UnitsAndQuotaAreReadAndWritten) {
+  std::vector<std::string> problems;
+  const auto scenario = fakes::read(
+      "pictures: {frames: {}, units: {Axis: 0.01 mm, glMiss: 1 um}, quota: {plant: press, at: Axis.setpos, "
+      "tolerance: "
+      "0.3 mm}, overlays: [speeds]}\n",
+      problems);
+  const auto check = [](const PicturesSection& pictures) {
+    ASSERT_EQ(pictures.units.size(), 2U);
+    EXPECT_EQ(pictures.units[0].of.text, "Axis");
+    EXPECT_EQ(pictures.units[0].is.number, 0.01);
+    EXPECT_EQ(pictures.units[0].is.unit, "mm");
+    EXPECT_EQ(pictures.units[1].is.unit, "um");
+    ASSERT_TRUE(pictures.quota);
+    EXPECT_EQ(pictures.quota->plant.text, "press");
+    EXPECT_EQ(pictures.quota->at.text, "Axis.setpos");
+    EXPECT_EQ(pictures.quota->tolerance, 3e-4);
+    EXPECT_TRUE(pictures.overlays.speeds);
+    EXPECT_FALSE(pictures.overlays.forces);
+  };
+  EXPECT_THAT(problems, IsEmpty());
+  check(scenario.pictures);
+  const auto again = fakes::read(expand(scenario), problems);
+  EXPECT_THAT(problems, IsEmpty());
+  check(again.pictures);
 }
 
 TEST(PicturesProblems, Cameras) {

@@ -94,11 +94,14 @@ renders::Plot way(const Tuning& tuning) {
   panel.title = tuning.study.minimise;
   panel.y_label = with_unit(tuning.study.minimise, tuning.study.metric_unit);
   add_kept_and_beyond(panel, least, all, refused);
+  if (!tuning.before.stopped)
+    panel.bands.push_back({"present values", tuning.before.metric, tuning.before.metric});
   // The first samples, far off, would press the rest flat.
   auto sorted = all.y;
   std::sort(sorted.begin(), sorted.end());
   if (!sorted.empty()) {
-    const double low = sorted.front();
+    const double present = tuning.before.stopped ? sorted.front() : tuning.before.metric;
+    const double low = std::min(sorted.front(), present);
     const double most = sorted[(sorted.size() - 1) * 4 / 5];
     const double room = (most - low) / 10;
     if (room > 0) panel.y_range = {low - room, most + room};

@@ -105,6 +105,12 @@ TEST_F(TuneCommand, WhatKeepsTheLimitsIsGreen) {
   EXPECT_EQ(curves.at(2).label, "kept all limits");
   EXPECT_GT(curves.at(1).x.size(), 2U);
   EXPECT_GT(curves.at(2).x.size(), 2U);
+  // What there was before stands beside what was tried, even where nothing tried is as good.
+  const auto& bands = search->panels[0].bands;
+  ASSERT_EQ(bands.size(), 1U);
+  EXPECT_EQ(bands[0].label, "present values");
+  EXPECT_EQ(bands[0].low, tuned.found.before.metric);
+  EXPECT_LE(search->panels[0].y_range.value().first, bands[0].low);
 }
 
 TEST_F(TuneCommand, TunesThePlantAsWell) {
