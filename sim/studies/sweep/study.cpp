@@ -99,15 +99,23 @@ void try_ends(const SweepAxis& axis, const PointQuestion& question, Problems& pr
   }
 }
 
-/// A sweep over a value that the program overwrites would be so many equal runs.
-void refuse_without_effect(const SweepAxis& axis, const PointQuestion& question, Problems& problems) {
-  const auto& parameter = axis.parameter;
-  const auto first = axis.is_range() ? number_text(parameter.low) : axis.values.front();
-  const auto last = axis.is_range() ? number_text(parameter.high) : axis.values.back();
-  refuse_overwritten(
-      parameter, first, last,
-      [&](const std::string& value) { return read_point(question, overrides_of({axis}, {value})).scenario; },
-      problems);
+/// A sweep over values that the program overwrites would be so many equal runs. A program may leave a value
+/// alone only where another one is given: each is tried with the others.
+void refuse_without_effect(const SweepAxes& axes, const PointQuestion& question, Problems& problems) {
+  SweepPoint first;
+  for (const auto& axis : axes)
+    first.push_back(axis.is_range() ? number_text(axis.parameter.low) : axis.values.front());
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const auto& parameter = axes[i].parameter;
+    refuse_overwritten(
+        parameter, first[i], axes[i].is_range() ? number_text(parameter.high) : axes[i].values.back(),
+        [&](const std::string& value) {
+          auto point = first;
+          point[i] = value;
+          return read_point(question, overrides_of(axes, point)).scenario;
+        },
+        problems);
+  }
 }
 
 /// Nobody should have to know in which unit a number without one is read.
@@ -145,9 +153,9 @@ void check_axes(SweepAxes& axes, const PointQuestion& question, Problems& proble
     const auto before = problems.size();
     present_value(parameter, scenario);
     if (has_own_dimension(parameter, scenario, problems)) try_ends(*axis, question, problems);
-    if (problems.size() == before) refuse_without_effect(*axis, question, problems);
     if (problems.size() == before) fill_axis(*axis, problems);
   }
+  if (problems.empty()) refuse_without_effect(axes, question, problems);
 }
 
 /// Before axes of a million values are made.

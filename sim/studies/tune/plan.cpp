@@ -109,20 +109,29 @@ void check_parameter(TunedParameter& parameter, const Study& study, PresentValue
     if (&entry == &study.cases.front()) present = std::move(value);
     try_bounds(parameter, study, entry, problems);
     if (problems.size() == before) check_against_controller(parameter, scenario, problems);
-    if (problems.size() == before)
-      refuse_overwritten(
-          parameter, value_text(parameter, parameter.low), value_text(parameter, parameter.high),
-          [&](const std::string& number) {
-            auto overrides = study.set;
-            overrides.push_back({parameter.path, number});
-            return scenario::read_scenario_text(entry.text, entry.file, overrides, ignored);
-          },
-          problems);
   }
   if (problems.size() == told && parameter.integer &&
       (parameter.low != std::rint(parameter.low) || parameter.high != std::rint(parameter.high)))
     problems.push_back({parameter.option, 1, parameter.low_column, parameter.path + " is a whole number",
                         "end the range at whole numbers"});
+}
+
+/// A program may leave a value alone only where another one is given: each is tried with the others.
+void refuse_without_effect(const TunedParameters& parameters, const Study& study, Problems& problems) {
+  Point low;
+  for (const auto& parameter : parameters) low.push_back(parameter.low);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto scenario_with = [&](const std::string& value) {
+      Problems ignored;
+      auto overrides = study.set;
+      for (auto& other : overrides_of(parameters, low)) overrides.push_back(std::move(other));
+      overrides.push_back({parameters[i].path, value});
+      return scenario::read_scenario_text(study.cases.front().text, study.cases.front().file, overrides,
+                                          ignored);
+    };
+    refuse_overwritten(parameters[i], value_text(parameters[i], parameters[i].low),
+                       value_text(parameters[i], parameters[i].high), scenario_with, problems);
+  }
 }
 
 /// The present values, where all are known.
@@ -175,6 +184,7 @@ TunePlan plan_tuning(const TuneRequest& request, std::vector<scenario::Override>
     PresentValue ignored;
     check_parameter(parameter, plan.study, ignored, problems);
   }
+  if (problems.empty()) refuse_without_effect(plan.vary, plan.study, problems);
   if (problems.empty()) check_budget(request, plan, problems);
   return plan;
 }
