@@ -223,7 +223,7 @@ void visit(Archive& archive, PicturesSection& pictures) {
   archive.section({"quota", "a line where a plant is to go, and a gauge of how far off it is",
                    pictures.quota.has_value()},
                   [&](Archive& inner) {
-                    if (!pictures.quota) pictures.quota.emplace();
+                    if (!pictures.quota) pictures.quota = PicturesSection::Quota{};
                     visit_quota(inner, *pictures.quota);
                   });
   archive.value({"overlays", "what is drawn over the frames", pictures.frames},
