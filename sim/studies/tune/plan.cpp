@@ -28,7 +28,7 @@ void read_from(const TuneRequest& request, Study& study, Problems& problems) {
       !scenario::same_dimension(from->unit, "s") || scenario::to_si(from->number, from->unit) > 1e9) {
     problems.push_back({"--from", 1, 1, fmt::format("'{}' is no time", request.from), "such as 3 s"});
   } else {
-    study.from = static_cast<Time>(scenario::to_si(from->number, from->unit) * 1e9 + 0.5);
+    study.from = std::llround(scenario::to_si(from->number, from->unit) * 1e9);
   }
 }
 
