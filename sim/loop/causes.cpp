@@ -1,11 +1,12 @@
 #include "sim/loop/causes.hpp"
-#include "sim/loop/recorder.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "sim/loop/recorder.hpp"
 
 namespace drycut::sim::loop {
 

@@ -30,6 +30,18 @@ bool is_assignment(const devices::ProgramText& program, const std::string& line,
   return rest.starts_with(sign) && rest.find(spelt) == std::string_view::npos;
 }
 
+/// What a run left nothing of; "" = it stands, or something reads it first.
+std::string told_of(const scenario::Scenario& scenario, devices::Controller& controller,
+                    const std::string& name, double number) {
+  const auto value = controller.find(name);
+  constexpr double rounding = 1e-6;
+  if (!value || std::abs(value->read() - number) <= rounding * std::abs(number)) return "";
+  const auto place = written_first(controller, name);
+  return place ? fmt::format("controller.{}.set.{} = {:g} has no effect: the program writes {:g} at {}",
+                             scenario.controller->kind(), name, number, value->read(), *place)
+               : "";
+}
+
 }  // namespace
 
 std::optional<std::string> written_first(devices::Controller& controller, const std::string& name) {
@@ -53,14 +65,9 @@ std::optional<std::string> written_first(devices::Controller& controller, const 
 std::vector<std::string> overwritten(const scenario::Scenario& scenario, devices::Controller& controller) {
   std::vector<std::string> found;
   if (!scenario.controller) return found;
-  for (const auto& [name, number] : scenario.controller->set) {
-    const auto value = controller.find(name.text);
-    constexpr double rounding = 1e-6;
-    if (!value || std::abs(value->read() - number) <= rounding * std::abs(number)) continue;
-    if (const auto place = written_first(controller, name.text))
-      found.push_back(fmt::format("controller.{}.set.{} = {:g} has no effect: the program writes {:g} at {}",
-                                  scenario.controller->kind(), name.text, number, value->read(), *place));
-  }
+  for (const auto& [name, number] : scenario.controller->set)
+    if (auto told = told_of(scenario, controller, name.text, number); !told.empty())
+      found.push_back(std::move(told));
   return found;
 }
 
@@ -73,9 +80,8 @@ std::string overwritten(const scenario::Scenario& scenario, const std::string& n
     return "";
   simulation.keep_nothing();
   simulation.run();
-  const auto wanted = fmt::format(".set.{} = ", name);
-  for (auto& text : overwritten(scenario, *simulation.controller()))
-    if (text.find(wanted) != std::string::npos) return text;
+  for (const auto& [set, number] : scenario.controller->set)
+    if (set.text == name) return told_of(scenario, *simulation.controller(), name, number);
   return "";
 }
 

@@ -1,5 +1,4 @@
 #include "sim/report/chosen_frames.hpp"
-#include "plants/plant.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +7,8 @@
 #include <map>
 #include <optional>
 #include <set>
+
+#include "plants/plant.hpp"
 
 namespace drycut::sim::report {
 
