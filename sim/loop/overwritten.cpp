@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "sim/loop/simulation.hpp"
+#include "sim/loop/waits.hpp"
 
 namespace drycut::sim::loop {
 
@@ -20,12 +21,10 @@ std::string spelling(const devices::ProgramText& program, const std::string& nam
 }
 
 /// "axisx:toll = 5", and not "x = axisx:toll", "if axisx:toll eq 0", "toll = toll + 1", "toll : INT := 5".
-bool is_assignment(const devices::ProgramText& program, const std::string& line, const std::string& spelt) {
-  auto code = lower(line);
-  code = code.substr(0, code.find(program.language == "st" ? "//" : ";"));
-  const auto text = trimmed(code);
-  if (!text.starts_with(spelt)) return false;
-  const auto rest = trimmed(text.substr(spelt.size()));
+bool is_assignment(const devices::ProgramText& program, int line, const std::string& spelt) {
+  const auto code = lower(code_of(program, line));
+  if (!code.starts_with(spelt)) return false;
+  const auto rest = trimmed(std::string_view(code).substr(spelt.size()));
   const std::string_view sign = program.language == "st" ? ":=" : "=";
   return rest.starts_with(sign) && rest.find(spelt) == std::string_view::npos;
 }
@@ -50,11 +49,9 @@ std::optional<std::string> written_first(devices::Controller& controller, const 
   std::optional<std::string> written;
   for (const auto& program : controller.programs()) {
     if (program.language != "qcl" && program.language != "st") continue;
-    const auto lines = split_lines(program.text);
     for (const auto& [number, names] : program.values) {
       if (std::find(names.begin(), names.end(), value->name) == names.end()) continue;
-      const auto line = std::string(lines[static_cast<std::size_t>(number) - 1]);
-      if (!is_assignment(program, line, spelling(program, value->name))) return {};
+      if (!is_assignment(program, number, spelling(program, value->name))) return {};
       if (!written) written = fmt::format("{}:{}", program.file, number);
       break;
     }

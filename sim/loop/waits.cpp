@@ -15,14 +15,6 @@ namespace {
 
 constexpr Time told_wait = second / 2;  // a wait that is told
 
-/// The line without its comment.
-std::string code_of(const devices::ProgramText& program, int number) {
-  const auto lines = split_lines(program.text);
-  if (number < 1 || static_cast<std::size_t>(number) > lines.size()) return "";
-  const auto line = lines[static_cast<std::size_t>(number) - 1];
-  return std::string(trimmed(line.substr(0, line.find(program.language == "st" ? "//" : ";"))));
-}
-
 std::string values_of(const devices::ProgramText& program, int line, devices::Controller& controller) {
   const auto named = program.values.find(line);
   if (named == program.values.end()) return "";
@@ -58,6 +50,13 @@ std::string wire_that_it_names(const scenario::Scenario& scenario, devices::Cont
 }
 
 }  // namespace
+
+std::string code_of(const devices::ProgramText& program, int number) {
+  const auto lines = split_lines(program.text);
+  if (number < 1 || static_cast<std::size_t>(number) > lines.size()) return "";
+  const auto line = lines[static_cast<std::size_t>(number) - 1];
+  return std::string(trimmed(line.substr(0, line.find(program.language == "st" ? "//" : ";"))));
+}
 
 Waits waits_of(devices::Controller& controller, Time now) {
   Waits found;
