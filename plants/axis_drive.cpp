@@ -180,6 +180,12 @@ void AxisDrive::drive(Shaft& rotor, double h) {
   just_tripped_ = tripped && !tripped_;
   tripped_ = tripped;
   brake_.update(moves_, h);
+  // A changeover overlaps the two for less.
+  constexpr double no_overlap = 0.2;  // [s]
+  const bool told = against_brake_ >= no_overlap;
+  const bool against = data_.brake.torque > 0 && moves_ && brake_.commanded_to_hold();
+  against_brake_ = against ? against_brake_ + h : 0;
+  just_against_brake_ = !told && against_brake_ >= no_overlap;
 }
 
 double AxisDrive::torque() const {
@@ -239,6 +245,10 @@ std::vector<Event> AxisDrive::take_events(const Shaft& rotor) {
   for (Event& event : switched_) events.push_back(std::move(event));
   switched_.clear();
   if (just_tripped_) events.push_back({"trip", 0, {{"speed", rotor.speed_before * units::rpm, "rpm"}}});
+  if (just_against_brake_)
+    events.push_back({"against_brake",
+                      0,
+                      {{"torque", torque(), "N m"}, {"speed", rotor.speed_before * units::rpm, "rpm"}}});
   return events;
 }
 
@@ -247,6 +257,11 @@ void AxisDrive::offer_events(std::vector<EventType>& types) {
                    {{"speed", "rpm"}},
                    "inverter or breaker has switched the motor off: both contactors closed, a phase lost "
                    "behind the inverter, an overload, the fault trip; speed of the motor then",
+                   Severity::error});
+  types.push_back({"against_brake",
+                   {{"torque", "N m"}, {"speed", "rpm"}},
+                   "the drive has moved the motor for 0.2 s against a brake that is told to hold: once each "
+                   "time; torque of the motor and speed then",
                    Severity::error});
   types.push_back({"switched_live",
                    {{"torque", "N m"}, {"closed", ""}},

@@ -96,6 +96,8 @@ class AxisDrive {
   bool moves_ = false;
   bool tripped_ = false;
   bool just_tripped_ = false;
+  double against_brake_ = 0;  // how long it has worked against its brake [s]
+  bool just_against_brake_ = false;
   std::vector<Event> switched_;
 };
 

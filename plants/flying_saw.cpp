@@ -123,6 +123,8 @@ void FlyingSaw::hold(const Slide& material, bool was_engaged) {
   const double before = carriage().speed_before - material.speed_before;
   if (clamp_.has_gripped()) took_hold(before, false);
   if (touched && !clamp_.closed.level) took_hold(before, true);
+  if (touched && clamp_.limit() <= 0 && data_.clamp.force > 0 && std::abs(before) <= data_.mismatch_limit)
+    happened({"unclamped", 0, {}});
   hold_.mismatch = std::max(hold_.mismatch, std::abs(carriage().speed - material.speed));
   hold_.slip = std::max(hold_.slip, std::abs(clamp_.slip()));
 }
@@ -180,6 +182,11 @@ std::vector<EventType> FlyingSaw::event_types() {
        {{"difference", "mm/s"}, {"blade", ""}},
        "the clamps have gripped material that ran at another speed by more than mismatch_limit, or the "
        "blade has come into it unclamped (blade 1): speed of the carriage less speed of the material",
+       Severity::error},
+      {"unclamped",
+       {},
+       "the blade has come into material that ran with the carriage while nothing clamped it: the clamps "
+       "were open, or without force",
        Severity::error},
       {"opened_early",
        {{"depth", "mm"}},

@@ -55,10 +55,10 @@ struct LeastStroke {
 ///
 /// Events: `cut` (length, slant, mismatch, slip, pinch, force, time, number) when the blade is through;
 /// `clamped_moving` (difference, blade) when clamps, or the blade, take hold of material that runs at another
-/// speed by more than mismatch_limit; `opened_early` (depth) when the clamps let go with the blade in the
-/// material; `pinch` (force, displacement) when the sideways force exceeds its limit, once per engagement;
-/// `crash` (side, speed, impulse, force) when the carriage has been in an end stop; `following_error` of a
-/// servo that takes pulses.
+/// speed by more than mismatch_limit; `unclamped` when the blade comes into material that nothing clamps;
+/// `opened_early` (depth) when the clamps let go with the blade in the material; `pinch` (force,
+/// displacement) when the sideways force exceeds its limit, once per engagement; `crash` (side, speed,
+/// impulse, force) when the carriage has been in an end stop; `following_error` of a servo that takes pulses.
 class FlyingSaw : public Plant, public TellsMotorLoad {
  public:
   FlyingSaw(const FlyingSawData& data, World& world, Web& web);

@@ -55,8 +55,8 @@ Objections objections_to(const WebData& web, const FlyingSawData& saw) {
     found.push_back(
         {"head.stroke",
          fmt::format("{:g} mm of stroke less {:g} mm of clearance do not go through {:g} mm of "
-                     "material before the switch head.down",
-                     saw.head.stroke * 1000, saw.head.clearance * 1000, height * 1000),
+                     "material, the section of {}, before the switch head.down",
+                     saw.head.stroke * 1000, saw.head.clearance * 1000, height * 1000, saw.web),
          fmt::format("more than {:g} mm", (height + saw.head.clearance + saw.head.switch_margin) * 1000)});
   const double travel = saw.travel_max - saw.travel_min;
   const LeastStroke least = least_stroke(saw, section, web.drive.speed);

@@ -239,6 +239,8 @@ class AnaloguePositioner : public TableDevice<table> {
     value("ffwdreg") = to_long(actions.feed_forward);
     value("propreg") = to_long(actions.proportional);
     value("derreg") = to_long(actions.derivative);
+    if (axis_.following_error() && !state("st_foller") && value("maxfollerr") > 0)
+      report(following_error_above(axis_.follerr(), value("maxfollerr")));
     set_state("st_foller", axis_.following_error());
     if (axis_.profile().moving()) set_state("st_movdir", axis_.profile().backward());
     if (!axis_.frequency_new()) return;

@@ -28,6 +28,12 @@ inline Diagnostic kept_for_the_next(std::string_view name) {
           "kept for the next movement, the running one cannot take it any more"};
 }
 
+/// The following error has become larger than the program lets it be; the axis only reports it.
+inline Diagnostic following_error_above(std::int32_t follerr, std::int32_t maxfollerr) {
+  return {Diagnostic::Kind::note, "st_foller",
+          fmt::format("the following error of {} bits x4 is above maxfollerr, {}", follerr, maxfollerr)};
+}
+
 /// A quota held between the limits; minpos is the stronger where they are crossed.
 inline std::int32_t held(std::int32_t quota, std::int32_t minpos, std::int32_t maxpos) {
   return std::max(minpos, std::min(quota, maxpos));

@@ -237,7 +237,9 @@ void add_new(CLI::App& app, int& status) {
       "new",
       "Make a folder with a line of one's own that runs at once: scenario, program, cam, files for CI");
   command->add_option("folder", options.folder, "Folder to make; one that is there must be empty");
-  command->add_option("--from", options.machine, "Machine, as --list tells them: rotary_knife, flying_saw");
+  command->add_option(
+      "--from", options.machine,
+      "Machine, one of those that --list tells: rotary_knife, flying_saw, vertical_press ...");
   command->add_option("--controller", options.controller, "Controller: qmove, lx3vp, plcopen");
   command->add_flag("--list", options.list, "Tell which machines there are under which controllers");
   command->callback([chosen, &status] { status = make_line(*chosen); });

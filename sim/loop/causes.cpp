@@ -28,6 +28,10 @@ std::string text_of(const RecordedEvent& event) {
     return fmt::format("{} took hold of material that ran {:.4g} mm/s {} than the carriage",
                        number("blade") != 0 ? "the blade" : "the clamps", std::abs(number("difference")),
                        number("difference") < 0 ? "faster" : "slower");
+  if (event.event == "unclamped") return "the blade came into the material, and nothing clamped it";
+  if (event.event == "against_brake")
+    return fmt::format("its drive has moved the motor with {:.3g} N m against a brake that is told to hold",
+                       number("torque"));
   if (event.event == "opened_early") return "the clamps let go with the blade in the material";
   return event.text.empty() ? fmt::format("{}: {}", event.event, values_text(event, 4)) : event.text;
 }
@@ -67,6 +71,10 @@ std::string last_set(const std::vector<Alarm>& sets, const std::vector<CheckResu
 bool found_nothing(const std::vector<CheckResult>& checks) {
   return std::any_of(checks.begin(), checks.end(),
                      [](const CheckResult& check) { return !check.passed && check.idle; });
+}
+
+std::string text_of_fault(const Alarm& fault) {
+  return fmt::format("the timeline had at {:.6g} s: {} {}", fault.at, fault.source, fault.text);
 }
 
 std::string joined(const std::string& text) { return text.empty() ? "" : "; " + text; }
@@ -115,16 +123,19 @@ void Causes::sample(Time now) {
   for (auto& state : states_) {
     if (*state.number == state.last) continue;
     state.last = *state.number;
+    if (state.changed > 0) state.longest = std::max(state.longest, seconds(now) - state.changed);
     state.changed = seconds(now);
   }
 }
 
 std::string Causes::state_that_stands(double now) const {
   constexpr double long_enough = 1;  // [s]
+  constexpr double at_work = 1.5;    // times what it has stood before: it may be about to go on
   const State* latest = nullptr;
   for (const auto& state : states_)
     if (state.changed > 0 && (latest == nullptr || state.changed > latest->changed)) latest = &state;
-  if (latest == nullptr || now - latest->changed < long_enough) return "";
+  if (latest == nullptr || now - latest->changed < std::max(long_enough, at_work * latest->longest))
+    return "";
   return fmt::format("{} stands at {:g} since {:.6g} s", latest->name, latest->last, latest->changed);
 }
 
@@ -150,21 +161,27 @@ const Alarm* Causes::last_warning(double until, const std::string& source) const
 
 // What came before a failure: a fault that was put in, an error and the warning behind it, a drive at its
 // limit.
-std::string Causes::by_time(double failed_at) const {
+std::string Causes::by_time(double failed_at, const Known& known) const {
   constexpr double soon = 1;         // [s] what lies so little before a failure is held to be its cause
   constexpr double told_late = 0.1;  // [s] an error is told once it has lasted
   const Alarm* fault = nullptr;
   for (const auto& one : faults_)
     if (one.at <= failed_at) fault = &one;
-  if (fault != nullptr)
-    return fmt::format("because the timeline had at {:.6g} s: {} {}", fault->at, fault->source, fault->text);
   const auto* error = first_error(failed_at + told_late);
   const auto* warning =
       last_warning(error != nullptr ? error->at : failed_at, error != nullptr ? error->source : "");
+  if (fault != nullptr) {
+    const bool shown = failed_at - fault->at <= soon || (error != nullptr && error->at >= fault->at) ||
+                       (warning != nullptr && warning->at >= fault->at);
+    return (shown ? "because " : "after ") + text_of_fault(*fault);
+  }
   if (error != nullptr)
     return warning != nullptr
                ? fmt::format("because {}; then at {:.6g} s: {}", text_of(*warning), error->at, error->text)
                : "because " + text_of(*error);
+  if (known.hunting && known.hunting->first <= failed_at &&
+      (warning == nullptr || known.hunting->first <= warning->at))
+    return "because " + known.hunting->second;
   for (const auto& limit : limits_)
     if (limit.begin <= failed_at && failed_at - limit.end <= soon && warning == nullptr)
       return fmt::format("after the drive of {} was at its torque limit from {:.6g} s on", limit.drive,
@@ -188,15 +205,19 @@ std::string Causes::of(const std::vector<CheckResult>& checks, const Known& know
   constexpr auto ever = std::numeric_limits<double>::infinity();
   const auto failed_at = first_failure(checks);
   for (const auto& [at, text] : known.astray)
-    if (at <= failed_at.value_or(ever)) return "because " + text;
+    if (at <= failed_at.value_or(ever) && first_error(at) == nullptr) return "because " + text;
   if (const auto* error = first_error(ever); !failed_at && error == nullptr && !known.hindrances.empty())
-    return "because " + known.hindrances.front() + joined(last_set(sets_, checks));
-  auto cause = by_time(failed_at.value_or(ever));
+    return faults_.empty() ? "because " + known.hindrances.front() + joined(last_set(sets_, checks))
+                           : "after " + text_of_fault(faults_.front()) + joined(known.hindrances.front());
+  auto cause = by_time(failed_at.value_or(ever), known);
   if (cause.empty() && known.standing && known.standing->first <= failed_at.value_or(ever))
     cause = "while " + known.standing->second;
   if (cause.empty() || cause.starts_with("after ")) return last_resort(checks, known, cause);
   if (!faults_.empty()) return cause;
-  if (found_nothing(checks) && !known.hindrances.empty()) return cause + joined(known.hindrances.front());
+  if (found_nothing(checks) && !known.hindrances.empty())
+    return first_error(failed_at.value_or(ever)) != nullptr
+               ? cause + joined(known.hindrances.front())
+               : fmt::format("because {}; {}", known.hindrances.front(), cause.substr(cause.find(' ') + 1));
   return errors_.empty() || known.doubts.empty() ? cause : cause + joined(known.doubts.front());
 }
 

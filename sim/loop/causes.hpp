@@ -35,6 +35,8 @@ class Causes : public Observer {
     std::vector<std::string> hindrances = {};
     /// An axis that goes the wrong way: from when on [s].
     std::vector<std::pair<double, std::string>> astray = {};
+    /// An axis that hunts: from when on [s].
+    std::optional<std::pair<double, std::string>> hunting = {};
     /// Where the whole program stands, and since when [s].
     std::optional<std::pair<double, std::string>> standing = {};
     /// What may be a slip, where nothing tells more: positions that differ, doubtful wires.
@@ -55,6 +57,7 @@ class Causes : public Observer {
     const double* number;
     double last = 0;
     double changed = 0;  ///< [s]; 0: it has not yet
+    double longest = 0;  ///< that it has stood between two changes [s]
   };
   struct Limit {
     std::string drive;
@@ -63,7 +66,7 @@ class Causes : public Observer {
   };
   [[nodiscard]] const Alarm* first_error(double until) const;
   [[nodiscard]] const Alarm* last_warning(double until, const std::string& source) const;
-  [[nodiscard]] std::string by_time(double failed_at) const;
+  [[nodiscard]] std::string by_time(double failed_at, const Known& known) const;
   [[nodiscard]] std::string last_resort(const std::vector<CheckResult>& checks, const Known& known,
                                         const std::string& before) const;
 

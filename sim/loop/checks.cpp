@@ -427,6 +427,7 @@ CheckResult Checks::result(State& state, Time end) {
     result.margin.reset();
     result.used.reset();
     if (state.held_at && check.within) {
+      result.deadline = true;
       result.margin = seconds(check.from + *check.within) - *state.held_at;
       if (*check.within > 0) result.used = (*state.held_at - seconds(check.from)) / seconds(*check.within);
       result.unit = "s";

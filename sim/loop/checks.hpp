@@ -40,6 +40,7 @@ struct CheckResult {
   std::string doubt =
       {};  ///< though it passed: "(gbStep == 2) was 0 at all 2601 instants: it judged nothing"
   std::optional<double> too_few = {};  ///< [s] of events that it counts there were too few, from then on
+  bool deadline = false;               ///< its limit is a time by which something has come
 };
 
 /// Evaluates the checks of a scenario while it runs. always / eventually look at every record instant, the

@@ -199,6 +199,10 @@ std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devi
   return notes;
 }
 
+bool names_terminal(devices::Controller& controller, const std::string& terminal) {
+  return is_named(terminal, controller.programs(), Named::surely);
+}
+
 OpenTerminals open_terminals(devices::Controller& controller, const std::vector<std::string>& unwired,
                              const std::vector<NamedPlant>& plants) {
   OpenTerminals open;

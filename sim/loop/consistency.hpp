@@ -21,6 +21,9 @@ std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devi
 const scenario::Wire* wire_at(const scenario::Scenario& scenario, devices::Controller& controller,
                               const devices::Address& address);
 
+/// A program surely names that terminal, or what the configuration calls it.
+bool names_terminal(devices::Controller& controller, const std::string& terminal);
+
 /// The text without comments, in small letters: of QCL and IL from ';' on, of Structured Text // and (* *).
 std::string program_words(const devices::ProgramText& program);
 

@@ -109,7 +109,12 @@ void DriveJudge::end_cycle(Drive& drive, DriveCycles::Ended ended) {
   }
   const auto& cycle = drive.cycles.last();
   const double rms = rms_torque(cycle);
-  if (!drive.row.empty() && is_alike(rms, rms_torque(drive.row.back()))) drive.steady = cycle;
+  if (!drive.row.empty() && is_alike(rms, rms_torque(drive.row.back()))) {
+    drive.steady = cycle;
+    drive.heavier.reset();
+  } else if (drive.steady && rms > rms_torque(drive.heavier.value_or(*drive.steady))) {
+    drive.heavier = cycle;
+  }
   drive.cycle_points.add(cycle.travel / cycle.time, rms);
   ++drive.counted;
   drive.energy += cycle.from_mains;
@@ -136,9 +141,12 @@ std::string DriveJudge::judge_rest(Drive& drive) {
       drive.worst.take(run, ratings);
     return "";
   }
-  if (drive.judged < cycles_in_a_row && drive.steady) drive.worst.take(*drive.steady, ratings);
+  if (drive.judged < cycles_in_a_row && drive.steady) {
+    drive.worst.take(*drive.steady, ratings);
+    if (drive.heavier) drive.worst.take(*drive.heavier, ratings);
+  }
   if (drive.judged > 0) return fmt::format("worst {} cycles in a row", drive.judged);
-  if (drive.steady) return "steady cycle";
+  if (drive.steady) return drive.heavier ? "heaviest cycle" : "steady cycle";
   judge_row(drive);
   return drive.row.size() == 1 ? "the one cycle" : fmt::format("mean of {} cycles", drive.row.size());
 }
@@ -230,12 +238,15 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
   add("largest speed", peaks.speed * units::rpm, ratings.max_speed * units::rpm, "rpm", Goes::as_the_speed,
       true, peaks_from);
   const double current = std::sqrt(worst.current_squared);
-  add("rms current, for the winding", current, std::sqrt(stage.current_squared_for_ever(worst.rotor_loss)),
-      "A", Goes::as_the_torque, !whole, means);
+  const double for_ever = stage.current_squared_for_ever(worst.rotor_loss);
   const double steady = stage.steady_temperature(worst.current_squared, worst.rotor_loss);
+  // Where the rotor's losses alone are too much no current is left.
+  if (for_ever > 0 || !std::isfinite(steady))
+    add("rms current, for the winding", current, std::sqrt(for_ever), "A", Goes::as_the_torque, !whole,
+        means);
   if (std::isfinite(steady))
     add("winding temperature rise, continuous duty", over_ambient(steady), winding_limit, "K",
-        Goes::not_with_it, false, means);
+        Goes::not_with_it, for_ever <= 0 && !whole, means);
   add("winding temperature rise, so far", over_ambient(peaks.winding), winding_limit, "K",
       Goes::as_its_square, true, peaks_from);
   if (const auto& amplifier = stage.amplifier()) {
@@ -264,7 +275,7 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
   for (const auto& figure : verdict.figures)
     if (figure.judged && figure.share > good)
       verdict.advised = std::min(verdict.advised, advised_for(figure, worst.constant));
-  verdict.steady = drive.steady || drive.even;
+  verdict.steady = (drive.steady && (!drive.heavier || drive.judged == cycles_in_a_row)) || drive.even;
   if (!whole) {
     drive.elsewhere.add(drive.in_cycle);
     if (const auto& [times, time, first] = drive.elsewhere; times > 0 && !ratings.works_at_limit)

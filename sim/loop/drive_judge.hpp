@@ -69,10 +69,10 @@ class Thinned {
 
 /// Judges the drives of all plants by their ratings: torque, current, heat and voltages over the worst ten
 /// machine cycles in a row as if they went on for ever (DriveCycles); where there are not ten, over the
-/// steady cycle: the last whose rms torque is within 1 % of that of the one before; where there is none, over
-/// all. Without any cycle, means from the first motion on are told and not judged: who knows whether it goes
-/// on like that. Homing, the start and a change of order are not the machine's work: of machines that cut
-/// only the peaks from the first cut on are judged, and trips.
+/// steady cycle: the last whose rms torque is within 1 % of that of the one before, or a heavier one that
+/// came since; where there is none, over all. Without any cycle, means from the first motion on are told and
+/// not judged: who knows whether it goes on like that. Homing, the start and a change of order are not the
+/// machine's work: of machines that cut only the peaks from the first cut on are judged, and trips.
 class DriveJudge : public Observer {
  public:
   DriveJudge(const scenario::Scenario& scenario, const std::vector<NamedPlant>& plants);
@@ -126,6 +126,7 @@ class DriveJudge : public Observer {
     std::deque<plants::DriveTotals> row = {};  ///< the last of them in a row, up to ten
     std::size_t judged = 0;                    ///< most of them in a row that were judged
     std::optional<plants::DriveTotals> steady = {};
+    std::optional<plants::DriveTotals> heavier = {};  ///< the heaviest cycle since the steady one
     bool even = false;  ///< five cycles in a row came to the same as the five before
     Worst worst = {};
     AtLimit in_cycle = {};   ///< since the last one ended

@@ -98,9 +98,11 @@ void Simulation::compare_with_machine() {
 // at.
 void Simulation::look_after_program() {
   directions_ = std::make_unique<Directions>(scenario_, *controller_);
+  hunting_ = std::make_unique<Hunting>(*controller_);
   standing_ = std::make_unique<Standing>(scenario_, *controller_);
   whereabouts_ = std::make_unique<Whereabouts>(scenario_, *controller_, *names_);
-  observers_.insert(observers_.end(), {directions_.get(), standing_.get(), whereabouts_.get()});
+  observers_.insert(observers_.end(),
+                    {directions_.get(), hunting_.get(), standing_.get(), whereabouts_.get()});
   watch_->each([&](const Reading& reading, const double* slot) {
     const bool of_program = reading.unit.empty() && reading.name.find('.') == std::string::npos;
     if (of_program && controller_->find(reading.name)) causes_.follow(reading.name, slot);
@@ -320,6 +322,10 @@ std::vector<std::string> Simulation::notes() const {
   for (auto& speed : contradicting_speeds()) notes.push_back(std::move(speed));
   if (directions_)
     for (const auto& found : directions_->found()) notes.push_back(found.text);
+  if (standing_ && time_ > 0)
+    if (auto never = standing_->never_on(); !never.empty()) notes.push_back(std::move(never));
+  if (whereabouts_)
+    for (auto& zero : whereabouts_->zeros()) notes.push_back(std::move(zero));
   for (auto& remark : remarks_.notes()) notes.push_back(std::move(remark));
   if (time_ > 0 && drives_->judges())
     for (auto& drive : drives_->verdicts())
@@ -393,6 +399,7 @@ Causes::Known Simulation::known() {
   for (auto& speed : contradicting_speeds()) known.contradictions.push_back(std::move(speed));
   for (const auto& found : directions_ ? directions_->found() : std::vector<Directions::Found>())
     known.astray.emplace_back(found.at, found.text);
+  if (hunting_) known.hunting = hunting_->found();
   // An axis that only counts needs no loop.
   const auto moves = [&](const std::string& without) {
     const auto loops = controller_->position_loops();
@@ -410,11 +417,12 @@ Causes::Known Simulation::known() {
     if (standing.empty()) {
       auto signs = standing_ ? standing_->texts(time_) : std::vector<std::string>();
       if (auto state = causes_.state_that_stands(seconds(time_)); !state.empty())
-        signs.insert(signs.begin(), std::move(state));
+        signs.push_back(std::move(state));
       standing = fmt::format("{}", fmt::join(signs, "; "));
     }
     if (auto open = without_loop(*controller_); !open.empty() && moves(open))
       known.contradictions.push_back(std::move(open));
+    if (known.hunting) known.doubts.push_back(known.hunting->second);
     for (auto& text : whereabouts_ ? whereabouts_->texts() : std::vector<std::string>())
       known.doubts.push_back(std::move(text));
     for (auto& doubt : doubtful_wires(scenario_, *controller_)) known.doubts.push_back(std::move(doubt));

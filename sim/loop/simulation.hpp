@@ -18,6 +18,7 @@
 #include "sim/loop/directions.hpp"
 #include "sim/loop/disturbances.hpp"
 #include "sim/loop/drive_judge.hpp"
+#include "sim/loop/hunting.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/loop/observer.hpp"
 #include "sim/loop/recorder.hpp"
@@ -209,6 +210,7 @@ class Simulation {
   Causes causes_;
   // Nullptr without a controller.
   std::unique_ptr<Directions> directions_;
+  std::unique_ptr<Hunting> hunting_;
   std::unique_ptr<Standing> standing_;
   std::unique_ptr<Whereabouts> whereabouts_;
   std::vector<Observer*> observers_;      ///< all of them, in the order in which they are told

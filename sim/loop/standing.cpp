@@ -5,13 +5,15 @@
 
 #include <algorithm>
 
+#include "sim/loop/consistency.hpp"
 #include "sim/loop/recorder.hpp"
 
 namespace drycut::sim::loop {
 
 namespace {
 
-constexpr Time stays = 3 * second;  // what has not changed for so long stands: longer than a piece takes
+constexpr Time stays = 3 * second;  // what has not changed for so long stands ...
+constexpr double at_work = 1.5;     // ... and for longer than so many pieces have taken
 
 /// What a working machine may do without: a direction, a limit that is not reached.
 bool may_be_off(const std::string& plug) {
@@ -19,10 +21,13 @@ bool may_be_off(const std::string& plug) {
          plug.find("limit") != std::string::npos;
 }
 
-std::string never_on(const auto& levels) {
+std::string those_never_on(const auto&... levels) {
   std::vector<std::string> never;
-  for (const auto& one : levels)
-    if (!one.was_on) never.push_back(fmt::format("{} ({})", one.plug, one.terminal));
+  const auto look = [&](const auto& list) {
+    for (const auto& one : list)
+      if (!one.was_on) never.push_back(fmt::format("{} ({})", one.plug, one.terminal));
+  };
+  (look(levels), ...);
   return never.empty() ? "" : fmt::format("never seen on: {}", fmt::join(never, ", "));
 }
 
@@ -37,7 +42,7 @@ Standing::Standing(const scenario::Scenario& scenario, devices::Controller& cont
     const auto terminal = controller.terminal_name(*address);
     const auto& plug = wire.plug.text;
     const auto follow = [&](std::vector<Level>& levels, const bool& level) {
-      levels.push_back({terminal, plug, &level, level, level});
+      levels.push_back({terminal, plug, &level, level, level, names_terminal(controller, terminal)});
     };
     const bool on_panel = plug.starts_with("panel.");
     if (address->kind == devices::Kind::counter) {
@@ -62,6 +67,9 @@ void Standing::sample(Time now) {
       one.last = *one.level;
       one.was_on = one.was_on || one.last;
       one.changed = now;
+      if (levels != &outputs_) continue;
+      if (worked_ > 0) longest_ = std::max(longest_, now - worked_);
+      worked_ = now;
     }
 }
 
@@ -70,14 +78,12 @@ std::vector<std::string> Standing::texts(Time now) const {
   for (const auto& count : counts_)
     if (count.counter->count == count.first)
       texts.push_back(fmt::format("{} ({}) counted nothing", count.terminal, count.plug));
-  auto never = never_on(outputs_);
-  std::optional<Time> last;
+  auto never = those_never_on(outputs_).empty() ? "" : those_never_on(outputs_, inputs_);
   std::vector<std::string> states;
-  for (const auto& output : outputs_) {
-    if (output.changed) last = std::max(last.value_or(0), *output.changed);
+  for (const auto& output : outputs_)
     states.push_back(fmt::format("{} {}", output.plug, output.last ? "on" : "off"));
-  }
-  const bool stand = last && now - *last >= stays;
+  const auto long_enough = std::max(stays, static_cast<Time>(at_work * static_cast<double>(longest_)));
+  const bool stand = worked_ > 0 && now - worked_ >= long_enough;
   if (never.empty() && !stand) return texts;  // they work
   for (const auto& lamp : lamps_)
     if (lamp.last && lamp.changed && now - *lamp.changed >= stays)
@@ -87,9 +93,15 @@ std::vector<std::string> Standing::texts(Time now) const {
     return texts;
   }
   // All have worked: where they have stopped, and what they wait for.
-  texts.push_back(fmt::format("{} since {} s", fmt::join(states, ", "), seconds_text(*last)));
-  if (auto waited = never_on(inputs_); !waited.empty()) texts.push_back(std::move(waited));
+  texts.push_back(fmt::format("{} since {} s", fmt::join(states, ", "), seconds_text(worked_)));
+  if (auto waited = never_on(); !waited.empty()) texts.push_back(std::move(waited));
   return texts;
+}
+
+std::string Standing::never_on() const {
+  auto read = inputs_;
+  std::erase_if(read, [](const Level& input) { return !input.of_program; });
+  return those_never_on(read);
 }
 
 }  // namespace drycut::sim::loop

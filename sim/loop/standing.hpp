@@ -21,6 +21,9 @@ class Standing : public Observer {
   /// "panel.too_long is on since 3.406 s", "never seen on: saw.clamp (2.OUT02)".
   [[nodiscard]] std::vector<std::string> texts(Time now) const;
 
+  /// "never seen on: saw.home (X10)": of the machine's switches that a program reads; "" = all were.
+  [[nodiscard]] std::string never_on() const;
+
  private:
   struct Level {
     std::string terminal;
@@ -28,6 +31,7 @@ class Standing : public Observer {
     const bool* level;
     bool last;
     bool was_on;
+    bool of_program;  ///< a program names it
     std::optional<Time> changed = {};
   };
   struct Count {
@@ -38,6 +42,8 @@ class Standing : public Observer {
   };
   std::vector<Level> lamps_;
   std::vector<Level> outputs_;  ///< that move the machine
+  Time worked_ = 0;             ///< when one of them changed last ...
+  Time longest_ = 0;            ///< ... and the longest time between two such changes
   std::vector<Level> inputs_;   ///< limits apart, which a sound machine never reaches
   std::vector<Count> counts_;
 };

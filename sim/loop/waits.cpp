@@ -13,7 +13,9 @@ namespace drycut::sim::loop {
 
 namespace {
 
-constexpr Time told_wait = second / 2;  // a wait that is told
+constexpr Time told_wait = second / 2;  // a wait that is told ...
+constexpr Time share_of_run =
+    20;  // ... in a run of at most so many of them: a long run's end finds it at work
 
 std::string values_of(const devices::ProgramText& program, int line, devices::Controller& controller) {
   const auto named = program.values.find(line);
@@ -63,7 +65,8 @@ Waits waits_of(devices::Controller& controller, Time now) {
   const auto waits = controller.waits();
   const auto programs = controller.programs();
   for (const auto& wait : waits) {
-    if (now - wait.since_ns < std::min(told_wait, now / 2)) continue;
+    const Time waited = now - wait.since_ns;
+    if (waited < std::min(told_wait, now / 2) || (!wait.ended && waited < now / share_of_run)) continue;
     const auto program = std::find_if(programs.begin(), programs.end(),
                                       [&](const auto& one) { return one.name == wait.program; });
     if (program == programs.end()) continue;

@@ -8,7 +8,7 @@
 
 namespace drycut::sim::loop {
 
-/// Where a controller's programs have stood for half a second or more, by `now`.
+/// Where a controller's programs have stood for half a second or more, and a twentieth of the run, by `now`.
 struct Waits {
   /// A phrase each: "press.mod stands at line 30, WAIT NOT Axis:st_cntrev (Axis.st_cntrev=1), since 0.004 s".
   std::vector<std::string> texts;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double told_scale = 0.1;  // of the way
 constexpr double told_place = 2;    // [mm], more than a play
+constexpr double told_zero = 10;    // [mm], more than play and twist of a gear at the turn of a stroke
 constexpr double enough_way = 10;   // [mm]
 constexpr double rounding = 0.1;    // [mm] a step of either and the time between two looks
 
@@ -29,11 +30,12 @@ Whereabouts::Whereabouts(const scenario::Scenario& scenario, devices::Controller
     const auto posit = controller.find(loop.name + ".posit");
     const auto decpt = controller.find(loop.name + ".decpt");
     const auto* wire = loop.counter ? wire_at(scenario, controller, *loop.counter) : nullptr;
-    if (!posit || !decpt || wire == nullptr || homes(controller, loop.name)) continue;
+    if (!posit || !decpt || wire == nullptr) continue;
     const auto plant = wire->plug.text.substr(0, wire->plug.text.find('.')) + ".position";
     const auto position = names.reading(plant);
     if (!position || position->unit != "mm") continue;
-    axes_.push_back({loop.name, loop.drive, posit->read, decpt->read, plant, position->read});
+    axes_.push_back({loop.name, loop.drive, posit->read, decpt->read, plant, position->read,
+                     homes(controller, loop.name)});
   }
 }
 
@@ -54,6 +56,8 @@ void Whereabouts::sample(Time /*now*/) {
     axis.last_position = position;
     if (!axis.driven) continue;
     if (std::abs(moved) < rounding) {
+      axis.rests_posit = posit;
+      axis.rests = position;
       if (std::abs(went) < told_place) continue;
       axis.began_posit = posit;  // a program has set it while the machine stands
       axis.began = position;
@@ -67,13 +71,25 @@ void Whereabouts::sample(Time /*now*/) {
 std::vector<std::string> Whereabouts::texts() const {
   std::vector<std::string> texts;
   for (const auto& axis : axes_) {
-    if (axis.moved < enough_way) continue;
+    if (axis.homed || axis.moved < enough_way) continue;
     if (std::abs(axis.went - axis.moved) > told_scale * axis.moved)
       texts.push_back(fmt::format("{} counted {:.4g} where {} went {:.4g} mm", axis.name, axis.went,
                                   axis.plant, axis.moved));
     else if (std::abs(axis.began_posit - axis.began) > told_place)
       texts.push_back(fmt::format("{} stood at {:.6g} when it was driven first, and {} at {:.6g} mm",
                                   axis.name, axis.began_posit, axis.plant, axis.began));
+  }
+  return texts;
+}
+
+std::vector<std::string> Whereabouts::zeros() const {
+  std::vector<std::string> texts;
+  for (const auto& axis : axes_) {
+    const bool same_unit = std::abs(axis.went - axis.moved) <= told_scale * axis.moved;
+    if (!axis.homed || axis.moved < enough_way || !same_unit) continue;
+    if (std::abs(axis.rests_posit - axis.rests) > told_zero)
+      texts.push_back(fmt::format("{} is at {:.6g} where {} is {:.6g} mm: another zero", axis.name,
+                                  axis.rests_posit, axis.plant, axis.rests));
   }
   return texts;
 }

@@ -12,7 +12,8 @@
 namespace drycut::sim::loop {
 
 /// Compares where axes believe to be with where their machine is: another scale, another place at the first
-/// command. Only of axes that count a machine with a position, and that no program homes.
+/// command, where no program homes them; another zero, where one does. Only of axes that count a machine with
+/// a position.
 class Whereabouts : public Observer {
  public:
   Whereabouts(const scenario::Scenario& scenario, devices::Controller& controller, Names& names);
@@ -21,6 +22,8 @@ class Whereabouts : public Observer {
 
   /// What differs, a phrase each: "Axis counted 50 where press.position went 200 mm".
   [[nodiscard]] std::vector<std::string> texts() const;
+  /// Of axes that a program homes, a phrase each: "AxisX is at 50 where saw.position is 5 mm: another zero".
+  [[nodiscard]] std::vector<std::string> zeros() const;
 
  private:
   struct Axis {
@@ -30,6 +33,7 @@ class Whereabouts : public Observer {
     std::function<double()> decpt;
     std::string plant;                 ///< "press.position"
     std::function<double()> position;  ///< [mm]
+    bool homed = false;                ///< by a program
     double last_posit = 0;
     double last_position = 0;
     double went = 0;   ///< by the axis' count, in its unit, without what a program set
@@ -37,6 +41,8 @@ class Whereabouts : public Observer {
     bool driven = false;
     double began_posit = 0;  ///< when it was driven first ...
     double began = 0;        ///< ... and the machine then [mm]
+    double rests_posit = 0;  ///< where it believed to be when the machine rested last ...
+    double rests = 0;        ///< ... and the machine [mm]
   };
   [[nodiscard]] static double unit_position(const Axis& axis);
 

@@ -12,11 +12,11 @@ namespace drycut::sim::report {
 
 namespace {
 
-std::string grade_text(const loop::DriveFigure& figure) {
-  const auto* word = !figure.judged       ? "not judged,"
-                     : figure.share > 1   ? "FAIL"
-                     : figure.share > 0.9 ? "close,"
-                                          : "PASS";
+std::string grade_text(const loop::DriveFigure& figure, bool judged) {
+  const auto* word = !figure.judged || !judged ? "not judged,"
+                     : figure.share > 1        ? "FAIL"
+                     : figure.share > 0.9      ? "close,"
+                                               : "PASS";
   return fmt::format("{} {:.0f} %", word, 100 * figure.share);
 }
 
@@ -88,15 +88,16 @@ void draw_torque_over_speed(const loop::DriveVerdict& drive, renders::Curve poin
   plot.panels.push_back(std::move(panel));
 }
 
-renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts) {
+renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts, bool judged) {
   renders::ReportTable table{
       "Drives and their ratings", {"drive", "", "value", "limit", "used"}, {}, false, true};
   for (const auto& verdict : verdicts) {
     auto name = verdict.drive + "\n" + verdict.cycles;
     for (const auto& figure : verdict.figures) {
-      table.rows.push_back({{name, fmt::format("{}\n{}", figure.name, figure.window),
-                             fmt::format("{:.4g} {}", figure.value, figure.unit),
-                             fmt::format("{:.4g} {}", figure.rating, figure.unit), grade_text(figure)}});
+      table.rows.push_back(
+          {{name, fmt::format("{}\n{}", figure.name, figure.window),
+            fmt::format("{:.4g} {}", figure.value, figure.unit),
+            fmt::format("{:.4g} {}", figure.rating, figure.unit), grade_text(figure, judged)}});
       name.clear();
     }
     table.rows.push_back(
@@ -104,12 +105,13 @@ renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts
     table.rows.push_back(
         {{"", "energy a cycle, from the mains", fmt::format("{:.4g} J", verdict.energy), "", ""}});
     if (!verdict.trips.empty())
-      table.rows.push_back(
-          {{"", "trips", fmt::format("{}", fmt::join(verdict.trips, ", ")), "none", "FAIL"}});
+      table.rows.push_back({{"", "trips", fmt::format("{}", fmt::join(verdict.trips, ", ")), "none",
+                             judged ? "FAIL" : "not judged"}});
     if (!verdict.limit_elsewhere.empty())
       table.rows.push_back(
           {{"", "at the torque limit\noutside of these cycles", verdict.limit_elsewhere, "", ""}});
-    if (verdict.advised < 1 && std::floor(100 * verdict.advised) > 0 && verdict.tightest().share > 1)
+    if (judged && verdict.advised < 1 && std::floor(100 * verdict.advised) > 0 &&
+        verdict.tightest().share > 1)
       table.rows.push_back({{"", "within 90 % of all",
                              fmt::format("at {:.0f} % of this speed\nby a cautious estimate",
                                          std::floor(100 * verdict.advised)),

@@ -10,7 +10,7 @@
 namespace drycut::sim::report {
 
 /// Every figure of every drive beside its rating, with a verdict each.
-renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts);
+renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts, bool judged);
 
 /// The drive of a plant; nullptr where it has none.
 const loop::DriveVerdict* drive_of(const std::vector<loop::DriveVerdict>& verdicts, const std::string& plant);

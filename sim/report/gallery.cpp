@@ -212,7 +212,8 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
   report.scenario = scenario.file.filename().string();
   report.passed = outcome.passed();
   report.verdict = verdict_text(outcome);
-  report.keys = key_figures(simulation.recording(), simulation.known_events(), lines_in(simulation), outcome);
+  report.keys = key_figures(simulation.recording(), simulation.known_events(), lines_in(simulation), outcome,
+                            scenario.drives.judge);
   report.facts = {{{"simulated", units_note(seconds(outcome.end))}},
                   {{"physics step", fmt::format("{:g} us", static_cast<double>(scenario.scene.step) / 1e3)}},
                   {{"seed", fmt::format("{}", scenario.scene.seed)}},
@@ -227,7 +228,7 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
   for (const auto& warning : outcome.warnings) report.notes.push_back("warning: " + warning);
   for (const auto& note : simulation.notes()) report.notes.push_back(note);
   add_checks(outcome.checks, report);
-  if (auto drives = drive_table(outcome.drives); !drives.rows.empty())
+  if (auto drives = drive_table(outcome.drives, scenario.drives.judge); !drives.rows.empty())
     report.summary.push_back(std::move(drives));
   for (const auto& split : torque_splits(scenario, simulation)) report.tables.push_back(torque_table(split));
   if (outcome.half_step) report.summary.push_back(studies::margin_table(outcome, scenario.scene.step));

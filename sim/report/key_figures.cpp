@@ -147,7 +147,7 @@ void add_line_speeds(const loop::Recording& recording, const std::vector<std::st
 }
 
 /// Of the drives that are nearest to their ratings.
-void add_drives(const loop::Outcome& outcome, std::vector<renders::ReportKey>& keys) {
+void add_drives(const loop::Outcome& outcome, bool all_judged, std::vector<renders::ReportKey>& keys) {
   constexpr std::size_t most = 3;
   std::vector<const loop::DriveVerdict*> drives;
   drives.reserve(outcome.drives.size());
@@ -158,26 +158,30 @@ void add_drives(const loop::Outcome& outcome, std::vector<renders::ReportKey>& k
   for (const auto* drive : drives) {
     for (const auto& figure : drive->figures) {
       if (figure.name != "rms torque" && figure.name != "peak torque") continue;
+      const bool judged = figure.judged && all_judged;
       keys.push_back(
           {fmt::format("{} of {}", figure.name, drive->drive),
            fmt::format("{:.3g} {}", figure.value, figure.unit),
-           {fmt::format("limit {:.4g} {}{}", figure.rating, figure.unit, figure.judged ? "" : "; not judged"),
+           {fmt::format("limit {:.4g} {}{}", figure.rating, figure.unit, judged ? "" : "; not judged"),
             figure.window},
-           figure.share});
+           judged ? std::optional(figure.share) : std::nullopt});
     }
   }
 }
 
-/// The check that failed by most, or would fail first if all went on a little worse.
+/// The check that failed by most, or would fail first if all went on a little worse. How long a run took to
+/// be done says nothing of the machine.
 void add_nearest(const loop::Outcome& outcome, std::vector<renders::ReportKey>& keys) {
   const loop::CheckResult* nearest = nullptr;
   std::size_t count = 0;
+  const bool passed = std::all_of(outcome.checks.begin(), outcome.checks.end(),
+                                  [](const loop::CheckResult& check) { return check.passed; });
   for (const auto& check : outcome.checks) {
-    if (!check.used) continue;
+    if (!check.used || (check.deadline && check.passed) || check.passed != passed) continue;
     ++count;
     if (nearest == nullptr || *check.used > *nearest->used) nearest = &check;
   }
-  if (count < 2) return;
+  if (count < (passed ? 2U : 1U)) return;
   keys.push_back({nearest->passed ? "nearest to its limit" : "farthest beyond its limit",
                   nearest->name,
                   {},
@@ -189,12 +193,12 @@ void add_nearest(const loop::Outcome& outcome, std::vector<renders::ReportKey>& 
 std::vector<renders::ReportKey> key_figures(const loop::Recording& recording,
                                             const std::vector<loop::KnownEvent>& known_events,
                                             const std::vector<std::string>& lines,
-                                            const loop::Outcome& outcome) {
+                                            const loop::Outcome& outcome, bool drives_judged) {
   std::vector<renders::ReportKey> keys;
   add_pieces(recording, known_events, keys);
   add_values(recording, outcome, keys);
   add_line_speeds(recording, lines, keys);
-  add_drives(outcome, keys);
+  add_drives(outcome, drives_judged, keys);
   add_nearest(outcome, keys);
   return keys;
 }

@@ -14,6 +14,6 @@ namespace drycut::sim::report {
 std::vector<renders::ReportKey> key_figures(const loop::Recording& recording,
                                             const std::vector<loop::KnownEvent>& known_events,
                                             const std::vector<std::string>& lines,
-                                            const loop::Outcome& outcome);
+                                            const loop::Outcome& outcome, bool drives_judged);
 
 }  // namespace drycut::sim::report

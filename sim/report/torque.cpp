@@ -425,14 +425,17 @@ renders::ReportTable torque_table(const TorqueSplit& split) {
                              false,
                              true};
   const auto add = [&](const TorqueSplit::Part& part) {
-    table.rows.push_back({{part.name + "\n" + part.meaning, fmt::format("{:.4g}", part.rms),
-                           fmt::format("{:.4g}", part.peak), fmt::format("{:.1f}", 100 * part.share)}});
+    table.rows.push_back(
+        {{part.name + "\n" + part.meaning, fmt::format("{:.4g}", part.rms), fmt::format("{:.4g}", part.peak),
+          fmt::format("{:.1f}", std::round(1000 * part.share) / 10 + 0.0)}});
   };
   for (const auto& part : split.parts) add(part);
   add(split.torque);
   table.rows.back().cells.front() +=
       fmt::format(", {}, {:.3f} to {:.3f} s",
-                  split.cycles > 0 ? fmt::format("last {}", counted(split.cycles, "cycle")) : "whole run",
+                  split.cycles > 0    ? fmt::format("last {}", counted(split.cycles, "cycle"))
+                  : split.begin > 0.1 ? "end of the run"
+                                      : "whole run",
                   split.begin, split.end);
   return table;
 }

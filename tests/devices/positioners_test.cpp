@@ -176,6 +176,8 @@ TEST_P(PositionerOfAnyKind, FollowingErrorIsHeldForHalfASecond) {
   about("maxfollerr");
   after("maxfollerr=40 INIT LOOPON blocked=1 count=-40 sample", "!foller");
   after("count=-41 sample", "foller still !emrg DAC!=0");  // nothing stops by itself
+  EXPECT_THAT(diagnostics(),
+              testing::ElementsAre("st_foller: the following error of 41 bits x4 is above maxfollerr, 40"));
   does("count=0");
   for (int ms = period; ms < 500; ms += period) after("sample", "foller");
   after("sample", "!foller");

@@ -102,6 +102,20 @@ TEST(FlyingSaw, ClampsTakeTheirTimeAndAFaultTakesTheirForce) {
   EXPECT_EQ(line.saw().clamp().limit(), 0);
 }
 
+TEST(FlyingSaw, ABladeThatComesIntoMaterialThatNothingClampsIsTold) {
+  for (const double lost : {0.0, 0.7, 1.0})
+    for (const bool clamped : {true, false}) {
+      auto definition = frictionless_saw();
+      SawLine line(definition, tube(0));
+      line.fault("clamp", "force_loss", lost);
+      line.command("clamp", clamped);
+      line.run(0.1);
+      line.command("head.plunge", true);
+      line.run(0.5);
+      EXPECT_EQ(line.unclamped, clamped && lost < 1 ? 0 : 1) << lost << clamped;
+    }
+}
+
 TEST(FlyingSaw, SawHeadMovesAtTheSpeedOfItsThrottles) {
   auto definition = frictionless_saw();
   auto& head = definition.data.head;

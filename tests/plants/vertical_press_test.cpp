@@ -98,6 +98,24 @@ TEST(VerticalPress, ASelfLockingScrewHoldsWithoutABrake) {
   EXPECT_LT(sinking.read("position"), 295);
 }
 
+TEST(VerticalPress, ADriveThatWorksAgainstItsBrakeIsTold) {
+  for (const char* kind : {"inverter", "contactors"})
+    for (const double held : {0.0, 0.15, 0.25}) {
+      VerticalPressDefinition definition;
+      definition.data.drive.kind = kind;
+      definition.data.drive.brake.torque = 100;
+      Press press(definition);
+      press.command("brake.release", false);
+      press.command(1, false);
+      press.run(held);
+      press.command("brake.release", true);
+      press.run(1);
+      const auto told = std::count_if(press.events.begin(), press.events.end(),
+                                      [](const Event& event) { return event.name == "against_brake"; });
+      EXPECT_EQ(told, held > 0.2 ? 1 : 0) << kind << held;
+    }
+}
+
 TEST(VerticalPress, WithoutABrakeItSagsAsItsWeightSays) {
   VerticalPressDefinition definition;
   auto& d = definition.data;

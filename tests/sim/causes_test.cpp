@@ -54,8 +54,7 @@ TEST(Causes, WhatAControllerWarnedOfExplainsWhatAMachineBreaks) {
   Causes causes;
   causes.happened(told(2.36, "AxisX", "warning", "slave out of syncrange"));
   causes.happened(told(2.5147, "knife", "tear", "", {{"mismatch", 102.165, "mm/s"}}));
-  EXPECT_EQ(causes.of({failed(2.5147)}, {}),
-            "because AxisX at 2.36 s: slave out of syncrange");
+  EXPECT_EQ(causes.of({failed(2.5147)}, {}), "because AxisX at 2.36 s: slave out of syncrange");
   Causes alone;
   alone.happened(told(2.5147, "knife", "tear", "", {{"mismatch", 102.165, "mm/s"}}));
   EXPECT_EQ(alone.of({failed(2.5147)}, {}), "after knife at 2.5147 s: it tore the web");
@@ -121,7 +120,7 @@ TEST(Causes, WhereNothingWasFoundToJudgeWhatStandsComesBeforeOldWarnings) {
   EXPECT_EQ(causes.of({failed(3), idle}, known), "while gbPhase stands at 2 since 3.4 s");
   EXPECT_EQ(causes.of({failed(3)}, known), "after AxisX at 0.1 s: a value is out of range");
   EXPECT_EQ(causes.of({failed(0.3), idle}, known),
-            "because AxisX at 0.1 s: a value is out of range; gbPhase stands at 2 since 3.4 s");
+            "because gbPhase stands at 2 since 3.4 s; AxisX at 0.1 s: a value is out of range");
 }
 
 TEST(Causes, ABlowIsToldWhereNothingElseIs) {
@@ -189,6 +188,50 @@ TEST(Causes, TheStateThatChangedLastIsToldOnceItStandsForASecond) {
   causes.sample(2500 * millisecond);
   EXPECT_EQ(causes.state_that_stands(3), "");
   EXPECT_EQ(causes.state_that_stands(3.5), "gbStep stands at 5 since 2.5 s");
+}
+
+TEST(Causes, AStateThatHasStoodAsLongBeforeIsAtWork) {
+  double step = 0;
+  Causes causes;
+  causes.follow("gbStep", &step);
+  for (const int at : {2, 6, 10}) {
+    ++step;
+    causes.sample(at * second);
+  }
+  EXPECT_EQ(causes.state_that_stands(15.9), "");
+  EXPECT_EQ(causes.state_that_stands(16.1), "gbStep stands at 3 since 10 s");
+}
+
+TEST(Causes, AnAxisThatHuntsIsToldBeforeWhatCameOfIt) {
+  Causes causes;
+  causes.happened(told(1.5, "AxisX", "warning", "slave out of syncrange"));
+  Causes::Known known;
+  known.hunting = {1.2, "AxisX hunts"};
+  EXPECT_EQ(causes.of({failed(1.6)}, known), "because AxisX hunts");
+  EXPECT_EQ(causes.of({failed(1.1)}, known), "");
+  known.hunting->first = 1.55;
+  EXPECT_EQ(causes.of({failed(1.6)}, known), "because AxisX at 1.5 s: slave out of syncrange");
+}
+
+TEST(Causes, AFaultThatShowedNothingForLongOnlyCameBefore) {
+  Causes causes;
+  causes.happened(told(3, "timeline", "fault", "saw.encoder stuck = 1"));
+  EXPECT_EQ(causes.of({failed(3.9)}, {}), "because the timeline had at 3 s: fault saw.encoder stuck = 1");
+  EXPECT_EQ(causes.of({failed(9)}, {}), "after the timeline had at 3 s: fault saw.encoder stuck = 1");
+  Causes::Known known;
+  known.hindrances = {"saw.clamp off since 2 s"};
+  EXPECT_EQ(causes.of({failed({})}, known),
+            "after the timeline had at 3 s: fault saw.encoder stuck = 1; saw.clamp off since 2 s");
+  causes.happened(told(4, "AxisX", "warning", "slave out of syncrange"));
+  EXPECT_EQ(causes.of({failed(9)}, {}), "because the timeline had at 3 s: fault saw.encoder stuck = 1");
+}
+
+TEST(Causes, AnAxisThatLostItsLoadIsNotHeldToCountTheWrongWay) {
+  Causes causes;
+  causes.happened(told(0.3, "press", "pulled_out", "", {{"speed", -400, "rpm"}, {"slip", 550, "rpm"}}));
+  Causes::Known known;
+  known.astray = {{0.4, "Axis went 1204 counts against its drive"}};
+  EXPECT_THAT(causes.of({failed(0.5)}, known), testing::StartsWith("because press at 0.3 s: pulled_out"));
 }
 
 TEST(Causes, AlarmsComeInTheOrderOfTheirTimes) {

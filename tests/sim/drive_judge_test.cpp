@@ -337,6 +337,18 @@ TEST(DriveJudge, TheLoadOfACycleIsThatOfTheMoveFromAnyNumberOfThem) {
     }
 }
 
+TEST(DriveJudge, AHeavierCycleSinceTheSteadyOneIsWhatCounts) {
+  ByHand hand(1.2);
+  for (const double more : {1.0, 1.0, 1.3, 1.2}) hand.move(more);
+  EXPECT_FALSE(hand.verdict().steady);
+  EXPECT_EQ(figure(hand.verdict(), "rms torque").window, "heaviest cycle");
+  EXPECT_NEAR(figure(hand.verdict(), "rms torque").value, 1.3 * ByHand::rms_of_move(), 0.02);
+  EXPECT_THAT(hand.verdict().notes, ElementsAre(HasSubstr("no steady cycle in 4 cycles")));
+  hand.move(1.2);
+  EXPECT_TRUE(hand.verdict().steady);
+  EXPECT_NEAR(figure(hand.verdict(), "rms torque").value, 1.2 * ByHand::rms_of_move(), 0.02);
+}
+
 TEST(DriveJudge, WithoutASteadyCycleTheRunSaysSo) {
   ByHand hand(1.2);
   for (const double more : {1.0, 1.05, 1.0, 1.05}) hand.move(more);

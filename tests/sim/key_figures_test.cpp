@@ -64,7 +64,8 @@ TEST(KeyFigures, PiecesWithMeanSpreadWorstAndCpk) {
   lengths[5] = 799.98;
   lengths[2] = 800;
   const auto recording = cuts_of(lengths);
-  const auto keys = key_figures(recording, known, {}, limited({{"cut", "length", 799.9, 800.1, 1.2, open}}));
+  const auto keys =
+      key_figures(recording, known, {}, limited({{"cut", "length", 799.9, 800.1, 1.2, open}}), true);
   EXPECT_THAT(told(keys), ElementsAre("pieces: 11; 120 per minute at the end",
                                       "length of cut: 800.000 ± 0.015 mm [30]; worst 800.030 mm: no. 5, at "
                                       "3.000 s; Cpk 2.24, of 10 values"));
@@ -73,7 +74,7 @@ TEST(KeyFigures, PiecesWithMeanSpreadWorstAndCpk) {
 TEST(KeyFigures, OfFewValuesThereIsNoCpk) {
   const auto recording = cuts_of({800, 800.2, 799.9});
   EXPECT_THAT(
-      told(key_figures(recording, known, {}, limited({{"knife.cut", "length", 799.9, 800.1, 0, 1.7}}))),
+      told(key_figures(recording, known, {}, limited({{"knife.cut", "length", 799.9, 800.1, 0, 1.7}}), true)),
       ElementsAre("pieces: 3; 120 per minute at the end",
                   "length of knife.cut: 800.100 ± 0.141 mm [200]; worst 800.200 mm: no. 2, at 1.500 s; of 2 "
                   "values, too few for a Cpk"));
@@ -85,7 +86,8 @@ TEST(KeyFigures, OneSidedLimitsAndNoSpread) {
                                      limited({{"cut", "mismatch", -open, 10, 0, open},
                                               {"cut", "length", 400, open, 0, open},
                                               {"cut", "length", 1, 2, 0, open},
-                                              {"cut", "length", 1, 2, 100, open}})));
+                                              {"cut", "length", 1, 2, 100, open}}),
+                                     true));
   EXPECT_THAT(keys, ElementsAre("pieces: 12; 120 per minute at the end",
                                 "mismatch of cut: 5.0 ± 0.0 mm/s [50]; worst 5.0 mm/s: no. 1, at 1.000 s; "
                                 "no spread in 12 values, so no Cpk",
@@ -115,16 +117,24 @@ TEST(KeyFigures, SpeedsDrivesAndTheNearestCheck) {
     outcome.checks.push_back({name, "", passed, {}, "", {}, ""});
     outcome.checks.back().used = used;
   }
-  EXPECT_THAT(told(key_figures(recording, {}, {"web", "other"}, outcome)),
+  EXPECT_THAT(told(key_figures(recording, {}, {"web", "other"}, outcome, true)),
               ElementsAre("highest web speed: 60 m/min; lowest 0",
                           "rms torque of knife.servo: 2.04 N m [21]; limit 9.5 N m; steady cycle",
-                          "peak torque of knife.servo: 30 N m [105]; limit 28.6 N m; not judged; "
+                          "peak torque of knife.servo: 30 N m; limit 28.6 N m; not judged; "
                           "from the first cut on",
                           "farthest beyond its limit: failed [200]"));
   outcome.checks.pop_back();
-  EXPECT_EQ(told(key_figures(recording, {}, {"web", "other"}, outcome)).back(),
+  EXPECT_EQ(told(key_figures(recording, {}, {"web", "other"}, outcome, true)).back(),
             "nearest to its limit: b [90]");
-  EXPECT_THAT(key_figures(loop::Recording(), {}, {}, {}), IsEmpty());
+  outcome.checks.push_back(outcome.checks.front());
+  outcome.checks.back().name = "done in time";
+  outcome.checks.back().used = 0.99;
+  outcome.checks.back().deadline = true;
+  EXPECT_EQ(told(key_figures(recording, {}, {"web", "other"}, outcome, true)).back(),
+            "nearest to its limit: b [90]");
+  EXPECT_THAT(told(key_figures(recording, {}, {}, outcome, false))[0],
+              testing::StartsWith("rms torque of knife.servo: 2.04 N m; limit 9.5 N m; not judged"));
+  EXPECT_THAT(key_figures(loop::Recording(), {}, {}, {}, true), IsEmpty());
 }
 
 // ---- where the scenario comes from ----

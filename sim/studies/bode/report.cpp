@@ -71,10 +71,10 @@ std::string hunting_text(const LoopResult& result) {
                      result.hunting ? pushes_text(*result.hunting) : "not known", result.play);
 }
 
-/// What the loop is judged by: name and value in words.
-std::vector<renders::ReportRow> margin_rows(const LoopResult& result) {
+/// What the loop is judged by: name and value in words; `why_not`: what follows "not known".
+std::vector<renders::ReportRow> margin_rows(const LoopResult& result, const std::string& why_not) {
   const auto& margins = result.margins;
-  if (!loop_doubts(result).empty()) return {{{"margins", "not known, for the reason above"}}};
+  if (!loop_doubts(result).empty()) return {{{"margins", "not known" + why_not}}};
   const std::string absent = "not between these frequencies";
   const auto factor = [](const AtFrequency& margin) { return std::pow(10, margin.value / 20); };
   std::vector<renders::ReportRow> rows;
@@ -240,7 +240,8 @@ std::string bode_report(const LoopResult& result) {
   for (const auto& doubt : loop_doubts(result)) text += doubt + '\n';
   if (!heard(result).empty()) {
     text += '\n' + table_text(result) + '\n';
-    for (const auto& row : margin_rows(result)) text += fmt::format("{:<24}{}\n", row.cells[0], row.cells[1]);
+    for (const auto& row : margin_rows(result, ", for the reason above"))
+      text += fmt::format("{:<24}{}\n", row.cells[0], row.cells[1]);
     if (result.sweep.faded_from > 0) text += fmt::format("{}\n", faded_text(result));
     text += fmt::format("{}\n", reading);
   }
@@ -272,7 +273,9 @@ void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
   report.facts = {
       {{"measured", subject(result)}}, {{"reading", std::string(reading)}}, {{"drycut", DRYCUT_VERSION}}};
   if (!heard(result).empty()) {
-    report.summary = {{"Margins", {"", ""}, margin_rows(result)}};
+    report.summary = {{"Margins",
+                       {"", ""},
+                       margin_rows(result, fmt::format(": {}", fmt::join(loop_doubts(result), "; ")))}};
     report.tables = {response_table(result)};
     plots.push_back(bode_plot(result, "bode"));
   }

@@ -256,8 +256,9 @@ std::string miss_text(const Tuning& tuning) {
   else if (!after.feasible())
     text = "No values met all limits. Closest: " + reason_text(after);
   if (!tuning.stays) return text;
-  return text + fmt::format("{}The present values stay: none of the {} others that were tried is better",
-                            text.empty() ? "" : ". ", tuning.trials.trials().size() - (tuning.start ? 1 : 0));
+  return text + fmt::format("{}The present values stay: none of {} that were tried is better",
+                            text.empty() ? "" : ". ",
+                            counted(tuning.trials.trials().size() - (tuning.start ? 1 : 0), "other"));
 }
 
 std::string runs_text(const Tuning& tuning) {
@@ -289,7 +290,7 @@ std::string summary_text(const Tuning& tuning) {
     const auto& all = tuning.spread->trials();
     const auto beyond =
         std::count_if(all.begin(), all.end(), [](const auto& trial) { return !trial.verdict.feasible(); });
-    text += fmt::format("\nSpread of the machine: {} samples{}, {} beyond a limit; ", all.size(),
+    text += fmt::format("\nSpread of the machine: {}{}, {} beyond a limit; ", counted(all.size(), "sample"),
                         static_cast<int>(all.size()) < tuning.spread_asked
                             ? fmt::format(" of the {} asked for (--budget)", tuning.spread_asked)
                             : "",
