@@ -21,6 +21,14 @@ bool may_be_off(const std::string& plug) {
          plug.find("limit") != std::string::npos;
 }
 
+/// A QMOVE device reads its home switch only in a PRESET.
+bool seeks_home(const std::vector<devices::ProgramText>& programs) {
+  return std::any_of(programs.begin(), programs.end(), [](const devices::ProgramText& program) {
+    return program.language == "il" || program.language == "st" ||
+           (program.language == "qcl" && program_words(program).find("preset ") != std::string::npos);
+  });
+}
+
 std::string those_never_on(const auto&... levels) {
   std::vector<std::string> never;
   const auto look = [&](const auto& list) {
@@ -35,6 +43,7 @@ std::string those_never_on(const auto&... levels) {
 
 Standing::Standing(const scenario::Scenario& scenario, devices::Controller& controller) {
   auto& cards = controller.cards();
+  const bool homes = seeks_home(controller.programs());
   for (const auto& wire : scenario.wiring) {
     const auto found = controller.terminal(wire.terminal.text);
     const auto* address = std::get_if<devices::Address>(&found);
@@ -42,7 +51,8 @@ Standing::Standing(const scenario::Scenario& scenario, devices::Controller& cont
     const auto terminal = controller.terminal_name(*address);
     const auto& plug = wire.plug.text;
     const auto follow = [&](std::vector<Level>& levels, const bool& level) {
-      levels.push_back({terminal, plug, &level, level, level, names_terminal(controller, terminal)});
+      levels.push_back({terminal, plug, &level, level, level,
+                        names_terminal(controller, terminal) && (homes || !plug.ends_with(".home"))});
     };
     const bool on_panel = plug.starts_with("panel.");
     if (address->kind == devices::Kind::counter) {
@@ -85,13 +95,11 @@ std::vector<std::string> Standing::texts(Time now) const {
   const auto long_enough = std::max(stays, static_cast<Time>(at_work * static_cast<double>(longest_)));
   const bool stand = worked_ > 0 && now - worked_ >= long_enough;
   if (never.empty() && !stand) return texts;  // they work
+  if (!never.empty()) texts.push_back(never);
   for (const auto& lamp : lamps_)
     if (lamp.last && lamp.changed && now - *lamp.changed >= stays)
       texts.push_back(fmt::format("{} is on since {} s", lamp.plug, seconds_text(*lamp.changed)));
-  if (!never.empty()) {
-    texts.push_back(std::move(never));
-    return texts;
-  }
+  if (!never.empty()) return texts;
   // All have worked: where they have stopped, and what they wait for.
   texts.push_back(fmt::format("{} since {} s", fmt::join(states, ", "), seconds_text(worked_)));
   if (auto waited = never_on(); !waited.empty()) texts.push_back(std::move(waited));
