@@ -215,7 +215,7 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
   const std::string peaks_from =
       cycle_ == 0 && drive.cycles.running() ? "from the first cut on" : "whole run";
   verdict.cycles = whole ? cycle_ > 0 ? "the whole run: it is shorter than drives.cycle"
-                                      : "the whole run: no cycle from cut to cut, none named (drives.cycle)"
+                                      : "the whole run: no cycle is known (drives.cycle)"
                    : cycle_ > 0
                        ? fmt::format("{} of {} s", counted(drive.counted, "cycle"), seconds_text(cycle_))
                        : fmt::format("{} from cut to cut", counted(drive.counted, "cycle"));
@@ -363,7 +363,8 @@ std::vector<CheckResult> DriveJudge::results(const std::vector<DriveVerdict>& ve
     details.push_back(text_of(verdict));
   }
   if (result.passed || largest > 1) {  // a trip has no distance
-    result.margin = (1 - largest) * percent;
+    constexpr double digits = 1e6;     // a limit that is just reached leaves nothing
+    result.margin = std::round((1 - largest) * percent * digits) / digits;
     result.used = largest;
     result.unit = "%";
   }

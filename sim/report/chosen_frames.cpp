@@ -89,7 +89,7 @@ std::vector<Moment> moments_of(const loop::EventLog& events, const std::vector<l
     if (!check.passed && at && is_in(*at)) moments.push_back({*at, "failed: " + check.name});
   }
   if (const auto worst = worst_cut(cuts, checks)) moments.push_back({*worst, "worst cut"});
-  moments.push_back({end_s, "end"});
+  moments.push_back({end_s, "last picture"});
   moments.insert(moments.end(), changes.begin(), changes.end());
   moments.insert(moments.end(), others.begin(), others.end());
   return moments;

@@ -59,21 +59,21 @@ loop::EventLog line() {
 TEST(ChosenFrames, MomentsAreWhatHappenedTheMostTellingFirst) {
   const auto log = line();
   EXPECT_THAT(told(moments_of(log, {check("length", true, 2), check("torque", false, 3.2)}, 0, 5)),
-              ElementsAre("1 first cut", "3 fault", "3.2 failed: torque", "2 worst cut", "5 end",
+              ElementsAre("1 first cut", "3 fault", "3.2 failed: torque", "2 worst cut", "5 last picture",
                           "3.5 cut to 760 mm", "4 web slack"));
 }
 
 TEST(ChosenFrames, OnlyWhatTheFilmShowsCounts) {
   const auto log = line();
   EXPECT_THAT(told(moments_of(log, {check("length", true, 1), check("torque", false, 4.9)}, 1.5, 3.8)),
-              ElementsAre("2 cut", "3 fault", "3.8 end", "3.5 cut to 760 mm"))
+              ElementsAre("2 cut", "3 fault", "3.8 last picture", "3.5 cut to 760 mm"))
       << "not the first of the run, and the worst is not in it";
 }
 
 TEST(ChosenFrames, AFailedCheckIsShownWhereItFirstFailed) {
   auto failed = check("torque", false, 3.2);
   failed.failed_at = 2.2;
-  EXPECT_THAT(told(moments_of({}, {failed}, 0, 5)), ElementsAre("2.2 failed: torque", "5 end"));
+  EXPECT_THAT(told(moments_of({}, {failed}, 0, 5)), ElementsAre("2.2 failed: torque", "5 last picture"));
 }
 
 TEST(ChosenFrames, StandForTheirMomentsAndFillTheWidestGaps) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "renders/report.hpp"
@@ -307,8 +308,6 @@ std::string bode_csv(const LoopResult& result) {
 
 renders::Plot bode_plot(const LoopResult& result, const std::string& name) {
   const auto table = table_of(result);
-  std::vector<double> x;
-  for (const auto& point : heard(result)) x.push_back(point.frequency);
   renders::Plot plot;
   plot.name = name;
   plot.title = fmt::format("{}: {}", result.scenario, result.wire);
@@ -323,11 +322,23 @@ renders::Plot bode_plot(const LoopResult& result, const std::string& name) {
   phase.title = "phase";
   phase.y_label = "[deg]";
   phase.bands = {{"-180 deg", -180, -180}};
+  // A gap where nothing answered, or where the answer is lost in what else moves.
   const auto draw = [&](const std::string& label, const BodeColumns& columns, double zero) {
-    auto gains = columns.gain;
-    for (double& value : gains) value -= zero;
-    gain.curves.push_back({label, x, gains});
-    phase.curves.push_back({label, x, columns.phase});
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    renders::Curve gains{label, {}, {}};
+    renders::Curve phases{label, {}, {}};
+    std::size_t next = 0;
+    for (const auto& point : result.sweep.points) {
+      if (next == columns.gain.size()) break;
+      const bool known = !point.silent && point.error < 1;
+      gains.x.push_back(point.frequency);
+      phases.x.push_back(point.frequency);
+      gains.y.push_back(known ? columns.gain[next] - zero : nothing);
+      phases.y.push_back(known ? columns.phase[next] : nothing);
+      if (!point.silent) ++next;
+    }
+    gain.curves.push_back(std::move(gains));
+    phase.curves.push_back(std::move(phases));
   };
   draw("open loop", table.open, 0);
   draw("position loop", table.closed, 0);
