@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "renders/embedded.hpp"
+#include "base/embedded.hpp"
 #include "renders/gltf.hpp"
 #include "renders/html.hpp"
 #include "renders/png_image.hpp"

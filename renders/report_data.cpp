@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "renders/embedded.hpp"
+#include "base/embedded.hpp"
 #include "renders/html.hpp"
 #include "renders/lanes.hpp"
 #include "renders/plot_layout.hpp"

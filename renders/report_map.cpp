@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "renders/embedded.hpp"
+#include "base/embedded.hpp"
 #include "renders/html.hpp"
 #include "renders/png_image.hpp"
 

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "renders/embedded.hpp"
+#include "base/embedded.hpp"
 
 namespace drycut::sim::live {
 
@@ -30,7 +30,7 @@ std::optional<Site::File> Site::find(std::string_view path) const {
   if (path == "/") path = "/live.html";
   if (const auto found = three_.find(path); found != three_.end()) return File{type_of(path), found->second};
   if (!path.starts_with("/live") && !path.starts_with("/view")) return {};
-  const auto bytes = renders::embedded_file(path.substr(1));
+  const auto bytes = embedded_file(path.substr(1));
   if (bytes.empty()) return {};
   return File{type_of(path), bytes};
 }

@@ -8,7 +8,7 @@
 #include "renders/plots.hpp"
 #include "sim/loop/drive_judge.hpp"
 #include "sim/loop/recorder.hpp"
-#include "sim/report/statistics.hpp"
+#include "sim/loop/statistics.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::report {

@@ -9,9 +9,9 @@
 #include "base/units.hpp"
 #include "renders/decimate.hpp"
 #include "sim/loop/bindings.hpp"
+#include "sim/loop/statistics.hpp"
 #include "sim/report/drives.hpp"
 #include "sim/report/gallery_plots.hpp"
-#include "sim/report/statistics.hpp"
 #include "sim/scenario/units.hpp"
 
 namespace drycut::sim::report {

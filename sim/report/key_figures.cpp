@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "sim/loop/statistics.hpp"
 #include "sim/report/gallery_plots.hpp"
-#include "sim/report/statistics.hpp"
 
 namespace drycut::sim::report {
 
