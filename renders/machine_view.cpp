@@ -12,9 +12,9 @@
 
 #include "base/embedded.hpp"
 #include "renders/gltf.hpp"
+#include "renders/gltf_track.hpp"
 #include "renders/html.hpp"
 #include "renders/png_image.hpp"
-#include "renders/thin_track.hpp"
 
 namespace drycut::renders {
 namespace {

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "base/embedded.hpp"
+#include "renders/palette.hpp"
 
 namespace drycut::sim::live {
 
@@ -18,6 +19,7 @@ const char* type_of(std::string_view name) {
 }  // namespace
 
 Site::Site(const std::filesystem::path& three) {
+  three_.emplace("/palette.css", renders::palette_css());
   for (const auto* file :
        {"three.min.js", "examples/js/loaders/GLTFLoader.js", "examples/js/controls/OrbitControls.js"}) {
     std::ostringstream bytes;

@@ -14,6 +14,8 @@
 namespace drycut::sim::cams {
 namespace {
 
+using loop::CamRecorder;
+using loop::PlayedCam;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::Field;
