@@ -1,20 +1,9 @@
-# What Drycut stands on, all of it packaged; read by its own build and by find_package(drycut).
+# What the loop's library stands on, all of it packaged; read by Drycut's own build and by find_package(drycut).
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(fmt REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(CLI11 REQUIRED)
-find_package(PNG REQUIRED)
-find_package(Boost 1.74 REQUIRED)  # headers: Beast
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-pkg_check_modules(assimp REQUIRED IMPORTED_TARGET assimp)
 pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet-float64)
-pkg_check_modules(osmesa REQUIRED IMPORTED_TARGET osmesa)
-pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
-pkg_check_modules(deflate REQUIRED IMPORTED_TARGET libdeflate)
 pkg_check_modules(udunits REQUIRED IMPORTED_TARGET udunits)
-pkg_search_module(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)
-pkg_check_modules(zlib REQUIRED IMPORTED_TARGET zlib)
-pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
-pkg_check_modules(nlopt REQUIRED IMPORTED_TARGET nlopt_cxx)

@@ -20,7 +20,7 @@ install(DIRECTORY ${PROJECT_BINARY_DIR}/opcua/node_modules DESTINATION ${CMAKE_I
         COMPONENT opcua EXCLUDE_FROM_ALL OPTIONAL)
 
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/drycut)
-install(TARGETS drycut_base drycut_devices drycut_plants drycut_renders drycut_sim EXPORT drycut COMPONENT libdrycut-dev)
+install(TARGETS drycut_base drycut_devices drycut_plants drycut_loop EXPORT drycut COMPONENT libdrycut-dev)
 install(DIRECTORY include/drycut DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT libdrycut-dev)
 install(EXPORT drycut NAMESPACE drycut:: FILE drycutTargets.cmake DESTINATION ${config} COMPONENT libdrycut-dev)
 file(WRITE ${PROJECT_BINARY_DIR}/drycutConfig.cmake
@@ -49,4 +49,4 @@ set(CPACK_DEBIAN_PYTHON3-DRYCUT_PACKAGE_RECOMMENDS "drycut, python3-pandas")
 set(CPACK_DEBIAN_LIBDRYCUT-DEV_PACKAGE_NAME libdrycut-dev)
 set(CPACK_DEBIAN_LIBDRYCUT-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBDRYCUT-DEV_PACKAGE_DEPENDS
-    "pkg-config, libbullet-dev, libosmesa6-dev, libpng-dev, libdeflate-dev, libcairo2-dev, libassimp-dev, libyaml-cpp-dev, libudunits2-dev, libnlopt-cxx-dev, libhdf5-dev, zlib1g-dev, libzstd-dev, libcli11-dev, libboost-dev, libfmt-dev, libeigen3-dev, nlohmann-json3-dev")
+    "pkg-config, libbullet-dev, libyaml-cpp-dev, libudunits2-dev, libfmt-dev, libeigen3-dev, nlohmann-json3-dev")

@@ -44,7 +44,7 @@ struct Part {
       {};                  ///< in its own coordinates [m]: what leaves a trail in pictures
   bool ends_kept = false;  ///< one long across the line (z) stretches its model in the middle only
   double pitch = 0;  ///< it looks the same again after this angle, as a drum after one of its blades [rad];
-                     ///< 0 = whether a film shows how it turns is all one
+                     ///< 0 = a film need not show how it turns
 
   [[nodiscard]] PartPose now() const;
 };

@@ -55,9 +55,11 @@ double loop_gain(const ServoData& data) {
   return (1 + data.inertia_ratio) * data.rotor_inertia * data.speed_gain;
 }
 
-// Speed loop and current lag on the rotor alone, as it is while the play of a gear parts it from its load,
-// turn by the arc cosine of (2 - s - s g) / (2 root(1 - s)) a step, s the share of the lag and g the gain on
-// the inertia in a step. At s g = 0.5 that is right to 5 %, and a real drive samples its loop too.
+// The largest s g for the rotor alone, as it is while a gear's play parts it from its load. A step takes
+// torque (as the speed it brings in a step) and speed by the matrix [[1 - s, -s g], [1 - s, 1 - s g]]: s is
+// the share of the current lag that a step makes up for, g = gain * step / inertia. The loop swings at the
+// angle of its eigenvalues, arccos(trace / (2 root(determinant))) = arccos((2 - s - s g) / (2 root(1 - s))) a
+// step. At s g = 0.5 that is within 5 % of the loop in continuous time.
 constexpr double most_correction = 0.5;
 
 }  // namespace

@@ -1,5 +1,4 @@
 #pragma once
-#include "renders/gl_canvas.hpp"
 #include "renders/gl_parts.hpp"
 #include "renders/lamp.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "renders/axes.hpp"
 #include "renders/label_room.hpp"
-#include "renders/plot_area.hpp"
 #include "renders/scene3d.hpp"
 
 namespace drycut::renders {

@@ -10,11 +10,11 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "renders/embedded.hpp"
+#include "base/embedded.hpp"
 #include "renders/gltf.hpp"
+#include "renders/gltf_track.hpp"
 #include "renders/html.hpp"
 #include "renders/png_image.hpp"
-#include "renders/thin_track.hpp"
 
 namespace drycut::renders {
 namespace {

@@ -9,8 +9,9 @@
 #include <stdexcept>
 
 #include "base/output_file.hpp"
-#include "renders/axis_ticks.hpp"
+#include "renders/axes.hpp"
 #include "renders/contours.hpp"
+#include "renders/label_room.hpp"
 #include "renders/paper.hpp"
 #include "renders/png_image.hpp"
 #include "renders/text.hpp"
@@ -22,13 +23,13 @@ constexpr double kTitleSize = 20;
 constexpr double kTextSize = 15;
 constexpr double kLevelSize = 13;
 constexpr double kLegendWidth = 300;
-constexpr Ink kGood = ink(0x009e73);
-constexpr Ink kNothing = ink(0xa3adb8);
-constexpr std::array kBad = {ink(0xd55e00), ink(0xe69f00), ink(0xcc79a7), ink(0x56b4e9),
-                             ink(0xb3261e), ink(0x8d6cb8), ink(0x7a6a4f), ink(0x52606d)};
-constexpr std::array kLineInks = {ink(0x0072b2), ink(0x6a3d9a), ink(0x006b4f), ink(0x8a4b00)};
 const std::array<Dash, 3> kLineDashes = {Dash{}, Dash{8, 4}, Dash{3, 3}};
 const Dash kCurveDash = {10, 4, 2, 4};
+constexpr Tone kGood = kCurves[2];
+constexpr Tone kNothing = {0xa3adb8};
+constexpr std::array kBad = {kCurves[1], kCurves[4],     kCurves[3],     kCurves[5],
+                             kStrong,    Tone{0x8d6cb8}, Tone{0x7a6a4f}, kSoftText};
+constexpr std::array kLineTones = {kCurves[0], Tone{0x6a3d9a}, Tone{0x006b4f}, Tone{0x8a4b00}};
 constexpr double kLineWidth = 1.6;
 constexpr double kCurveWidth = 2.2;
 constexpr double kBoundWidth = 1.4;
@@ -142,7 +143,7 @@ class MapPainter : Paper {
 
   void lines(std::size_t index) {
     const MapLines& shown = map_.lines[index];
-    const Ink& colour = kLineInks[index % kLineInks.size()];
+    const Ink colour = kLineTones[index % kLineTones.size()];
     for (const Tick& level : levels_of(shown)) {
       const auto paths = contours(map_.x.values, map_.y.values, shown.values, level.value);
       if (paths.empty() || paths.size() > kMostPieces) continue;
@@ -194,13 +195,11 @@ class MapPainter : Paper {
       const auto& at = path[static_cast<std::size_t>(share * static_cast<double>(path.size() - 1))];
       const double x = area_.x(at.first);
       const double y = area_.y(at.second);
-      const PlotArea room = {x - width / 2, y - kLevelSize * 0.7, x + width / 2, y + kLevelSize * 0.7};
+      const Box room = {x - width / 2, y - kLevelSize * 0.7, x + width / 2, y + kLevelSize * 0.7};
       const bool inside = room.left >= area_.left && room.right <= area_.right && room.top >= area_.top &&
                           room.bottom <= area_.bottom;
-      const bool free = std::none_of(labels_.begin(), labels_.end(), [&](const PlotArea& other) {
-        return room.left < other.right && other.left < room.right && room.top < other.bottom &&
-               other.top < room.bottom;
-      });
+      const bool free =
+          std::none_of(labels_.begin(), labels_.end(), [&](const Box& other) { return room.meets(other); });
       if (!inside || !free) continue;
       labels_.push_back(room);
       box(room.left, room.top, room.right, room.bottom, kPaper, 0.85);
@@ -236,7 +235,7 @@ class MapPainter : Paper {
         words("no lines: " + map_.lines[i].label);
         continue;
       }
-      line(left, y, left + sample, y, kLineInks[i % kLineInks.size()], kLineWidth,
+      line(left, y, left + sample, y, kLineTones[i % kLineTones.size()], kLineWidth,
            kLineDashes[i % kLineDashes.size()]);
       words(map_.lines[i].label);
     }
@@ -246,7 +245,7 @@ class MapPainter : Paper {
     }
   }
 
-  [[nodiscard]] const Ink& ink_of(std::size_t region) const {
+  [[nodiscard]] Ink ink_of(std::size_t region) const {
     const auto kind = map_.regions[region].kind;
     if (kind == MapRegion::Kind::good) return kGood;
     if (kind == MapRegion::Kind::none) return kNothing;
@@ -259,7 +258,7 @@ class MapPainter : Paper {
   const MapPlot& map_;
   PlotArea area_;
   double radius_;  // of the dots
-  std::vector<PlotArea> labels_;
+  std::vector<Box> labels_;
   std::vector<bool> drawn_;  // of each quantity: a line at least
 };
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "renders/plot_area.hpp"
+#include "renders/axes.hpp"
 
 namespace drycut::renders {
 

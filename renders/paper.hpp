@@ -2,26 +2,17 @@
 #include <cairo.h>
 
 #include <string>
-#include <vector>
 
-#include "renders/cairo_image.hpp"
+#include "renders/palette.hpp"
 
 namespace drycut::renders {
 
 // The look of plots and maps on white paper.
 
-// Okabe and Ito's palette: told apart with any colour vision.
-inline constexpr Ink kPaper = ink(0xffffff);
-inline constexpr Ink kText = ink(0x1f2933);
-inline constexpr Ink kSoftText = ink(0x52606d);
-inline constexpr Ink kAxis = ink(0x7b8794);
-inline constexpr Ink kGrid = ink(0xdfe3e8);
-inline constexpr Ink kStrong = ink(0xb3261e);  ///< faults, limits
-inline constexpr double kGridWidth = 1;        ///< [pixels]
+inline constexpr double kGridWidth = 1;  ///< [pixels]
 inline constexpr double kTickLength = 5;
 
 enum class Align { left, middle, right };
-using Dash = std::vector<double>;  ///< on, off, ... [pixels]; empty: a line without gaps
 
 /// Where a thin line along an axis is one row of pixels and not two pale ones.
 double crisp(double place);

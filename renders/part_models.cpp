@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "renders/embedded.hpp"
+#include "base/embedded.hpp"
 #include "renders/mesh_file.hpp"
 
 namespace drycut::renders {

@@ -3,9 +3,9 @@
 #include <utility>
 #include <vector>
 
-#include "renders/axis_ticks.hpp"
-#include "renders/plot_area.hpp"
+#include "renders/axes.hpp"
 #include "renders/plots.hpp"
+#include "renders/png_image.hpp"
 
 namespace drycut::renders {
 
@@ -70,5 +70,8 @@ inline constexpr double kMarkLeader = 14;
 /// Ranges, ticks, margins and legends. With log_x the plot's x are logarithms already. Axes without points go
 /// from 0 to 1.
 PlotLayout laid_out(const Plot& plot);
+
+/// The picture of a plot. With log_x the plot's x are logarithms already. Same plot, same bytes.
+Image painted(const Plot& plot, const PlotLayout& layout);
 
 }  // namespace drycut::renders

@@ -1,48 +1,25 @@
-#include "renders/plot_painter.hpp"
+#include "renders/plot_layout.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <set>
 #include <span>
 
+#include "renders/axes.hpp"
 #include "renders/cairo_image.hpp"
 #include "renders/decimate.hpp"
-#include "renders/lanes.hpp"
 #include "renders/paper.hpp"
-#include "renders/plot_area.hpp"
 #include "renders/text.hpp"
 
 namespace drycut::renders {
 namespace {
 
-// Okabe and Ito's palette: told apart with any colour vision. After its end the lines are dashed.
-constexpr std::array kCurveInks = {ink(0x0072b2), ink(0xd55e00), ink(0x009e73), ink(0xcc79a7),
-                                   ink(0xe69f00), ink(0x56b4e9), ink(0x333333)};
-constexpr std::array kBandInks = {ink(0xe8c400), ink(0x56b4e9), ink(0x8a8f98)};
-// Light, for the states of a lane with several.
-constexpr std::array kStateInks = {ink(0xcfe6f5), ink(0xfbdcc4), ink(0xc5ebdf), ink(0xf3dcea),
-                                   ink(0xfbe8b9), ink(0xdadfe4), ink(0xe3dcf6)};
-constexpr std::size_t kLaneInks = 4;  ///< of the curves' palette: those that are dark enough
-constexpr Ink kZone = ink(0xf0f3f6);
-constexpr Ink kStrongZone = ink(0xd3efe2);
-constexpr Ink kFaint = ink(0xb9c2cc);
-constexpr Ink kMixed = ink(0x8a8f98);
-
-constexpr double kBandShade = 0.22;  ///< opacity
-constexpr double kCurveWidth = 2;    // of lines and radii of dots [pixels]
-constexpr double kLimitWidth = 1.6;
-constexpr double kDot = 2.8;
-constexpr double kFaintDot = 1.8;
-constexpr double kLonelyDot = 2.5;
+constexpr double kLonelyDot = 2.5;  // radii [pixels]
 constexpr double kNamedDot = 4.5;
+constexpr double kSampleDot = 3.5;
 constexpr double kLaneLow = 0.20;  ///< of a lane's height
 constexpr double kLaneHigh = 0.80;
-
-const Dash kLimitDash = {7, 5};
-const Dash kMarkDash = {2, 4};
 
 /// A line needs two points: what stands alone between gaps is drawn as a dot.
 Points isolated(const Points& points) {
@@ -79,6 +56,11 @@ class Painter : Paper {
 
  private:
   [[nodiscard]] double width() const { return layout_.right - layout_.left; }
+
+  using Paper::line;
+  void line(double from_x, double from_y, double to_x, double to_y, const PlotLook& look) const {
+    line(from_x, from_y, to_x, to_y, look.tone, look.size, look.dash);
+  }
 
   /// Those inside of the area; at its border they are whole.
   void dots(const PlotArea& area, const Points& points, double radius, const Ink& colour) const {
@@ -122,13 +104,12 @@ class Painter : Paper {
   }
 
   void zones(const PlotArea& area) const {
-    bool shaded = false;
-    for (const Zone& zone : plot_.zones) {
-      shaded = !shaded;
+    for (std::size_t i = 0; i < plot_.zones.size(); ++i) {
+      const Zone& zone = plot_.zones[i];
+      const PlotLook look = look_of(zone, i);
       const double left = std::max(area.x(zone.from), area.left);
       const double right = std::min(area.x(zone.to), area.right);
-      if (left < right && (shaded || zone.strong))
-        box(left, area.top, right, area.bottom, zone.strong ? kStrongZone : kZone);
+      if (left < right && look.opacity > 0) box(left, area.top, right, area.bottom, look.tone);
     }
   }
 
@@ -137,7 +118,8 @@ class Painter : Paper {
       const Band& band = shown.bands[i];
       const double top = std::max(area.y(std::max(band.low, band.high)), area.top);
       const double bottom = std::min(area.y(std::min(band.low, band.high)), area.bottom);
-      if (top < bottom) box(area.left, top, area.right, bottom, kBandInks[i % kBandInks.size()], kBandShade);
+      const PlotLook look = look_of(band, i);
+      if (top < bottom) box(area.left, top, area.right, bottom, look.tone, look.opacity);
     }
   }
 
@@ -171,22 +153,20 @@ class Painter : Paper {
   void limits(const Panel& shown, const PlotArea& area) const {
     for (const Band& band : shown.bands) {
       if (!is_limit(band) || band.low < area.y_range.first || band.low > area.y_range.second) continue;
-      line(area.left, area.y(band.low), area.right, area.y(band.low), kStrong, kLimitWidth, kLimitDash);
+      line(area.left, area.y(band.low), area.right, area.y(band.low), look_of(band, 0));
     }
   }
 
   void marks(const PlotArea& area, bool strong) const {
-    for (const MarkLayout& mark : layout_.marks) {
-      if (mark.strong == strong)
-        line(crisp(mark.line), area.bottom, crisp(mark.line), area.top, strong ? kStrong : kAxis,
-             strong ? 1.4 : 0.7, kMarkDash);
-    }
+    const PlotLook look = look_of(Mark{0, "", strong});
+    for (const MarkLayout& mark : layout_.marks)
+      if (mark.strong == strong) line(crisp(mark.line), area.bottom, crisp(mark.line), area.top, look);
   }
 
   void mark_labels(const PlotArea& area) const {
     for (const MarkLayout& mark : layout_.marks) {
       if (mark.label.empty()) continue;
-      const Ink& colour = mark.strong ? kStrong : kSoftText;
+      const Ink colour = mark.strong ? kStrong : kSoftText;
       if (!layout_.marks_across) {
         text(mark.text, layout_.marks_bottom - PlotType::mark / 2, mark.label, Align::left, PlotType::mark,
              false, colour);
@@ -213,14 +193,19 @@ class Painter : Paper {
     for (const LegendEntry& entry : place.legend) {
       const double right = entry.left + kLegendSample;
       const double y = entry.baseline;
-      if (entry.band && is_limit(shown.bands[entry.index])) {
-        line(entry.left, y, right, y, kStrong, kLimitWidth, kLimitDash);
-      } else if (entry.band) {
-        box(entry.left, y - 6, right, y + 6, kBandInks[entry.index % kBandInks.size()], 2 * kBandShade);
-      } else if (const Curve& curve = shown.curves[entry.index]; curve.style == Curve::Style::points) {
-        dot((entry.left + right) / 2, y, 1.25 * kDot, ink_of(curve, entry.index));
+      if (entry.band) {
+        const PlotLook look = look_of(shown.bands[entry.index], entry.index);
+        if (look.size > 0)
+          line(entry.left, y, right, y, look);
+        else
+          box(entry.left, y - 6, right, y + 6, look.tone, 2 * look.opacity);
       } else {
-        line(entry.left, y, right, y, ink_of(curve, entry.index), 2.4, dash_of(entry.index));
+        const Curve& curve = shown.curves[entry.index];
+        const PlotLook look = look_of(curve, entry.index);
+        if (curve.style == Curve::Style::points)
+          dot((entry.left + right) / 2, y, kSampleDot, look.tone);
+        else
+          line(entry.left, y, right, y, look.tone, 1.2 * look.size, look.dash);
       }
       text(right + kLegendGap, y, entry.label, Align::left, PlotType::text);
     }
@@ -243,13 +228,6 @@ class Painter : Paper {
 
   // ---- curves: true if there was something to draw ----
 
-  static const Ink& ink_of(const Curve& curve, std::size_t index) {
-    return curve.faint ? kFaint : kCurveInks[index % kCurveInks.size()];
-  }
-  static const Dash& dash_of(std::size_t index) {
-    static const std::array<Dash, 5> dashes = {Dash{}, {7, 5}, {2, 4}, {9, 4, 2, 4}, {9, 4, 2, 4, 2, 4}};
-    return dashes[index / kCurveInks.size() % dashes.size()];
-  }
   static PixelGrid grid_of(const PlotArea& area) {
     return {area.x_range.first,
             area.x_range.second,
@@ -263,41 +241,40 @@ class Painter : Paper {
     bool any = false;
     for (std::size_t i = 0; i < shown.curves.size(); ++i) {
       const Curve& curve = shown.curves[i];
-      const Ink& colour = ink_of(curve, i);
+      const PlotLook look = look_of(curve, i);
       const bool loose = curve.style == Curve::Style::points;
       const auto points =
           shown.equal_scale && !loose ? thinned_path(curve, grid_of(area)) : decimated(curve, grid_of(area));
       any = any || !points.x.empty();
       if (loose) {
-        dots(area, points, curve.faint ? kFaintDot : kDot, colour);
+        dots(area, points, look.size, look.tone);
         continue;
       }
       clipped(area, [&] {
-        if (curve.style == Curve::Style::area) fill_to_zero(area, points, colour);
-        curve_line(area, points, curve.style == Curve::Style::steps, colour, dash_of(i));
+        if (curve.style == Curve::Style::area) fill_to_zero(area, points, look);
+        curve_line(area, points, curve.style == Curve::Style::steps, look);
       });
-      dots(area, isolated(points), kLonelyDot, colour);
+      dots(area, isolated(points), kLonelyDot, look.tone);
     }
     return any;
   }
 
   /// In stretches, which their round ends join: a path that often crosses itself takes cairo the square of
   /// its length. Dashes run on, so that a line of them is one stretch.
-  void curve_line(const PlotArea& area, const Points& points, bool steps, const Ink& colour,
-                  const Dash& dash) const {
+  void curve_line(const PlotArea& area, const Points& points, bool steps, const PlotLook& look) const {
     const std::span<const double> x = points.x;
     const std::span<const double> y = points.y;
-    const std::size_t stretch = dash.empty() ? 200 : x.size();
-    cairo_set_line_cap(pen(), dash.empty() ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
+    const std::size_t stretch = look.dash.empty() ? 200 : x.size();
+    cairo_set_line_cap(pen(), look.dash.empty() ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
     for (std::size_t first = 0; first + 1 < x.size(); first += stretch) {
       const std::size_t count = std::min(stretch + 1, x.size() - first);
       trace(pen(), area, x.subspan(first, count), y.subspan(first, count), steps);
-      stroke(colour, kCurveWidth, dash);
+      stroke(look.tone, look.size, look.dash);
     }
     cairo_set_line_cap(pen(), CAIRO_LINE_CAP_BUTT);
   }
 
-  void fill_to_zero(const PlotArea& area, const Points& points, const Ink& colour) const {
+  void fill_to_zero(const PlotArea& area, const Points& points, const PlotLook& look) const {
     cairo_new_path(pen());
     for (std::size_t i = 0; i < points.x.size(); ++i) {
       if (!std::isfinite(points.y[i])) continue;
@@ -306,7 +283,7 @@ class Painter : Paper {
       cairo_line_to(pen(), x, area.y(points.y[i]));
       if (i + 1 == points.x.size() || !std::isfinite(points.y[i + 1])) cairo_line_to(pen(), x, area.y(0));
     }
-    set_ink(pen(), colour, 0.35);
+    set_ink(pen(), look.tone, look.opacity);
     cairo_fill(pen());
   }
 
@@ -320,9 +297,9 @@ class Painter : Paper {
       const auto base = static_cast<double>(shown.lanes.size() - i - 1);
       clipped(area, [&] {
         if (is_digital(shown.lanes[i]))
-          digital_lane(states, area, base, kCurveInks[i % kLaneInks]);
+          digital_lane(states, area, base, look_of(shown.lanes[i], i));
         else
-          state_lane(states, area, base);
+          state_lane(states, area, base, state_tones(shown.lanes[i]));
       });
     }
     return any;
@@ -333,11 +310,11 @@ class Painter : Paper {
   }
 
   void digital_lane(const std::vector<LaneState>& states, const PlotArea& area, double base,
-                    const Ink& colour) const {
+                    const PlotLook& look) const {
     const double low = base + kLaneLow;
     const double high = base + kLaneHigh;
     for (const LaneState& state : high_states(states, pixel_of(area)))
-      box(area.x(state.from), area.y(high), area.x(state.until), area.y(low), colour, 0.30);
+      box(area.x(state.from), area.y(high), area.x(state.until), area.y(low), look.tone, look.opacity);
     Curve steps;
     for (std::size_t i = 0; i < states.size(); ++i) {
       if (i > 0 && states[i - 1].until != states[i].from) {
@@ -349,20 +326,18 @@ class Painter : Paper {
       steps.y.insert(steps.y.end(), {level, level});
     }
     const auto points = decimated(steps, grid_of(area));
-    curve_line(area, points, false, colour, {});
+    curve_line(area, points, false, look);
   }
 
   /// A band for each state, with its number where there is room.
-  void state_lane(const std::vector<LaneState>& states, const PlotArea& area, double base) const {
-    std::set<double> values;
-    for (const LaneState& state : states) values.insert(state.value);
+  void state_lane(const std::vector<LaneState>& states, const PlotArea& area, double base,
+                  const std::map<double, Tone>& tones) const {
     const double top = area.y(base + kLaneHigh);
     const double bottom = area.y(base + kLaneLow);
     for (const LaneState& state : told_apart(states, pixel_of(area))) {
       const double left = area.x(state.from);
       const double right = area.x(state.until);
-      const auto order = static_cast<std::size_t>(std::distance(values.begin(), values.find(state.value)));
-      box(left, top, right, bottom, state.mixed ? kMixed : kStateInks[order % kStateInks.size()]);
+      box(left, top, right, bottom, state.mixed ? kMixed : tones.at(state.value));
       cairo_rectangle(pen(), left, top, right - left, bottom - top);
       stroke(kSoftText, 0.8);
       const auto label = fmt::format("{:g}", state.value);

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "base/output_file.hpp"
-#include "renders/plot_painter.hpp"
+#include "renders/plot_layout.hpp"
 #include "renders/png_image.hpp"
 #include "renders/text.hpp"
 

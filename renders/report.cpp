@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "base/embedded.hpp"
 #include "base/output_file.hpp"
 #include "base/sheet.hpp"
-#include "renders/embedded.hpp"
 #include "renders/html.hpp"
 #include "renders/png_image.hpp"
 #include "renders/report_data.hpp"

@@ -6,7 +6,7 @@
 
 #include "renders/machine_view.hpp"
 #include "renders/plots.hpp"
-#include "renders/report_map.hpp"
+#include "renders/report_data.hpp"
 
 namespace drycut::renders {
 

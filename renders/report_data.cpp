@@ -1,7 +1,6 @@
 #include "renders/report_data.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -9,14 +8,47 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "renders/embedded.hpp"
+#include "base/embedded.hpp"
+#include "renders/decimate.hpp"
 #include "renders/html.hpp"
-#include "renders/lanes.hpp"
+#include "renders/palette.hpp"
 #include "renders/plot_layout.hpp"
 #include "renders/png_image.hpp"
 #include "renders/text.hpp"
 
 namespace drycut::renders {
+
+std::string map_figure(const ReportMap& map, std::size_t number) {
+  return fmt::format(
+      "<figure class=\"map\" data-map=\"{}\"><div class=\"ground\"><img alt=\"{}\" "
+      "src=\"data:image/png;base64,{}\"></div><div class=\"map-point\"></div>"
+      "<figcaption>{}</figcaption></figure>\n",
+      number, html_text(map.map.title), base64(read_file(map.png)), html_text(map.caption));
+}
+
+std::string live_maps(const std::vector<ReportMap>& maps) {
+  if (maps.empty()) return "";
+  auto all = nlohmann::ordered_json::array();
+  for (const ReportMap& shown : maps) {
+    const PlotArea area = map_area(shown.map);
+    const double width = shown.map.width;
+    const double height = shown.map.height;
+    all.push_back({{"x", shown.map.x.values},
+                   {"y", shown.map.y.values},
+                   {"xRange", {area.x_range.first, area.x_range.second}},
+                   {"yRange", {area.y_range.first, area.y_range.second}},
+                   {"left", area.left / width},
+                   {"right", area.right / width},
+                   {"top", area.top / height},
+                   {"bottom", area.bottom / height},
+                   {"headings", shown.headings},
+                   {"cells", shown.cells},
+                   {"command", shown.command}});
+  }
+  return fmt::format("<script type=\"application/json\" id=\"map-data\">{}</script>\n<script>{}</script>\n",
+                     safe_in_script(all), embedded_file("report_map.js"));
+}
+
 namespace {
 
 using nlohmann::ordered_json;
@@ -63,12 +95,22 @@ class Columns {
   std::vector<std::pair<const std::vector<double>*, bool>> columns_;
 };
 
-/// An object of each item.
+/// Of each item and its number, an object.
 template <typename Item, typename Object>
 ordered_json list_of(const std::vector<Item>& items, const Object& object) {
   auto list = ordered_json::array();
-  for (const Item& item : items) list.push_back(object(item));
+  for (std::size_t i = 0; i < items.size(); ++i) list.push_back(object(items[i], i));
   return list;
+}
+
+/// By day and by night.
+ordered_json tone_json(const Tone& tone) {
+  return {fmt::format("#{:06x}", tone.light), fmt::format("#{:06x}", tone.dark)};
+}
+
+ordered_json look_json(const PlotLook& look) {
+  return {
+      {"tone", tone_json(look.tone)}, {"opacity", look.opacity}, {"size", look.size}, {"dash", look.dash}};
 }
 
 std::string_view style_name(Curve::Style style) {
@@ -77,19 +119,23 @@ std::string_view style_name(Curve::Style style) {
 }
 
 ordered_json panel_json(const Panel& panel, Columns& columns) {
-  const auto curve = [&](const Curve& one) -> ordered_json {
-    return {{"label", one_line(one.label)},
-            {"style", style_name(one.style)},
-            {"faint", one.faint},
-            {"x", columns.x(one.x)},
-            {"y", columns.y(one.y)}};
+  const auto curve = [&](const Curve& one, std::size_t i) -> ordered_json {
+    return {{"label", one_line(one.label)},       {"style", style_name(one.style)}, {"faint", one.faint},
+            {"look", look_json(look_of(one, i))}, {"x", columns.x(one.x)},          {"y", columns.y(one.y)}};
   };
-  const auto band = [](const Band& one) -> ordered_json {
-    return {{"label", one_line(one.label)}, {"low", one.low}, {"high", one.high}};
-  };
-  const auto lane = [&](const Lane& one) -> ordered_json {
+  const auto band = [](const Band& one, std::size_t i) -> ordered_json {
     return {{"label", one_line(one.label)},
-            {"digital", is_digital(one)},
+            {"look", look_json(look_of(one, i))},
+            {"low", std::min(one.low, one.high)},
+            {"high", std::max(one.low, one.high)}};
+  };
+  const auto lane = [&](const Lane& one, std::size_t i) -> ordered_json {
+    auto states = ordered_json::array();  // none: it is high or low
+    if (!is_digital(one))
+      for (const auto& [value, tone] : state_tones(one)) states.push_back({value, tone_json(tone)});
+    return {{"label", one_line(one.label)},
+            {"look", look_json(look_of(one, i))},
+            {"states", std::move(states)},
             {"x", columns.x(one.x)},
             {"y", columns.y(one.y)}};
   };
@@ -101,11 +147,11 @@ ordered_json panel_json(const Panel& panel, Columns& columns) {
 }
 
 ordered_json plot_json(const Plot& plot, Columns& columns) {
-  const auto mark = [](const Mark& one) -> ordered_json {
+  const auto mark = [](const Mark& one, std::size_t /*i*/) -> ordered_json {
     return {{"x", one.x}, {"label", one_line(one.label)}, {"strong", one.strong}};
   };
-  const auto zone = [](const Zone& one) -> ordered_json {
-    return {{"from", one.from}, {"to", one.to}, {"strong", one.strong}};
+  const auto zone = [](const Zone& one, std::size_t i) -> ordered_json {
+    return {{"from", one.from}, {"to", one.to}, {"look", look_json(look_of(one, i))}};
   };
   ordered_json second;
   if (plot.second_x) second = {{"label", one_line(plot.second_x->label)}, {"factor", plot.second_x->factor}};
@@ -120,8 +166,10 @@ ordered_json plot_json(const Plot& plot, Columns& columns) {
           {"range", {low - border, high + border}},
           {"second", std::move(second)},
           {"marks", list_of(plot.marks, mark)},
+          {"markLooks", {look_json(look_of(Mark{})), look_json(look_of(Mark{0, "", true}))}},
           {"zones", list_of(plot.zones, zone)},
-          {"panels", list_of(plot.panels, [&](const Panel& one) { return panel_json(one, columns); })}};
+          {"panels", list_of(plot.panels,
+                             [&](const Panel& one, std::size_t /*i*/) { return panel_json(one, columns); })}};
 }
 
 }  // namespace
@@ -138,7 +186,7 @@ bool can_be_live(const Plot& plot) {
 
 std::string plot_data(const std::vector<Plot>& plots) {
   Columns columns;
-  auto list = list_of(plots, [&](const Plot& plot) -> ordered_json {
+  auto list = list_of(plots, [&](const Plot& plot, std::size_t /*i*/) -> ordered_json {
     return can_be_live(plot) ? plot_json(plot, columns) : nullptr;
   });
   return safe_in_script({{"plots", std::move(list)}, {"columns", columns.json()}});

@@ -137,7 +137,7 @@ void Cam::pass_boundary(const Space& beyond, bool backwards, const CamSample& sa
 }
 
 /// 000 1.3: the master has run through the sector, of which `left` was left at the last sampling, in less
-/// than a sampling time; one of just that is none, whatever rounding says.
+/// than a sampling time. Exactly one sampling time is long enough; 1e-9 of it is left to rounding.
 bool Cam::over_too_soon(const Space& left, const CamSample& sample) const {
   const double bits = to_double(left) / static_cast<double>(settings_.master.measure);
   return (1 - inside_) * sample.master_way * (1 - 1e-9) > bits;

@@ -77,7 +77,7 @@ export class Scope {
       const remove = make("button", { type: "button", className: "plain", title: "Take " + curve.name + " away",
         onclick: () => this.remove(curve.name) }, icon("close"));
       remove.setAttribute("aria-label", "Take " + curve.name + " away");
-      return make("tr", {}, make("th", { scope: "row", title: curve.name }, make("i", { className: "swatch curve-" + (curve.hue + 1) }), curve.name),
+      return make("tr", {}, make("th", { scope: "row", title: curve.name }, make("i", { className: "swatch", style: `background: var(--curve-${curve.hue + 1})` }), curve.name),
         curve.cells.now, curve.cells.a, curve.cells.b, curve.cells.d,
         make("td", { textContent: curve.unit, className: "unit" }), make("td", {}, remove));
     }));

@@ -115,13 +115,26 @@
     return y[i < last && x[i + 1] <= at ? i + 1 : i];
   }
 
-  // ---- colours of the light or the dark page ----
-  const palette = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#777777"];
-  const darkPalette = ["#56b4e9", "#ff8f4a", "#2ec79b", "#e8a3cb", "#f0bb4a", "#8fd0f5", "#c0c6cc"];
+  // ---- looks: a tone for the light and one for the dark page, lines a little thinner than in pictures ----
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
-  const colour = i => (dark.matches ? darkPalette : palette)[i % palette.length];
-  const curveColour = (curve, i) => curve.faint ? (dark.matches ? "#56606b" : "#b9c2cc") : colour(i);
+  const shade = tone => tone[Number(dark.matches)];
+  const thin = 0.8;
   const theme = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  function fill(context, look, left, top, right, bottom) {
+    context.globalAlpha = look.opacity;
+    context.fillStyle = shade(look.tone);
+    context.fillRect(left, top, right - left, bottom - top);
+    context.globalAlpha = 1;
+  }
+  function stroke(context, look, ...points) {
+    context.strokeStyle = shade(look.tone);
+    context.lineWidth = thin * look.size;
+    context.setLineDash(look.dash);
+    context.beginPath();
+    for (const [x, y] of points) context.lineTo(x, y);
+    context.stroke();
+    context.setLineDash([]);
+  }
 
   // ---- behind the curves: bands, lanes, marks ----
   function underlay(self, view, index, context, area, graph) {
@@ -129,36 +142,16 @@
     context.beginPath();
     context.rect(area.x, area.y, area.w, area.h);
     context.clip();
-    drawZones(self.plot.zones, context, area, graph);
-    for (const band of view.panel.bands) drawBand(context, area, graph, band);
-    view.panel.lanes.forEach((lane, i) => drawLane(context, graph, lane, i, view.panel.lanes.length));
-    drawMarks(self.plot.marks, view.top, context, area, graph);
-    context.restore();
-  }
-
-  // Stretches of x: the strong ones, and every second of the others.
-  function drawZones(zones, context, area, graph) {
-    zones.forEach((zone, i) => {
-      if (!zone.strong && i % 2) return;
-      const left = graph.toDomXCoord(zone.from);
-      context.fillStyle = zone.strong ? "rgba(0, 158, 115, 0.18)" : "rgba(123, 135, 148, 0.11)";
-      context.fillRect(left, area.y, graph.toDomXCoord(zone.to) - left, area.h);
-    });
-  }
-
-  function drawBand(context, area, graph, band) {
-    const high = graph.toDomYCoord(band.high), low = graph.toDomYCoord(band.low);
-    context.fillStyle = "rgba(232, 196, 0, 0.20)";
-    context.strokeStyle = theme("--fail");
-    if (low - high > 1) context.fillRect(area.x, high, area.w, low - high);
-    context.setLineDash([6, 4]);
-    for (const y of [high, low]) {
-      context.beginPath();
-      context.moveTo(area.x, y);
-      context.lineTo(area.x + area.w, y);
-      context.stroke();
+    for (const zone of self.plot.zones)
+      fill(context, zone.look, graph.toDomXCoord(zone.from), area.y, graph.toDomXCoord(zone.to), area.y + area.h);
+    for (const {look, low, high} of view.panel.bands) {
+      const top = graph.toDomYCoord(high), bottom = graph.toDomYCoord(low), right = area.x + area.w;
+      if (look.size > 0) stroke(context, look, [area.x, top], [right, top]);
+      else fill(context, look, area.x, top, right, bottom);
     }
-    context.setLineDash([]);
+    view.panel.lanes.forEach((lane, i) => drawLane(context, graph, lane, i, view.panel.lanes.length));
+    drawMarks(self.plot, view.top, context, area, graph);
+    context.restore();
   }
 
   // Where the states of a lane begin, found once.
@@ -178,7 +171,7 @@
 
   function drawLane(context, graph, lane, order, count) {
     const x = columns[lane.x], y = columns[lane.y];
-    const low = graph.toDomYCoord(count - order - 0.82), high = graph.toDomYCoord(count - order - 0.18);
+    const low = graph.toDomYCoord(count - order - 0.8), high = graph.toDomYCoord(count - order - 0.2);
     const starts = startsOf(x, y), range = graph.xAxisRange();
     context.textAlign = "center";
     context.textBaseline = "middle";
@@ -190,55 +183,31 @@
       const right = Math.max(left + 1, graph.toDomXCoord(until));
       if (Math.floor(right) === column) continue;  // that pixel is filled already
       column = Math.floor(right);
-      context.strokeStyle = context.fillStyle = colour(order % 4);
       if (!isNaN(starts.y[k])) drawState(context, lane, starts.y[k], left, right, low, high, k > 0, graph.getArea());
     }
   }
 
-  // Where the text of a state stands: in the middle of what is seen of it, if it has room there.
-  function textPlace(width, left, right, area) {
-    const from = Math.max(left, area.x), until = Math.min(right, area.x + area.w);
-    return width + 6 < until - from ? (from + until) / 2 : null;
-  }
-
   function drawState(context, lane, value, left, right, low, high, edge, area) {
-    context.globalAlpha = 0.28;
-    if (!lane.digital) {
-      context.fillStyle = colour(Math.abs(Math.round(value)));
-      context.strokeStyle = theme("--soft");
-      context.lineWidth = 1;
-      context.fillRect(left, high, right - left, low - high);
-      context.globalAlpha = 1;
-      context.strokeRect(left, high, right - left, low - high);
-      const text = numberText(value), middle = textPlace(context.measureText(text).width, left, right, area);
-      context.fillStyle = theme("--ink");
-      if (middle !== null) context.fillText(text, middle, (low + high) / 2 + 1);
-      return;
+    if (lane.states.length === 0) {
+      const level = value !== 0 ? high : low;
+      if (value !== 0) fill(context, lane.look, left, high, right, low);
+      return stroke(context, lane.look, ...(edge ? [[left, low], [left, high]] : []), [left, level], [right, level]);
     }
-    if (value !== 0) context.fillRect(left, high, right - left, low - high);
-    context.globalAlpha = 1;
-    context.lineWidth = 1.6;
-    context.beginPath();
-    if (edge) { context.moveTo(left, low); context.lineTo(left, high); }
-    context.moveTo(left, value !== 0 ? high : low);
-    context.lineTo(right, value !== 0 ? high : low);
-    context.stroke();
+    const [, tone] = lane.states.find(([state]) => Math.fround(state) === value) ?? [value, lane.look.tone];
+    fill(context, {tone: tone, opacity: 1}, left, high, right, low);
+    context.strokeStyle = theme("--soft");
+    context.lineWidth = 1;
+    context.strokeRect(left, high, right - left, low - high);
+    // In the middle of what is seen of it, if its text has room there.
+    const text = numberText(value), from = Math.max(left, area.x), until = Math.min(right, area.x + area.w);
+    context.fillStyle = theme("--ink");
+    if (context.measureText(text).width + 6 < until - from) context.fillText(text, (from + until) / 2, (low + high) / 2 + 1);
   }
 
-  function drawMarks(marks, strip, context, area, graph) {
-    const shown = marks.map(mark => ({mark: mark, x: graph.toDomXCoord(mark.x)}))
-                       .filter(one => one.x >= area.x && one.x <= area.x + area.w);
-    const colourOf = mark => mark.strong ? theme("--fail") : theme("--soft");
-    context.setLineDash([2, 3]);
-    for (const one of shown) {
-      context.strokeStyle = colourOf(one.mark);
-      context.lineWidth = one.mark.strong ? 1.4 : 0.8;
-      context.beginPath();
-      context.moveTo(one.x, area.y);
-      context.lineTo(one.x, area.y + area.h);
-      context.stroke();
-    }
-    context.setLineDash([]);
+  function drawMarks(plot, strip, context, area, graph) {
+    const shown = plot.marks.map(mark => ({mark: mark, x: graph.toDomXCoord(mark.x)}))
+                            .filter(one => one.x >= area.x && one.x <= area.x + area.w);
+    for (const {mark, x} of shown) stroke(context, plot.markLooks[Number(mark.strong)], [x, area.y], [x, area.y + area.h]);
     if (!strip) return;
     // Faults first; what would touch a label that stands already has none.
     const labelled = [];
@@ -252,7 +221,7 @@
       context.save();
       context.translate(one.x + (one.x + 14 > area.x + area.w ? -6 : 7), area.y + strip - 4);
       context.rotate(-Math.PI / 2);
-      context.fillStyle = colourOf(one.mark);
+      context.fillStyle = theme(one.mark.strong ? "--fail" : "--soft");
       context.fillText(one.mark.label, 0, 0, strip - 6);
       context.restore();
     }
@@ -342,9 +311,9 @@
   Plot.prototype.paint = function () {
     this.busy = true;
     for (const view of this.graphs) {
-      view.swatches.forEach((swatch, i) => { swatch.style.background = curveColour(view.panel.curves[i], i); });
+      for (const [swatch, look] of view.swatches) swatch.style.color = shade(look.tone);
       const options = {axisLineColor: theme("--soft"), gridLineColor: theme("--line")};
-      if (view.panel.curves.length) options.colors = view.panel.curves.map(curveColour);
+      if (view.panel.curves.length) options.colors = view.panel.curves.map(curve => shade(curve.look.tone));
       view.graph.updateOptions(options);
     }
     this.busy = false;
@@ -355,17 +324,21 @@
     const holder = element(this.box, "div", "live-panel");
     const legend = element(holder, "div", "live-legend");
     if (panel.title || panel.yLabel) element(legend, "b", "", (panel.title + " " + panel.yLabel).trim());
-    const swatches = [];  // of curves with a name
-    const values = panel.curves.map((curve, i) => {
+    const swatches = [];  // of curves and bands with a name
+    const values = panel.curves.map(curve => {
       const entry = element(legend, "span", "live-entry");
       if (curve.label) {
-        swatches[i] = element(entry, "i", curve.style);
+        swatches.push([element(entry, "i", curve.style), curve.look]);
         element(entry, "span", "", curve.label + " ");
       }
       entry.hidden = curve.faint && !curve.label;  // a guide for the eye behind the others
       return element(entry, "output", "", "");
     });
-    for (const band of panel.bands) if (band.label) element(legend, "span", "live-band", band.label);
+    for (const band of panel.bands.filter(band => band.label)) {
+      const entry = element(legend, "span", "live-band");
+      swatches.push([element(entry, "i", band.look.size > 0 ? "limit" : "band"), band.look]);
+      entry.append(band.label);
+    }
     const canvas = element(holder, "div", "live-canvas");
     canvas.setAttribute("role", "img");
     const names = panel.curves.concat(panel.lanes).map(one => one.label).filter(Boolean).join(", ");
@@ -378,13 +351,13 @@
     const view = {panel: panel, holder: holder, swatches: swatches, values: values, states: states, cursor: cursor, canvas: canvas, top: strip};
     const series = {};
     panel.curves.forEach((curve, i) => {
-      series["c" + i] = curve.style === "points" ? {drawPoints: true, strokeWidth: 0, pointSize: curve.faint ? 1 : 3}
-                                                 : {stepPlot: curve.style === "steps"};
+      series["c" + i] = curve.style === "points" ? {drawPoints: true, strokeWidth: 0, pointSize: Math.round(curve.look.size)}
+        : {stepPlot: curve.style === "steps", strokeWidth: thin * curve.look.size, strokePattern: curve.look.dash.length ? curve.look.dash : null};
     });
     view.pixels = Math.max(200, Math.min(2000, canvas.clientWidth));
     const options = {
       labels: ["x"].concat(panel.curves.map((curve, i) => "c" + i)), series: series, legend: "never",
-      colors: panel.curves.map(curveColour), strokeWidth: 1.6, highlightCircleSize: 0,
+      highlightCircleSize: 0,
       gridLineWidth: 0.8,
       connectSeparatedPoints: true, dateWindow: this.range.slice(), axisLabelFontSize: 12, rightGap: 12,
       xRangePad: 0, interactionModel: interaction(() => self.show(self.whole)),
@@ -404,7 +377,6 @@
     if (lanes) {
       options.labels = ["x", "none"];
       options.series = {};
-      options.colors = ["#000"];
       options.valueRange = [0, lanes + view.top / laneHeight];
       options.axes.y.drawGrid = false;
       options.axes.y.ticker = () => panel.lanes.map((lane, i) => ({v: lanes - i - 0.5, label: lane.label}));

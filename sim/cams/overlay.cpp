@@ -23,7 +23,7 @@ double length_of(const IdealCam& ideal, std::size_t cycle) {
 }
 
 /// True if the samples reach both ends of the cycle, as near as they are taken.
-bool is_whole(const PlayedCam& played, const IdealCam& ideal, const PlayedCycle& part) {
+bool is_whole(const loop::PlayedCam& played, const IdealCam& ideal, const PlayedCycle& part) {
   constexpr double share = 0.02;
   const auto& samples = played.samples;
   double low = samples[part.first].master;
@@ -44,7 +44,7 @@ double shortest(double way, double turn) { return turn > 0 ? way - turn * std::r
 /// What is drawn of one cycle: positions in the cycle, in the shown unit.
 class CycleCurves {
  public:
-  CycleCurves(const PlayedCam& played, const IdealCam& ideal, const PlayedCycle& cycle)
+  CycleCurves(const loop::PlayedCam& played, const IdealCam& ideal, const PlayedCycle& cycle)
       : played_(played), ideal_(ideal), cycle_(cycle) {}
 
   [[nodiscard]] double x(std::size_t sample) const {
@@ -98,13 +98,13 @@ class CycleCurves {
   }
 
  private:
-  const PlayedCam& played_;
+  const loop::PlayedCam& played_;
   const IdealCam& ideal_;
   const PlayedCycle& cycle_;
 };
 
 /// Errors of all other cycles that are as long as the shown one, as pale dots; no points if there are none.
-renders::Curve other_cycles(const PlayedCam& played, const IdealCam& ideal,
+renders::Curve other_cycles(const loop::PlayedCam& played, const IdealCam& ideal,
                             const std::vector<PlayedCycle>& cycles, const PlayedCycle& shown,
                             const std::vector<double>& errors) {
   constexpr double same = 1e-6;
@@ -157,7 +157,7 @@ void add_error_panel(renders::Plot& plot, const std::string& what, const IdealCa
 
 }  // namespace
 
-CamErrors errors_of(const PlayedCam& played, const IdealCam& ideal) {
+CamErrors errors_of(const loop::PlayedCam& played, const IdealCam& ideal) {
   CamErrors errors;
   for (const auto& sample : played.samples) {
     const double set = sample.set - (ideal.slave ? ideal.slave(sample.master) : nothing);
@@ -167,7 +167,7 @@ CamErrors errors_of(const PlayedCam& played, const IdealCam& ideal) {
   return errors;
 }
 
-std::vector<PlayedCycle> cycles_of(const PlayedCam& played, const IdealCam& ideal) {
+std::vector<PlayedCycle> cycles_of(const loop::PlayedCam& played, const IdealCam& ideal) {
   std::vector<PlayedCycle> cycles;
   if (!ideal.runs()) return cycles;
   const auto& samples = played.samples;
@@ -218,7 +218,7 @@ std::string error_text(double error, double step) {
   return error > 0 && error < least ? "below " + in_decimals(least) : number_text(error, 4);
 }
 
-renders::Plot overlay_plot(const PlayedCam& played, const IdealCam& ideal, const CamErrors& errors,
+renders::Plot overlay_plot(const loop::PlayedCam& played, const IdealCam& ideal, const CamErrors& errors,
                            const std::vector<PlayedCycle>& cycles, const PlayedCycle& shown,
                            const std::string& name) {
   const CycleCurves curves(played, ideal, shown);

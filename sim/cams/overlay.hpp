@@ -5,7 +5,7 @@
 
 #include "renders/plots.hpp"
 #include "sim/cams/ideal.hpp"
-#include "sim/cams/played.hpp"
+#include "sim/loop/played_cams.hpp"
 
 namespace drycut::sim::cams {
 
@@ -22,10 +22,10 @@ struct CamErrors {
   std::vector<double> set;  ///< set minus ideal position, one a sample; not a number where there is no ideal
   std::vector<double> behind;  ///< set minus measured position; not a number where nothing measures
 };
-CamErrors errors_of(const PlayedCam& played, const IdealCam& ideal);
+CamErrors errors_of(const loop::PlayedCam& played, const IdealCam& ideal);
 
 /// The cycles in the order of running.
-std::vector<PlayedCycle> cycles_of(const PlayedCam& played, const IdealCam& ideal);
+std::vector<PlayedCycle> cycles_of(const loop::PlayedCam& played, const IdealCam& ideal);
 /// The one to show: the last whole cycle, else the longest part of one; nothing if there is none.
 const PlayedCycle* shown_cycle(const std::vector<PlayedCycle>& cycles);
 
@@ -43,7 +43,7 @@ std::string error_text(double error, double step);
 
 /// One cycle: ideal, set and measured position over the master, and their differences magnified below, those
 /// of all other cycles of this length pale behind. `shown` is one of `cycles`.
-renders::Plot overlay_plot(const PlayedCam& played, const IdealCam& ideal, const CamErrors& errors,
+renders::Plot overlay_plot(const loop::PlayedCam& played, const IdealCam& ideal, const CamErrors& errors,
                            const std::vector<PlayedCycle>& cycles, const PlayedCycle& shown,
                            const std::string& name);
 

@@ -34,7 +34,7 @@ std::string file_name(const std::string& axis) {
 /// Its four first digits, as a person would give it.
 double rounded(double speed) { return std::strtod(fmt::format("{:.4g}", speed).c_str(), nullptr); }
 
-MasterRange range_of(const PlayedCam& played) {
+MasterRange range_of(const loop::PlayedCam& played) {
   MasterRange range;
   for (std::size_t i = 0; i < played.samples.size(); ++i) {
     const double master = played.samples[i].master;
@@ -120,7 +120,7 @@ renders::ReportTable played_table(const IdealCam& ideal, const CamErrors& errors
 /// One page, made step by step.
 class PageMaker {
  public:
-  PageMaker(const PlayedCam& played, std::string title, std::string name) : played_(played) {
+  PageMaker(const loop::PlayedCam& played, std::string title, std::string name) : played_(played) {
     page_.title = std::move(title);
     page_.name = std::move(name);
     page_.table = played.text;
@@ -186,7 +186,7 @@ class PageMaker {
     page_.tables.insert(page_.tables.begin(), played_table(ideal_, errors, cycles));
   }
 
-  const PlayedCam& played_;
+  const loop::PlayedCam& played_;
   devices::CamTable table_;
   Problems problems_;
   IdealCam ideal_;
@@ -195,7 +195,7 @@ class PageMaker {
 
 }  // namespace
 
-double fastest_master(const PlayedCam& played) {
+double fastest_master(const loop::PlayedCam& played) {
   constexpr Time window = 20 * millisecond;
   double fastest = 0;
   std::size_t first = 0;
@@ -212,7 +212,7 @@ double fastest_master(const PlayedCam& played) {
   return fastest;
 }
 
-std::vector<CamPage> cam_pages(const std::vector<PlayedCam>& played) {
+std::vector<CamPage> cam_pages(const std::vector<loop::PlayedCam>& played) {
   std::map<std::string, int> all;
   for (const auto& cam : played) ++all[cam.axis];
   std::map<std::string, int> told;

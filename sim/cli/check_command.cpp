@@ -21,7 +21,6 @@
 #include "sim/file.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/report/part_meshes.hpp"
-#include "sim/scenario/json_schema.hpp"
 #include "sim/studies/compare/scene_run.hpp"
 
 namespace drycut::sim::cli {
@@ -195,7 +194,7 @@ void add_check(CLI::App& app, int& status) {
   check->add_flag("--schema", options.schema, "Print the JSON Schema of scenarios, for editors")
       ->excludes(files);
   check->callback([chosen, files, &status] {
-    if (chosen->schema) return fmt::print("{}\n", scenario::json_schema());
+    if (chosen->schema) return fmt::print("{}\n", studies::json_schema());
     if (chosen->files.empty()) throw CLI::RequiredError(files->get_name());
     status = check_files(*chosen);
   });

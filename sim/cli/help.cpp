@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/embedded.hpp"
 #include "base/text.hpp"
-#include "renders/embedded.hpp"
 #include "sim/cli/commands.hpp"
 #include "sim/cli/file_kinds.hpp"
 #include "sim/cli/pages.hpp"
@@ -58,7 +58,7 @@ std::string heading_of(std::string_view page) {
 std::vector<std::string> topics() {
   std::vector<std::string> names;
   constexpr std::string_view ending = ".md";
-  for (const auto name : renders::embedded_names())
+  for (const auto name : embedded_names())
     if (name.ends_with(ending) && name.find('/') == std::string_view::npos)
       names.emplace_back(name.substr(0, name.size() - ending.size()));
   return names;
@@ -119,8 +119,7 @@ std::string page_of(const CLI::App& app) {
 
 int tell_topics() {
   fmt::print("drycut help TOPIC prints a page. There are:\n\n");
-  for (const auto& name : topics())
-    fmt::print("{}", row(name, heading_of(renders::embedded_file(name + ".md"))));
+  for (const auto& name : topics()) fmt::print("{}", row(name, heading_of(embedded_file(name + ".md"))));
   fmt::print(
       "\nThe name of a command gives what its --help says, of a device or plant what drycut devices and\n"
       "drycut plants say.\n");
@@ -143,7 +142,7 @@ int tell_topic(const CLI::App& program, const std::string& topic) {
   const auto page =
       std::ranges::find_if(names, [&](const std::string& name) { return same_word(name, topic); });
   if (page != names.end()) {
-    fmt::print("{}{}", told ? "\n" : "", renders::embedded_file(*page + ".md"));
+    fmt::print("{}{}", told ? "\n" : "", embedded_file(*page + ".md"));
     told = true;
   }
   if (told) return all_passed;

@@ -10,10 +10,10 @@
 #include <string_view>
 #include <utility>
 
+#include "base/embedded.hpp"
 #include "base/plain_text.hpp"
 #include "base/problem.hpp"
 #include "base/text.hpp"
-#include "renders/embedded.hpp"
 #include "sim/cli/commands.hpp"
 #include "sim/file.hpp"
 
@@ -36,8 +36,8 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
 }
 
 std::string scenario_of(const Start& start) {
-  return std::string(renders::embedded_file(
-      fmt::format("{}{}_{}{}", folder_of_starts, start.machine, start.controller, ending)));
+  return std::string(
+      embedded_file(fmt::format("{}{}_{}{}", folder_of_starts, start.machine, start.controller, ending)));
 }
 
 /// The first sentence of the comment that it begins with.
@@ -76,25 +76,24 @@ std::vector<NewFile> files_of(const Start& start, const std::string& name) {
   const auto scenario = scenario_of(start);
   std::vector<NewFile> files = {{"line.yaml", replaced(scenario, programs_there, "programs/"),
                                  "the scenario: machine, wiring, checks"}};
-  for (const auto embedded : renders::embedded_names()) {
+  for (const auto embedded : embedded_names()) {
     const auto is_program = embedded.starts_with("programs/") &&
                             scenario.find("../" + std::string(embedded)) != std::string::npos;
     const auto inside =
         embedded.starts_with(folder_of_starts) ? embedded.substr(folder_of_starts.size()) : embedded;
     const auto is_cam = inside.starts_with("cams/") && scenario.find(inside) != std::string::npos;
     if (is_program || is_cam)
-      files.push_back(
-          {std::string(inside), std::string(renders::embedded_file(embedded)), about_file(inside)});
+      files.push_back({std::string(inside), std::string(embedded_file(embedded)), about_file(inside)});
   }
   for (const auto& [from, to] :
        {std::pair{"github.yml", ".github/workflows/drycut.yml"}, std::pair{"gitlab.yml", ".gitlab-ci.yml"},
         std::pair{"gitignore", ".gitignore"}})
-    files.push_back({to, std::string(renders::embedded_file(std::string(folder_of_projects) + from)), ""});
+    files.push_back({to, std::string(embedded_file(std::string(folder_of_projects) + from)), ""});
   std::string rows;
   for (const auto& file : files)
     if (!file.about.empty())
       rows += fmt::format("{}| `{}` | {} |", rows.empty() ? "" : "\n", file.name, file.about);
-  auto readme = std::string(renders::embedded_file(std::string(folder_of_projects) + "README.md"));
+  auto readme = std::string(embedded_file(std::string(folder_of_projects) + "README.md"));
   readme = replaced(replaced(readme, "@ABOUT@", start.about), "@FILES@", rows);
   files.push_back(
       {"README.md", replaced(replaced(readme, "@SET@", example_of(scenario)), "@NAME@", name), ""});
@@ -192,7 +191,7 @@ int list_starts() {
 
 std::vector<Start> starts() {
   std::vector<Start> all;
-  for (const auto name : renders::embedded_names()) {
+  for (const auto name : embedded_names()) {
     if (!name.starts_with(folder_of_starts) || !name.ends_with(ending)) continue;
     const auto stem =
         name.substr(folder_of_starts.size(), name.size() - folder_of_starts.size() - ending.size());

@@ -80,7 +80,7 @@ LineRun::LineRun(const Line::Options& options, const LineRun* before, Problems& 
   simulation_ = std::make_unique<loop::Simulation>(scenario_, problems);
   if (!problems.empty()) return;
   simulation_->keep_nothing();
-  simulation_->tell(*this);
+  simulation_->add(*this);
   for (const auto& [name, plant] : simulation_->plants())
     for (auto& part : plant->parts()) shown_.push_back(std::move(part));
   auto& names = simulation_->names();
@@ -98,7 +98,7 @@ bool LineRun::looks_like(const LineRun& other) const {
 void LineRun::begin(const fs::path& folder, const Inbox& inbox) {
   if (!folder.empty()) {
     record_ = std::make_unique<Record>(folder, scenario_, replay_.fingerprint, simulation_->recording());
-    simulation_->tell(*record_);
+    simulation_->add(*record_);
     const auto& timeline = scenario_.timeline;
     for (auto act = timeline.end() - static_cast<std::ptrdiff_t>(replay_.acts); act != timeline.end(); ++act)
       record_->add(*act);

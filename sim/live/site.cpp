@@ -3,7 +3,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "renders/embedded.hpp"
+#include "base/embedded.hpp"
+#include "renders/palette.hpp"
 
 namespace drycut::sim::live {
 
@@ -18,6 +19,7 @@ const char* type_of(std::string_view name) {
 }  // namespace
 
 Site::Site(const std::filesystem::path& three) {
+  three_.emplace("/palette.css", renders::palette_css());
   for (const auto* file :
        {"three.min.js", "examples/js/loaders/GLTFLoader.js", "examples/js/controls/OrbitControls.js"}) {
     std::ostringstream bytes;
@@ -30,7 +32,7 @@ std::optional<Site::File> Site::find(std::string_view path) const {
   if (path == "/") path = "/live.html";
   if (const auto found = three_.find(path); found != three_.end()) return File{type_of(path), found->second};
   if (!path.starts_with("/live") && !path.starts_with("/view")) return {};
-  const auto bytes = renders::embedded_file(path.substr(1));
+  const auto bytes = embedded_file(path.substr(1));
   if (bytes.empty()) return {};
   return File{type_of(path), bytes};
 }

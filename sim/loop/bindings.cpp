@@ -120,9 +120,7 @@ class Binder {
     for (const auto& panel : plot.panels) {
       check_event(panel);
       for (const auto& name : panel.lanes) add_lane(name);
-      for (const auto& name : panel.channels) add_channel(name);
-      for (const auto* name : {&panel.x, &panel.y, &panel.split})
-        if (!name->text.empty()) add_channel(*name);
+      for (const auto& name : panel.recorded()) add_channel(name);
       if (!panel.motor.text.empty()) add_motor(panel.motor);
     }
     if (!plot.marks) return;

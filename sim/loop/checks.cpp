@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "sim/report/statistics.hpp"
+#include "sim/loop/statistics.hpp"
 #include "sim/scenario/format.hpp"
 
 namespace drycut::sim::loop {
@@ -82,7 +82,7 @@ const KnownEvent* Checks::bind_event(State& state, const scenario::Scenario& sce
     if (check.kind == scenario::Check::Kind::all) {
       state.series.push_back({name, unit, {}});
       state.values.push_back({name, unit, 0.0});
-      for (const auto* statistic : report::statistic_names) {
+      for (const auto* statistic : statistic_names) {
         state.slots.push_back({fmt::format("{}_{}", statistic, name), unit, 0.0});
       }
     } else {
@@ -325,10 +325,10 @@ void Checks::finish_statistics(State& state) {
   set("count", state.count);
   std::string values;
   for (const auto& series : state.series) {
-    const auto numbers = report::statistics(series.numbers);
-    for (std::size_t i = 0; i < report::statistic_names.size(); ++i) {
-      set(fmt::format("{}_{}", report::statistic_names[i], series.value), numbers[i]);
-      const auto name = fmt::format("{}_{}", report::statistic_names[i], series.value);
+    const auto numbers = statistics(series.numbers);
+    for (std::size_t i = 0; i < statistic_names.size(); ++i) {
+      set(fmt::format("{}_{}", statistic_names[i], series.value), numbers[i]);
+      const auto name = fmt::format("{}_{}", statistic_names[i], series.value);
       if (state.check.expression.text.find(name) == std::string::npos) continue;
       values += fmt::format("{}{}={:.6g}{}{}", values.empty() ? "" : "; ", name, without_noise(numbers[i]),
                             series.unit.empty() ? "" : " ", series.unit);

@@ -14,7 +14,7 @@
 
 namespace drycut::sim::loop {
 
-/// What a check lets a value of each event be.
+/// Limits that a check sets for a value of each event.
 struct Tolerance {
   std::string event;  ///< as the check names it: "cut", "knife.cut"
   std::string value;

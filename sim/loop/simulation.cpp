@@ -192,7 +192,7 @@ void Simulation::follow_cams() {
     }
     return {};
   };
-  cams_ = std::make_unique<cams::CamRecorder>(controller_->cam_axes(), deviation);
+  cams_ = std::make_unique<CamRecorder>(controller_->cam_axes(), deviation);
   observers_.push_back(cams_.get());
 }
 

@@ -9,7 +9,6 @@
 #include "devices/controller.hpp"
 #include "plants/plant.hpp"
 #include "plants/world.hpp"
-#include "sim/cams/played.hpp"
 #include "sim/loop/bindings.hpp"
 #include "sim/loop/bus.hpp"
 #include "sim/loop/causes.hpp"
@@ -21,6 +20,7 @@
 #include "sim/loop/hunting.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/loop/observer.hpp"
+#include "sim/loop/played_cams.hpp"
 #include "sim/loop/recorder.hpp"
 #include "sim/loop/remarks.hpp"
 #include "sim/loop/shutter.hpp"
@@ -48,7 +48,7 @@ struct Outcome {
   std::string failure;  ///< why the simulation itself stopped before its time, "" if it did not
   std::vector<CheckResult> checks;
   std::optional<HalfStep> half_step = {};  ///< where it was asked for
-  std::vector<DriveVerdict> drives = {};   ///< what the drives came to beside their ratings
+  std::vector<DriveVerdict> drives = {};   ///< verdicts of the drives against their ratings
   /// Why checks failed, as far as the run tells, as the end of a sentence: "because ..."; "" = it does not.
   std::string cause = {};
   /// What may be a slip though the checks cannot tell: wires, heat that nobody judged, a phrase each.
@@ -77,7 +77,7 @@ class Simulation {
   /// Keeps what the controller's cams play, for pictures of it; before run().
   void follow_cams();
   /// What was kept; nullptr if nothing was asked for.
-  [[nodiscard]] const cams::CamRecorder* cams() const { return cams_.get(); }
+  [[nodiscard]] const CamRecorder* cams() const { return cams_.get(); }
 
   /// Ends it where it is, as a failure of its own; while it runs, of `progress`.
   void stop(const std::string& why) {
@@ -100,8 +100,8 @@ class Simulation {
     if (failure_.empty()) step();
     return failure_.empty();
   }
-  /// Tells one more, from now on; it outlives the simulation.
-  void tell(Observer& observer) { observers_.push_back(&observer); }
+  /// Adds an observer, which must outlive the simulation. It hears of what happens from now on.
+  void add(Observer& observer) { observers_.push_back(&observer); }
   /// Tells one more every step, which costs time in each; before the first one. It outlives the simulation.
   void tell_steps(Observer& observer) { steppers_.push_back(&observer); }
   /// Takes an entry of the timeline more, before the step at which it is due: at() in the future, or now. The
@@ -200,7 +200,7 @@ class Simulation {
   std::unique_ptr<Unasked> unasked_;
   Recording recording_;
   std::unique_ptr<Observer> files_;
-  std::unique_ptr<cams::CamRecorder> cams_;
+  std::unique_ptr<CamRecorder> cams_;
   std::size_t events_seen_ = 0;
   Time next_record_ = 0;
   Shutter shutter_;

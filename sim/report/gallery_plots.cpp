@@ -11,8 +11,8 @@
 
 namespace drycut::sim::report {
 
-EventNumbers event_numbers(const loop::EventLog& events, const std::string& event, const std::string& value,
-                           const scenario::PlotRequest& plot) {
+loop::EventNumbers event_numbers(const loop::EventLog& events, const std::string& event,
+                                 const std::string& value, const scenario::PlotRequest& plot) {
   return plot.until ? event_numbers(events, event, value, seconds(plot.from), seconds(*plot.until))
                     : event_numbers(events, event, value, seconds(plot.from));
 }
@@ -80,12 +80,12 @@ renders::PixelGrid bounds_of(const loop::Series<double>& x, const loop::Series<d
 }
 
 /// A path in a plane: one curve, or one for each whole value of the split channel.
-renders::Panel path_panel(const loop::Recording& recording, const scenario::PlotRequest& plot,
-                          const scenario::PlotRequest::Panel& request) {
+void draw_path(const loop::Recording& recording, const scenario::PlotRequest& wanted, renders::Plot& plot) {
+  const auto& request = wanted.panels.front();
   const auto& x = *recording.column(request.x.text);
   const auto& y = *recording.column(request.y.text);
   const auto* split = request.split.text.empty() ? nullptr : recording.column(request.split.text);
-  const auto rows = rows_between(recording, plot.from, plot.until);
+  const auto rows = rows_between(recording, wanted.from, wanted.until);
   const auto bounds = bounds_of(x.values, y.values);
   std::map<double, renders::Cloud> paths;
   double before = 0;
@@ -98,7 +98,10 @@ renders::Panel path_panel(const loop::Recording& recording, const scenario::Plot
     }
     before = part;
   }
-  renders::Panel panel;
+  plot.x_label = axis_label(x.name, {x.unit});
+  plot.width = 960;
+  plot.panel_height = 900;
+  auto& panel = plot.panels.emplace_back();
   panel.title = request.title;
   panel.y_label = axis_label(y.name, {y.unit});
   panel.equal_scale = true;
@@ -113,7 +116,6 @@ renders::Panel path_panel(const loop::Recording& recording, const scenario::Plot
     panel.curves.push_back(std::move(curve));
   }
   for (const auto& point : request.points) panel.points.push_back({point.label.text, point.x, point.y});
-  return panel;
 }
 
 /// Nothing but zeros, in which there is nothing to see; limits beside them would be.
@@ -216,19 +218,16 @@ std::vector<renders::Mark> marks_of(const loop::Recording& recording, const scen
 /// A plot of one panel whose x is not time.
 void draw_own_x(const MachineFacts& machine, const loop::Recording& recording,
                 const scenario::PlotRequest& request, renders::Plot& plot) {
-  const auto& panel = request.panels.front();
-  if (panel.histogram) {
-    draw_histogram(recording, request, plot);
-  } else if (panel.spectrum) {
-    draw_spectrum(machine, recording, request, plot);
-  } else if (panel.is_path()) {
-    const auto& x = *recording.column(panel.x.text);
-    plot.x_label = axis_label(x.name, {x.unit});
-    plot.width = 960;
-    plot.panel_height = 900;
-    plot.panels.push_back(path_panel(recording, request, panel));
-  } else {
-    draw_motor(machine, recording, request, plot);
+  using Kind = scenario::PlotRequest::Panel::Kind;
+  switch (request.panels.front().kind()) {
+    case Kind::histogram:
+      return draw_histogram(recording, request, plot);
+    case Kind::spectrum:
+      return draw_spectrum(machine, recording, request, plot);
+    case Kind::path:
+      return draw_path(recording, request, plot);
+    default:
+      return draw_motor(machine, recording, request, plot);
   }
 }
 

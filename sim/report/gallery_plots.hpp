@@ -8,7 +8,7 @@
 #include "renders/plots.hpp"
 #include "sim/loop/drive_judge.hpp"
 #include "sim/loop/recorder.hpp"
-#include "sim/report/statistics.hpp"
+#include "sim/loop/statistics.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::report {
@@ -28,8 +28,8 @@ struct Rows {
 /// Those from one time to another, both included.
 Rows rows_between(const loop::Recording& recording, Time from, const std::optional<Time>& until);
 /// The numbers of an event's value in the window of a plot.
-EventNumbers event_numbers(const loop::EventLog& events, const std::string& event, const std::string& value,
-                           const scenario::PlotRequest& plot);
+loop::EventNumbers event_numbers(const loop::EventLog& events, const std::string& event,
+                                 const std::string& value, const scenario::PlotRequest& plot);
 /// A channel over time [s]; of many rows a thinned one (renders/decimate.hpp).
 renders::Curve channel_curve(const loop::Recording& recording, const loop::Recording::Column& column,
                              Rows rows);

@@ -9,9 +9,9 @@
 #include "base/units.hpp"
 #include "renders/decimate.hpp"
 #include "sim/loop/bindings.hpp"
+#include "sim/loop/statistics.hpp"
 #include "sim/report/drives.hpp"
 #include "sim/report/gallery_plots.hpp"
-#include "sim/report/statistics.hpp"
 #include "sim/scenario/units.hpp"
 
 namespace drycut::sim::report {
@@ -51,9 +51,9 @@ renders::Curve bars_of(const std::vector<double>& numbers, double low, double hi
 
 std::string capability_text(double value) { return value > 100 ? "above 100" : fmt::format("{:.2f}", value); }
 
-std::string statistics_text(const EventNumbers& series,
+std::string statistics_text(const loop::EventNumbers& series,
                             const std::optional<std::pair<double, double>>& limits) {
-  const auto figures = statistics(series.numbers);
+  const auto figures = loop::statistics(series.numbers);
   const auto [mean, least, greatest, sd, slope, slope_error] = figures;
   const auto unit = series.unit.empty() ? "" : " " + series.unit;
   auto text = fmt::format("{} values, mean {:.7g}{}, from {:.7g} to {:.7g}, standard deviation {:.3g}{}",
@@ -61,7 +61,7 @@ std::string statistics_text(const EventNumbers& series,
   if (!limits) return text;
   const bool beyond = least < limits->first || greatest > limits->second;
   if (series.numbers.size() < 2) return text + ", too few for a Cpk";
-  const auto found = capability(figures, limits->first, limits->second);
+  const auto found = loop::capability(figures, limits->first, limits->second);
   if (!found) return text + (beyond ? ", beyond a limit" : ", no spread");
   return text + fmt::format(", Cp {}, Cpk {}", capability_text(found->cp), capability_text(found->cpk));
 }
@@ -86,7 +86,7 @@ void draw_histogram(const loop::Recording& recording, const scenario::PlotReques
       plot.marks.push_back({panel.limits->first, fmt::format("{:g}", panel.limits->first), true});
       plot.marks.push_back({panel.limits->second, fmt::format("{:g}", panel.limits->second), true});
     }
-    plot.marks.push_back({statistics(series.numbers)[0], "mean"});
+    plot.marks.push_back({loop::statistics(series.numbers)[0], "mean"});
     std::stable_sort(plot.marks.begin(), plot.marks.end(),
                      [](const auto& a, const auto& b) { return a.x < b.x; });
     shown.curves.push_back(bars_of(series.numbers, from, until));

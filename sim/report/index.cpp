@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/embedded.hpp"
 #include "base/text.hpp"
-#include "renders/embedded.hpp"
 #include "renders/html.hpp"
 #include "sim/file.hpp"
 #include "sim/report/report.hpp"
@@ -271,8 +271,8 @@ std::string index_page(const std::vector<IndexEntry>& entries) {
       "[s]</th>"
       "<th scope=\"col\">drycut</th></tr></thead>\n<tbody>\n{7}</tbody>\n</table>\n</div>\n</main>\n"
       "<script>{8}</script>\n</body>\n</html>\n",
-      word, renders::embedded_file("report.css"), renders::embedded_file("index.css"), entries.size(),
-      entries.size() == 1 ? "folder" : "folders", state, said, rows, renders::embedded_file("index.js"));
+      word, embedded_file("report.css"), embedded_file("index.css"), entries.size(),
+      entries.size() == 1 ? "folder" : "folders", state, said, rows, embedded_file("index.js"));
 }
 
 std::vector<IndexEntry> write_index(const fs::path& folder, OutputFolder& out) {

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "sim/loop/statistics.hpp"
 #include "sim/report/gallery_plots.hpp"
-#include "sim/report/statistics.hpp"
 
 namespace drycut::sim::report {
 
@@ -48,8 +48,8 @@ bool is_shareable(const loop::Tolerance& tolerance) {
   return !std::isinf(tolerance.high) || tolerance.low > 0;
 }
 
-renders::ReportKey value_key(const loop::Tolerance& tolerance, const EventNumbers& series) {
-  const auto figures = statistics(series.numbers);
+renders::ReportKey value_key(const loop::Tolerance& tolerance, const loop::EventNumbers& series) {
+  const auto figures = loop::statistics(series.numbers);
   const auto [mean, least, greatest, sd, slope, slope_error] = figures;
   const bool both = std::isfinite(tolerance.low) && std::isfinite(tolerance.high);
   const double room = both ? tolerance.high - tolerance.low
@@ -71,7 +71,7 @@ renders::ReportKey value_key(const loop::Tolerance& tolerance, const EventNumber
                                   series.order[worst], series.times[worst]));
   if (is_shareable(tolerance)) key.used = used_of(tolerance, series.numbers[worst]);
   const auto count = series.numbers.size();
-  const auto found = capability(figures, tolerance.low, tolerance.high);
+  const auto found = loop::capability(figures, tolerance.low, tolerance.high);
   if (count < enough)
     key.notes.push_back(fmt::format("of {}, too few for a Cpk", counted(count, "value")));
   else
@@ -88,13 +88,13 @@ renders::ReportKey value_key(const loop::Tolerance& tolerance, const EventNumber
 /// Events that come with a length: pieces.
 void add_pieces(const loop::Recording& recording, const std::vector<loop::KnownEvent>& known_events,
                 std::vector<renders::ReportKey>& keys) {
-  std::vector<std::pair<std::string, EventNumbers>> all;
+  std::vector<std::pair<std::string, loop::EventNumbers>> all;
   for (const auto& known : known_events) {
     const bool has_length = std::any_of(known.values.begin(), known.values.end(),
                                         [](const auto& value) { return value.first == "length"; });
     if (!has_length) continue;
     const auto name = known.source + "." + known.name;
-    auto series = event_numbers(recording.events(), name, "length");
+    auto series = loop::event_numbers(recording.events(), name, "length");
     if (!series.numbers.empty()) all.emplace_back(name, std::move(series));
   }
   for (const auto& [name, series] : all) {
@@ -117,8 +117,8 @@ void add_values(const loop::Recording& recording, const loop::Outcome& outcome,
   for (const auto& check : outcome.checks) {
     for (const auto& tolerance : check.tolerances) {
       if (told.contains({tolerance.event, tolerance.value})) continue;
-      const auto series = event_numbers(recording.events(), tolerance.event, tolerance.value, tolerance.from,
-                                        tolerance.until);
+      const auto series = loop::event_numbers(recording.events(), tolerance.event, tolerance.value,
+                                              tolerance.from, tolerance.until);
       if (series.numbers.empty()) continue;
       told.insert({tolerance.event, tolerance.value});
       keys.push_back(value_key(tolerance, series));

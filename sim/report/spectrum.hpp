@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/report/statistics.hpp"
+#include "sim/loop/statistics.hpp"
 
 namespace drycut::sim::report {
 

@@ -12,8 +12,8 @@
 #include "base/text.hpp"
 #include "plants/motor_load.hpp"
 #include "plants/power_stage.hpp"
-#include "sim/cams/played.hpp"
 #include "sim/cams/study.hpp"
+#include "sim/loop/played_cams.hpp"
 
 namespace drycut::sim::report {
 
@@ -96,7 +96,7 @@ SplitCycles cycles_of_drive(const scenario::Scenario& scenario, const loop::Simu
 
 /// A played cam as the motor's motion.
 struct CamOfMotor {
-  const cams::PlayedCam* cam = nullptr;
+  const loop::PlayedCam* cam = nullptr;
   double scale = 0;  ///< turn of the motor for a unit of the table [rad]
   double misfit = std::numeric_limits<double>::infinity();  ///< share of the motion that it does not explain
 };
@@ -115,7 +115,7 @@ class CamFitter {
       angle_.push_back(angle += static_cast<double>(sample.speed) * step);
   }
 
-  [[nodiscard]] CamOfMotor fit(const cams::PlayedCam& cam, Time record) {
+  [[nodiscard]] CamOfMotor fit(const loop::PlayedCam& cam, Time record) {
     collect(cam);
     CamOfMotor best;
     constexpr std::size_t fewest = 20;
@@ -137,7 +137,7 @@ class CamFitter {
     double slave;
   };
 
-  void collect(const cams::PlayedCam& cam) {
+  void collect(const loop::PlayedCam& cam) {
     points_.clear();
     std::size_t entry = 0;
     double before = 0;
@@ -206,7 +206,7 @@ class CamFitter {
 
 /// The master about a sample: where it was, its speed and half its acceleration. It is counted in whole
 /// steps, so that the parabola is that through the samples of 50 ms before and behind.
-Eigen::Vector3d master_about(const std::vector<cams::PlayedCam::Sample>& samples, std::size_t at) {
+Eigen::Vector3d master_about(const std::vector<loop::PlayedCam::Sample>& samples, std::size_t at) {
   constexpr Time reach = 50 * millisecond;
   const auto here = samples[at].time;
   std::size_t first = at;
@@ -398,7 +398,7 @@ std::vector<TorqueSplit> torque_splits(const scenario::Scenario& scenario,
                                        const loop::Simulation& simulation) {
   std::vector<TorqueSplit> splits;
   const auto played =
-      simulation.cams() == nullptr ? std::vector<cams::PlayedCam>() : simulation.cams()->played();
+      simulation.cams() == nullptr ? std::vector<loop::PlayedCam>() : simulation.cams()->played();
   for (const auto& drive : kept_drives(scenario, simulation)) {
     const auto cycles = cycles_of_drive(scenario, simulation, drive);
     if (cycles.bounds.back() <= cycles.bounds.front()) continue;

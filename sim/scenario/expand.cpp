@@ -128,7 +128,7 @@ std::string yaml_of(const std::function<void(Archive&)>& visit) {
 }
 
 std::string expand(const Scenario& scenario) {
-  // A visit takes what an archive may fill; this one fills nothing.
+  // visit() takes a scenario that may change, because other archives fill it; this archive only reads.
   return yaml_of([&](Archive& archive) { visit(archive, const_cast<Scenario&>(scenario)); });
 }
 

@@ -6,7 +6,6 @@
 
 #include "sim/controllers/kinds.hpp"
 #include "sim/scenario/archive.hpp"
-#include "sim/studies/compare/scene.hpp"
 
 namespace drycut::sim::scenario {
 
@@ -25,7 +24,7 @@ class SchemaWriter final : public Archive {
 
   void section(const Key& key, const Visit& visit) override { put(key, inner(visit)); }
 
-  // What is extended may be changed by the names of its entries.
+  // A scenario that extends another may change entries of its lists by their names.
   void list(const Key& key, const Items& items) override {
     Json array = {{"type", "array"}, {"items", item_of(items, true)}};
     if (whole_) return put(key, std::move(array));
@@ -161,14 +160,10 @@ class SchemaWriter final : public Archive {
 
 }  // namespace
 
-std::string json_schema() {
+std::string json_schema(const std::function<void(Archive&)>& comparison) {
   const auto scenario = [](Archive& archive) {
     Scenario scratch;
     visit(archive, scratch);
-  };
-  const auto comparison = [](Archive& archive) {
-    studies::ComparisonScene scratch;
-    studies::visit(archive, scratch);
   };
   const auto extends = Json{{"required", {"extends"}}};
   const auto of = [&](const auto& visit) {

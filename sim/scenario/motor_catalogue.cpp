@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "base/embedded.hpp"
 #include "base/text.hpp"
-#include "renders/embedded.hpp"
 #include "sim/file.hpp"
 #include "sim/scenario/forms.hpp"
 #include "sim/scenario/motor_estimates.hpp"
@@ -292,12 +292,12 @@ void read_own(const std::filesystem::path& folder, std::vector<MotorModel>& moto
 }
 
 void read_shipped(std::vector<MotorModel>& motors, Findings& findings) {
-  auto names = renders::embedded_names();
+  auto names = embedded_names();
   std::erase_if(names, [](std::string_view name) { return !name.starts_with("catalogue/"); });
   std::sort(names.begin(), names.end());
   for (const auto& name : names) {
     const int source = findings.add_source(fmt::format("scenes/{}", name));
-    read_series(renders::embedded_file(name), source, true, motors, findings);
+    read_series(embedded_file(name), source, true, motors, findings);
   }
 }
 

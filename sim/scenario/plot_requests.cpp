@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/forms.hpp"
@@ -9,6 +10,8 @@
 namespace drycut::sim::scenario {
 
 namespace {
+
+using PanelKind = PlotRequest::Panel::Kind;
 
 // points: {A: [0, 0], B: [15, -33]}
 Form points_form(std::vector<PlotRequest::Panel::Point>& points) {
@@ -37,14 +40,17 @@ Form points_form(std::vector<PlotRequest::Panel::Point>& points) {
       map_schema(pair_schema));
 }
 
+/// What a panel may show. A path, lanes and a motor go with none of it but themselves.
+constexpr auto panel_keys = {"channels", "lanes",  "motor",     "event",
+                             "values",   "limits", "histogram", "spectrum"};
+
 void judge_path(MapReader& reader, const PlotRequest::Panel& panel) {
   const auto& name = reader.name();
   if (reader.has("x") != reader.has("y")) {
     reader.refuse(reader.has("x") ? "x" : "y", fmt::format("{}: x and y go together", name),
                   "write x: AxisX.posit, y: AxisY.posit");
   }
-  for (const auto* key :
-       {"channels", "lanes", "motor", "event", "values", "limits", "histogram", "spectrum"}) {
+  for (const auto* key : panel_keys) {
     if (!reader.has(key)) continue;
     reader.refuse(key, fmt::format("{} has both a path and {}", name, key), "make two plots of it");
   }
@@ -56,8 +62,7 @@ void judge_path(MapReader& reader, const PlotRequest::Panel& panel) {
 
 /// A panel of lanes, or of a motor, shows nothing else.
 void judge_alone(MapReader& reader, std::string_view what) {
-  for (const auto* key :
-       {"lanes", "motor", "channels", "event", "values", "limits", "histogram", "spectrum"}) {
+  for (const auto* key : panel_keys) {
     if (key == what || !reader.has(key)) continue;
     reader.refuse(key, fmt::format("{} has both {} and {}", reader.name(), what, key),
                   "make two panels of it");
@@ -132,10 +137,9 @@ void judge_plot(MapReader& reader, const PlotRequest& plot) {
     if (plot.against_number) refuse_marks();
     return;
   }
-  const auto* const kind = loner->is_path()   ? "a path"
-                           : loner->histogram ? "a histogram"
-                           : loner->spectrum  ? "a spectrum"
-                                              : "a motor";
+  static constexpr std::array names = {"curves", "lanes",       "points",    "a motor",
+                                       "a path", "a histogram", "a spectrum"};
+  const auto* const kind = names.at(static_cast<std::size_t>(loner->kind()));
   if (plot.panels.size() > 1) {
     reader.refuse("panels", fmt::format("{}: {} stands alone in its plot", name, kind),
                   "make a plot of each");
@@ -163,11 +167,28 @@ void visit_plot(Archive& archive, PlotRequest& plot, std::optional<PicturesSecti
 
 }  // namespace
 
+PlotRequest::Panel::Kind PlotRequest::Panel::kind() const {
+  if (!x.text.empty()) return Kind::path;
+  if (histogram) return Kind::histogram;
+  if (spectrum) return Kind::spectrum;
+  if (!motor.text.empty()) return Kind::motor;
+  if (!lanes.empty()) return Kind::lanes;
+  return event.text.empty() ? Kind::curves : Kind::points;
+}
+
+std::vector<Text> PlotRequest::Panel::recorded() const {
+  auto names = channels;
+  for (const auto* name : {&x, &y, &split})
+    if (!name->text.empty()) names.push_back(*name);
+  return names;
+}
+
 void visit(Archive& archive, PlotRequest::Panel& panel) {
   archive.in_line();
-  const bool path = panel.is_path();
-  const bool motor = !path && !panel.motor.text.empty();
-  const bool lanes = !path && !motor && !panel.lanes.empty();
+  const auto kind = panel.kind();
+  const bool path = kind == PanelKind::path;
+  const bool motor = kind == PanelKind::motor;
+  const bool lanes = kind == PanelKind::lanes;
   const bool event = !path && !motor && !lanes && !panel.event.text.empty();
   archive.value({"title", ""}, form(panel.title));
   archive.value({"channels", "curves over time", !path && !motor && !lanes && !event}, form(panel.channels));

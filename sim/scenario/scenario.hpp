@@ -241,8 +241,11 @@ struct PlotRequest {
       double y = 0;
     };
     std::vector<Point> points;  ///< named places on the plane, in the channels' units
-    [[nodiscard]] bool is_path() const { return !x.text.empty(); }
-    [[nodiscard]] bool has_own_x() const { return is_path() || histogram || spectrum || !motor.text.empty(); }
+    /// From `motor` on: its x axis is its own, and it stands alone in its plot.
+    enum class Kind { curves, lanes, points, motor, path, histogram, spectrum };
+    [[nodiscard]] Kind kind() const;
+    [[nodiscard]] bool has_own_x() const { return kind() >= Kind::motor; }
+    [[nodiscard]] std::vector<Text> recorded() const;  ///< channels that it draws, but for lanes and motors
   };
   std::vector<Panel> panels;
   Time from = 0;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "renders/axis_ticks.hpp"
+#include "renders/axes.hpp"
 #include "renders/plots.hpp"
 
 namespace drycut::renders {

@@ -1,5 +1,5 @@
 // Panels of lanes: states of digital signals and of phases over time.
-#include "renders/lanes.hpp"
+#include "renders/decimate.hpp"
 
 #include <gmock/gmock.h>
 

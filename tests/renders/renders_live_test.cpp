@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "base/output_file.hpp"
 #include "renders/html.hpp"
+#include "renders/palette.hpp"
 #include "renders/plot_layout.hpp"
 #include "renders/png_image.hpp"
 #include "renders/process.hpp"
@@ -66,10 +68,31 @@ TEST(LiveData, SaysWhatThePlotsShow) {
   EXPECT_THAT(
       json,
       HasSubstr(R"({"x":5.0,"label":"stuck = 1","strong":true},{"x":7.0,"label":"cut 3","strong":false})"));
-  EXPECT_THAT(json, HasSubstr(R"("bands":[{"label":"limit","low":-1.5,"high":1.5}])"));
-  EXPECT_THAT(json, AllOf(HasSubstr(R"({"label":"2.OUT01","digital":true,)"),
-                          HasSubstr(R"({"label":"phase","digital":false,)")));
+  const auto panels = nlohmann::json::parse(json)["plots"][0]["panels"];
+  const auto& band = panels[1]["bands"][0];
+  EXPECT_EQ(band["label"], "limit");
+  EXPECT_EQ(band["low"], -1.5);
+  EXPECT_EQ(band["high"], 1.5);
+  EXPECT_EQ(panels[0]["lanes"][0]["states"].size(), 0) << "high or low";
+  EXPECT_EQ(panels[0]["lanes"][1]["states"].size(), 2) << "2 and 7";
   EXPECT_THAT(json, Not(HasSubstr("<"))) << "nothing ends the script element";
+}
+
+TEST(LiveData, PictureReportAndLiveLineHaveOnePalette) {
+  Plot plot{"eight", "", "x", {{"", "", {}, {}, {}}}, 600, 200};
+  for (double y = 0; y < 8; ++y) plot.panels[0].curves.push_back({"", {0, 1}, {y, y}});
+  const Image image = drawn(plot);
+  const auto curves = nlohmann::json::parse(plot_data({plot}))["plots"][0]["panels"][0]["curves"];
+  for (std::size_t i = 0; i < 7; ++i) {
+    const std::string day = curves[i]["look"]["tone"][0];
+    const std::string night = curves[i]["look"]["tone"][1];
+    const auto rgb = std::stoi(day.substr(1), nullptr, 16);
+    EXPECT_GT(pixels_like(image, rgb >> 16, rgb >> 8 & 255, rgb & 255), 300) << day;
+    EXPECT_THAT(palette_css(),
+                HasSubstr("--curve-" + std::to_string(i + 1) + ": light-dark(" + day + ", " + night + ");"));
+  }
+  EXPECT_EQ(curves[7]["look"]["tone"], curves[0]["look"]["tone"]);
+  EXPECT_NE(curves[7]["look"]["dash"], curves[0]["look"]["dash"]) << "told apart by its dashes";
 }
 
 TEST(LiveData, PathsAndDecadesStayPictures) {

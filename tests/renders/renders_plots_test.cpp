@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "renders/axis_ticks.hpp"
+#include "renders/axes.hpp"
 #include "renders/decimate.hpp"
 #include "renders/plot_layout.hpp"
 #include "renders/png_image.hpp"

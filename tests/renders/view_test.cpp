@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "base/output_file.hpp"
+#include "renders/gltf_track.hpp"
 #include "renders/machine_view.hpp"
 #include "renders/png_image.hpp"
-#include "renders/thin_track.hpp"
 #include "tests/renders/renders_scratch.hpp"
 
 namespace drycut::renders {

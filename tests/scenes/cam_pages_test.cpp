@@ -50,10 +50,10 @@ struct Played {
     return scenario::read_scenario_text(text, file, overrides, problems);
   }
   [[nodiscard]] std::vector<cams::CamPage> pages() const { return report::cams_of(scenario, *simulation); }
-  [[nodiscard]] std::vector<cams::PlayedCam> cams() const { return simulation->cams()->played(); }
+  [[nodiscard]] std::vector<loop::PlayedCam> cams() const { return simulation->cams()->played(); }
 };
 
-cams::CamErrors errors_of(const cams::PlayedCam& cam) {
+cams::CamErrors errors_of(const loop::PlayedCam& cam) {
   cams::MasterRange range;
   for (const auto& sample : cam.samples)
     range = {std::min(range.first, sample.master), std::max(range.last, sample.master)};

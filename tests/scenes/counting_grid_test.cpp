@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sim/loop/simulation.hpp"
-#include "sim/report/statistics.hpp"
+#include "sim/loop/statistics.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim {
@@ -152,17 +152,16 @@ TEST(DemoLine, ItsPiecesHaveTheSpreadOfARealLine) {
   ASSERT_EQ(lines_of(line.problems), "");
   const auto outcome = line.simulation->run();
   EXPECT_TRUE(outcome.passed());
-  const auto lengths =
-      report::event_numbers(line.simulation->recording().events(), "cut", "length", 4).numbers;
+  const auto lengths = loop::event_numbers(line.simulation->recording().events(), "cut", "length", 4).numbers;
   ASSERT_GE(lengths.size(), 10U);  // fewer have no Cpk
-  const auto found = report::statistics(lengths);
+  const auto found = loop::statistics(lengths);
   // The wheel's axis lies 0.02 mm beside its middle: a sine of 2 e sin(800 mm / 2r), and its counts add
   // theirs.
   const double eccentric = 2 * 0.02 * std::abs(std::sin(3.14159265 * 800 / 500)) / std::sqrt(2);
   EXPECT_NEAR(found[0] - 800, 800 * (1 - 0.00027 - (1 - 0.0003)), 0.02);  // the mean: slip and circumference
   EXPECT_GT(found[3], 0.7 * eccentric);
   EXPECT_LT(found[3], 2 * eccentric);
-  const auto capability = report::capability(found, 799.8, 800.2);
+  const auto capability = loop::capability(found, 799.8, 800.2);
   ASSERT_TRUE(capability);
   EXPECT_GT(capability->cpk, 1.33);
   EXPECT_LT(capability->cpk, 5) << "nobody believes that";

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "sim/loop/statistics.hpp"
 #include "sim/report/results.hpp"
-#include "sim/report/statistics.hpp"
 #include "tests/sim/fakes.hpp"
 
 namespace drycut::sim::loop {
@@ -284,21 +284,21 @@ TEST_F(ChecksTest, UnknownNamesAreProblems) {
 TEST(Statistics, AgreesWithClosedForms) {
   std::vector<double> line;
   for (int i = 0; i < 101; ++i) line.push_back(5 + 0.25 * i);
-  const auto [mean, low, high, sd, slope, slope_error] = report::statistics(line);
+  const auto [mean, low, high, sd, slope, slope_error] = loop::statistics(line);
   EXPECT_DOUBLE_EQ(mean, 17.5);
   EXPECT_DOUBLE_EQ(low, 5);
   EXPECT_DOUBLE_EQ(high, 30);
   EXPECT_NEAR(sd, 0.25 * std::sqrt(101.0 * 102 / 12), 1e-12);
   EXPECT_NEAR(slope, 0.25, 1e-14);
   EXPECT_NEAR(slope_error, 0, 1e-7);
-  EXPECT_EQ(report::statistics({})[0], 0);
-  EXPECT_EQ(report::statistics({3})[3], 0);
+  EXPECT_EQ(loop::statistics({})[0], 0);
+  EXPECT_EQ(loop::statistics({3})[3], 0);
 }
 
 TEST(Statistics, SlopeErrorOfAlternatingNoise) {
   // y = +-1: residual sum n(1 - small), closed form by hand for n = 4: slope -0.4, S = 4 - 0.8, error
   // sqrt(1.6/5).
-  const auto s = report::statistics({1, -1, 1, -1});
+  const auto s = loop::statistics({1, -1, 1, -1});
   EXPECT_NEAR(s[4], -0.4, 1e-15);
   EXPECT_NEAR(s[5], std::sqrt(3.2 / 2 / 5), 1e-15);
 }

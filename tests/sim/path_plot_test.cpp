@@ -25,7 +25,7 @@ TEST(PathPlot, IsReadAndWritten) {
   EXPECT_THAT(problems, IsEmpty());
   const auto check = [](const Scenario& s) {
     const auto& panel = s.pictures.plots.at(0).panels.at(0);
-    EXPECT_TRUE(panel.is_path());
+    EXPECT_EQ(panel.kind(), PlotRequest::Panel::Kind::path);
     EXPECT_EQ(panel.title, "t");
     EXPECT_EQ(panel.x.text, "web.speed");
     EXPECT_EQ(panel.y.text, "knife.speed");

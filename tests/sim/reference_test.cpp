@@ -7,7 +7,7 @@
 
 #include "sim/cams/study.hpp"
 #include "sim/cli/pages.hpp"
-#include "sim/scenario/json_schema.hpp"
+#include "sim/studies/compare/scene.hpp"
 
 namespace drycut::sim::cli {
 namespace {
@@ -38,7 +38,7 @@ void expect_rows(const json& schema, const std::string& text) {
 
 TEST(Reference, HasEveryKeyOfAScenario) {
   const auto pages = scenario_pages();
-  const auto schema = json::parse(scenario::json_schema());
+  const auto schema = json::parse(studies::json_schema());
   ASSERT_EQ(pages.size(), 2u);
   auto text = text_of(pages[0]);
   // A controller's kinds are sections.

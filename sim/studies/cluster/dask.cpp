@@ -15,7 +15,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "renders/embedded.hpp"
+#include "base/embedded.hpp"
 #include "renders/html.hpp"
 #include "renders/process.hpp"
 #include "sim/interrupt.hpp"
@@ -37,7 +37,7 @@ class Client {
  public:
   Client(const std::string& python, const std::string& address) {
     const auto started = renders::start_companion(
-        {python, "-c", std::string(renders::embedded_file("dask.py")), address, own_program().string()});
+        {python, "-c", std::string(embedded_file("dask.py")), address, own_program().string()});
     socket_ = started.socket;
     child_ = started.process;
   }

@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "sim/report/statistics.hpp"
+#include "sim/loop/statistics.hpp"
 #include "sim/studies/compare/differences.hpp"
 #include "sim/studies/compare/pieces.hpp"
 
@@ -41,7 +41,7 @@ std::vector<ValueName> event_values(const std::vector<RunFolder>& runs) {
 std::vector<double> numbers_of(const RunFolder& run, const ValueName& name, std::optional<double> from) {
   const auto event = name.source + "." + name.event;
   const auto window = window_of(run, event, name.value, from);
-  return report::event_numbers(run.recording.events(), event, name.value, window.from, window.until).numbers;
+  return loop::event_numbers(run.recording.events(), event, name.value, window.from, window.until).numbers;
 }
 
 double room(const Tolerance& tolerance, double number) {
@@ -71,7 +71,7 @@ struct ValueFigures {
   }
 
   void add(const std::vector<double>& numbers, const Tolerance* tolerance) {
-    const auto statistic = report::statistics(numbers);
+    const auto statistic = loop::statistics(numbers);
     const bool any = !numbers.empty();
     const bool two = numbers.size() > 1;
     number.numbers.push_back(static_cast<double>(numbers.size()));
@@ -87,7 +87,7 @@ struct ValueFigures {
     worst.numbers.push_back(judged && any ? *std::min_element(numbers.begin(), numbers.end(), nearer)
                                           : nothing);
     const auto found =
-        judged ? sim::report::capability(statistic, tolerance->low, tolerance->high) : std::nullopt;
+        judged ? sim::loop::capability(statistic, tolerance->low, tolerance->high) : std::nullopt;
     capability.numbers.push_back(found ? found->cpk : nothing);
   }
 

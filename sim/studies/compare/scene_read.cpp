@@ -7,6 +7,7 @@
 #include "sim/scenario/extends.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/forms.hpp"
+#include "sim/scenario/json_schema.hpp"
 #include "sim/scenario/variables.hpp"
 #include "sim/studies/compare/scene.hpp"
 
@@ -153,8 +154,15 @@ void visit(scenario::Archive& archive, ComparisonScene& scene) {
   });
 }
 
+std::string json_schema() {
+  return scenario::json_schema([](scenario::Archive& archive) {
+    ComparisonScene scratch;
+    visit(archive, scratch);
+  });
+}
+
 std::string expand(const ComparisonScene& scene) {
-  // A visit takes what an archive may fill; this one fills nothing.
+  // visit() takes a scene that may change, because other archives fill it; this archive only reads.
   return scenario::yaml_of(
       [&](scenario::Archive& archive) { visit(archive, const_cast<ComparisonScene&>(scene)); });
 }

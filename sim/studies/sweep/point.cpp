@@ -10,7 +10,7 @@
 
 #include "base/text.hpp"
 #include "plants/plant.hpp"
-#include "sim/report/statistics.hpp"
+#include "sim/loop/statistics.hpp"
 #include "sim/studies/compare/recorded_csv.hpp"
 #include "sim/studies/fingerprint.hpp"
 #include "sim/studies/sweep/rated_drive.hpp"
@@ -149,10 +149,10 @@ std::vector<std::string> columns_of(const PointQuestion& question,
 void add_pieces(const PointQuestion::Piece& piece, double wanted, const loop::Recording& recording,
                 std::vector<double>& numbers) {
   const auto values_of = [&](const char* value) {
-    return report::event_numbers(recording.events(), piece.source + ".cut", value, piece.from).numbers;
+    return loop::event_numbers(recording.events(), piece.source + ".cut", value, piece.from).numbers;
   };
   const auto lengths = values_of("length");
-  const double mean = report::statistics(lengths)[0];
+  const double mean = loop::statistics(lengths)[0];
   double accuracy = 0;
   for (const double length : lengths)
     accuracy = std::max(accuracy, std::abs(length - (std::isnan(wanted) ? mean : wanted)));

@@ -53,7 +53,7 @@ struct PointRow {
     failed,    ///< one does not
     refused,   ///< the scenario is none, or no machine can be built of it
     diverged,  ///< the simulation itself failed
-    lost       ///< whoever ran it, on a cluster, died of it
+    lost       ///< its worker on a cluster was lost
   };
   Verdict verdict = Verdict::passed;
   std::string limit;            ///< what failed first, or why there is no run; "" if nothing did

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "base/text.hpp"
-#include "sim/report/statistics.hpp"
+#include "sim/loop/statistics.hpp"
 #include "sim/scenario/expression_scan.hpp"
 
 namespace drycut::sim::studies {
@@ -158,11 +158,11 @@ std::vector<MetricName> Metric::names() const {
 void Metric::take(std::size_t term, const loop::Recording& recording, Time from) {
   const auto& slots = terms_[term];
   if (!slots[0]->name.event.empty()) {
-    std::vector<report::EventNumbers> values;
+    std::vector<loop::EventNumbers> values;
     values.reserve(slots.size());
     for (const auto* slot : slots)
       values.push_back(
-          report::event_numbers(recording.events(), slot->name.event, slot->name.value, seconds(from)));
+          loop::event_numbers(recording.events(), slot->name.event, slot->name.value, seconds(from)));
     const auto rows = std::ranges::min(values, {}, [](const auto& v) { return v.times.size(); }).times.size();
     for (std::size_t row = 0; row < rows; ++row) {
       for (std::size_t i = 0; i < values.size(); ++i) slots[i]->number = values[i].numbers[row];

@@ -22,7 +22,7 @@ renders::Curve curve_of(const loop::Recording& recording, const MetricName& name
   renders::Curve curve;
   curve.label = std::move(label);
   if (!name.event.empty()) {
-    auto found = report::event_numbers(recording.events(), name.event, name.value, seconds(from));
+    auto found = loop::event_numbers(recording.events(), name.event, name.value, seconds(from));
     renders::thin(found.times, found.numbers);
     unit = found.unit;
     curve.style = renders::Curve::Style::points;

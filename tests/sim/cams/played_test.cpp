@@ -7,13 +7,15 @@
 
 #include "sim/cams/overlay.hpp"
 #include "sim/cams/page.hpp"
-#include "sim/cams/played.hpp"
 #include "sim/cams/study.hpp"
+#include "sim/loop/played_cams.hpp"
 #include "tests/sim/cams/bench.hpp"
 
 namespace drycut::sim::cams {
 namespace {
 
+using loop::CamRecorder;
+using loop::PlayedCam;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::Field;

@@ -39,8 +39,8 @@ TEST(LiveSite, HasEveryPartThatThePageNames) {
     for (std::sregex_iterator at(text.begin(), text.end(), name), end; at != end; ++at)
       if (std::find(parts.begin(), parts.end(), (*at)[1]) == parts.end()) parts.push_back((*at)[1]);
   }
-  EXPECT_THAT(parts,
-              testing::IsSupersetOf({"live.css", "view.js", "live.js", "live_scope.js", "three.min.js"}));
+  EXPECT_THAT(parts, testing::IsSupersetOf(
+                         {"live.css", "palette.css", "view.js", "live.js", "live_scope.js", "three.min.js"}));
 }
 
 TEST(LiveSite, GivesNothingElse) {

@@ -2,7 +2,7 @@
 #include <string_view>
 #include <vector>
 
-namespace drycut::renders {
+namespace drycut {
 
 // Files that are built into the program, so that it works wherever it is moved: the meshes of scenes/meshes/,
 // the motors of scenes/catalogue/, what a report is made of, in renders/assets/, and the lines of scenes/new/
@@ -15,4 +15,4 @@ std::vector<std::string_view> embedded_names();
 /// The bytes of the file of that name; empty if there is none.
 std::string_view embedded_file(std::string_view name);
 
-}  // namespace drycut::renders
+}  // namespace drycut

@@ -1,18 +1,18 @@
-#include "sim/report/statistics.hpp"
+#include "sim/loop/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "sim/loop/known_events.hpp"
 
-namespace drycut::sim::report {
+namespace drycut::sim::loop {
 
-EventNumbers event_numbers(const loop::EventLog& events, const std::string& event, const std::string& value,
+EventNumbers event_numbers(const EventLog& events, const std::string& event, const std::string& value,
                            double from, double until) {
   EventNumbers found;
   double order = 0;
   for (const auto& happened : events) {
-    if (!loop::names_event(event, happened.source, happened.event)) continue;
+    if (!names_event(event, happened.source, happened.event)) continue;
     ++order;
     const auto* of = happened.find(value);
     if (of == nullptr) continue;
@@ -58,4 +58,4 @@ std::optional<Capability> capability(const std::array<double, 6>& statistics, do
   return Capability{(high - low) / (6 * sd), std::min(high - mean, mean - low) / (3 * sd)};
 }
 
-}  // namespace drycut::sim::report
+}  // namespace drycut::sim::loop

@@ -1,11 +1,11 @@
-#include "sim/cams/played.hpp"
+#include "sim/loop/played_cams.hpp"
 
 #include <algorithm>
 #include <limits>
 
 #include "devices/cam/table.hpp"
 
-namespace drycut::sim::cams {
+namespace drycut::sim::loop {
 
 namespace {
 
@@ -78,4 +78,4 @@ std::vector<PlayedCam> CamRecorder::played() const {
   return played;
 }
 
-}  // namespace drycut::sim::cams
+}  // namespace drycut::sim::loop

@@ -7,7 +7,7 @@
 
 #include "sim/loop/event_log.hpp"
 
-namespace drycut::sim::report {
+namespace drycut::sim::loop {
 
 /// The numbers of a value of an event, in the order in which it happened.
 struct EventNumbers {
@@ -17,7 +17,7 @@ struct EventNumbers {
   std::string unit;
 };
 /// Of "cut" or "knife.cut", from one time to another [s], both included.
-EventNumbers event_numbers(const loop::EventLog& events, const std::string& event, const std::string& value,
+EventNumbers event_numbers(const EventLog& events, const std::string& event, const std::string& value,
                            double from = 0, double until = std::numeric_limits<double>::infinity());
 
 /// Statistics of a series of event values, as an `all` check names them: mean_length, sd_length ...
@@ -38,4 +38,4 @@ struct Capability {
 /// From the series' statistics(); nothing where it has no spread, as of one number.
 std::optional<Capability> capability(const std::array<double, 6>& statistics, double low, double high);
 
-}  // namespace drycut::sim::report
+}  // namespace drycut::sim::loop

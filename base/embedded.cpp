@@ -1,4 +1,4 @@
-#include "renders/embedded.hpp"
+#include "base/embedded.hpp"
 
 #include <cstddef>
 
@@ -10,7 +10,7 @@ struct DrycutEmbeddedFile {
 };
 extern "C" const DrycutEmbeddedFile drycut_embedded_files[];
 
-namespace drycut::renders {
+namespace drycut {
 
 std::vector<std::string_view> embedded_names() {
   std::vector<std::string_view> names;
@@ -26,4 +26,4 @@ std::string_view embedded_file(std::string_view name) {
   return {};
 }
 
-}  // namespace drycut::renders
+}  // namespace drycut

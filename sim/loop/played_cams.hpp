@@ -7,7 +7,7 @@
 #include "devices/cam_axis.hpp"
 #include "sim/loop/observer.hpp"
 
-namespace drycut::sim::cams {
+namespace drycut::sim::loop {
 
 /// What an axis did with one cam table in a run: a sample every record period while its slave was on the cam.
 /// Master and slave in the table's units.
@@ -28,7 +28,7 @@ struct PlayedCam {
 };
 
 /// Follows the cams of a controller through a run.
-class CamRecorder : public loop::Observer {
+class CamRecorder : public Observer {
  public:
   /// How far the drive behind a pulse output is behind its pulses, or nothing if none tells.
   using Deviation = std::function<std::function<double()>(const devices::Address& pulses)>;
@@ -60,4 +60,4 @@ class CamRecorder : public loop::Observer {
   std::size_t untold_ = 0;
 };
 
-}  // namespace drycut::sim::cams
+}  // namespace drycut::sim::loop
