@@ -28,7 +28,7 @@ py::dict cam(const std::filesystem::path& file, const std::string& device, const
   const auto& points = study.points;
   using Point = sim::cams::CamPoint;
   return py::dict(
-      "device"_a = std::string(sim::cams::kind_name(table)), "findings"_a = findings,
+      "device"_a = std::string(table.kind()), "findings"_a = findings,
       "sound"_a = !sim::cams::is_unsound(study.findings, false),
       "report"_a = sim::cams::cam_report(study.text, study.findings), "unit"_a = study.master_unit,
       "columns"_a =

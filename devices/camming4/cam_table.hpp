@@ -2,14 +2,16 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
-#include "devices/cam/travel.hpp"
+#include "devices/cam/table.hpp"
 #include "devices/camming4/cam.hpp"
 
 namespace drycut::devices::camming4 {
 
 /// A cam of CAMMING4 with what its law needs of the axes, as a file or the device itself holds it.
 struct CamTable {
+  static constexpr std::string_view kind = "camming4";
   std::string file;  ///< as the user named it
   // The axes.
   CamSettings settings;      ///< measure, pulse, measurem, pulsem, decpt; 1 Um = 1 bit x4

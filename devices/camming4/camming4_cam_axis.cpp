@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "devices/axis/speed.hpp"
-#include "devices/cam/table.hpp"
+#include "devices/camming4/cam_table.hpp"
 #include "devices/camming4/camming4.hpp"
 
 namespace drycut::devices::camming4 {

@@ -2,9 +2,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "devices/cam/travel.hpp"
+#include "devices/cam/table.hpp"
 #include "devices/lx3vp/ecamtbx.hpp"
 
 namespace drycut::devices::lx3vp {
@@ -12,6 +13,7 @@ namespace drycut::devices::lx3vp {
 /// A cam of LX3VP with what its law needs of its block, as a file or the controller itself holds it: rows, or
 /// the parameters of an ECAMTBX with the rows that it makes of them.
 struct EcamTable {
+  static constexpr std::string_view kind = "lx3vp";
   std::string file;  ///< as the user named it
   // The block of the cam.
   std::int32_t max_frequency = 0;  ///< words 6-7 [Hz], 0 = not given

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "devices/cam/table.hpp"
 #include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "devices/lx3vp/lx3vp_controller.hpp"

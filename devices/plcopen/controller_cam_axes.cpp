@@ -1,8 +1,8 @@
 // The cams of the axes as a simulation compares them with their laws.
 #include <cmath>
 
-#include "devices/cam/table.hpp"
 #include "devices/plcopen/controller.hpp"
+#include "devices/plcopen/tab_file.hpp"
 
 namespace drycut::devices::plcopen {
 

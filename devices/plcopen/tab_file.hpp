@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "devices/cam/travel.hpp"
+#include "devices/cam/table.hpp"
 #include "devices/plcopen/cam_laws.hpp"
 #include "devices/plcopen/cam_table.hpp"
 
@@ -30,6 +30,7 @@ struct CamLimits {
 
 /// A cam as a file, for use without a controller: the table and the axes that it is meant for.
 struct CamFile {
+  static constexpr std::string_view kind = "mc_camin";
   CamTable table;
   Interpolation interpolation = Interpolation::linear;  ///< table_defined: a .tab file that says none
   Endless endless = Endless::no;

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/cams/reach.hpp"
-
 namespace drycut::sim::cams {
 
 namespace {
 
 constexpr int points_a_pass = 1000;
+constexpr double no_speed = 1e-9;  // of a master
 
 CamPoint point_at(const CamCourse& course, int loop, std::size_t piece, double master) {
   const auto& law = course.law;
@@ -125,6 +124,31 @@ std::vector<CamPoint> sample_cam_at(const CamCourse& course, std::vector<double>
     points.back().master = master;
   }
   return points;
+}
+
+double peak_of(const std::vector<devices::CamPiece>& pieces, devices::CamOrder order) {
+  double most = 0;
+  for (const auto& piece : pieces) most = std::max(most, piece.peak(order));
+  return most;
+}
+
+devices::CamExtremes reach_of(const std::vector<devices::CamPiece>& pieces) {
+  auto reach = pieces.front().extremes(devices::CamOrder::position);
+  for (const auto& piece : pieces) {
+    const auto found = piece.extremes(devices::CamOrder::position);
+    reach = {std::min(reach.low, found.low), std::max(reach.high, found.high)};
+  }
+  return reach;
+}
+
+bool is_master_speed(double speed) { return std::abs(speed - 1) <= no_speed; }
+
+std::string motion_name(double entry, double exit, bool steady) {
+  if (steady && std::abs(entry) <= no_speed) return "dwell";
+  if (steady) return is_master_speed(entry) ? "synchronism" : entry < 0 ? "return" : "constant speed";
+  if (std::abs(exit) > std::abs(entry) + no_speed) return "acceleration";
+  if (std::abs(exit) < std::abs(entry) - no_speed) return "deceleration";
+  return "compensation";
 }
 
 }  // namespace drycut::sim::cams

@@ -1,9 +1,9 @@
 #pragma once
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "devices/cam/law.hpp"
-#include "sim/cams/points.hpp"
 
 namespace drycut::sim::cams {
 
@@ -39,11 +39,36 @@ struct CamCourse {
   [[nodiscard]] double peak(devices::CamOrder order) const;
 };
 
+/// Largest absolute value over pieces.
+double peak_of(const std::vector<devices::CamPiece>& pieces, devices::CamOrder order);
+/// Between which positions pieces reach; there is one at least.
+devices::CamExtremes reach_of(const std::vector<devices::CamPiece>& pieces);
+
+/// A cam at one master position: full precision, before any quantisation. Positions in the table's unit (Um,
+/// pulses, increments).
+struct CamPoint : devices::CamMotion {
+  double master = 0;  ///< counts on across loops and counter updates
+  int row = 0;  ///< sector, or row of the table, that begins the piece; 0: the cam has released the slave
+};
 /// 1000 points a pass, evenly spaced, and every boundary of pieces; where something jumps, before and after.
 /// With `both_sides`, for drawing, before and after at every boundary, and `drawn` parts of each row.
 std::vector<CamPoint> sample_cam(const CamCourse& course, bool both_sides = false);
 /// At the given positions, each within the course, in the order of running; a boundary belongs to the piece
 /// that it begins.
 std::vector<CamPoint> sample_cam_at(const CamCourse& course, std::vector<double> masters);
+
+/// A stretch of a cam: a sector, a phase, a segment.
+struct CamZone {
+  double from = 0;  ///< master, in the table's unit
+  double to = 0;
+  std::string name;          ///< "2 RSC synchronism"
+  bool synchronous = false;  ///< the slave runs with the web: at the master's speed, or at a steady ratio
+};
+
+/// Names a stretch by the slave's speeds at its ends, in masters: "acceleration", "synchronism", "dwell" ...
+/// `steady`: they do not change between.
+std::string motion_name(double entry, double exit, bool steady);
+/// True at the speed of the master itself.
+bool is_master_speed(double speed);
 
 }  // namespace drycut::sim::cams

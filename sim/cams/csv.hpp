@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "devices/cam/travel.hpp"
+#include "devices/cam/table.hpp"
 
 namespace drycut::sim::cams {
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "sim/cams/course.hpp"
-#include "sim/cams/zone.hpp"
 
 namespace drycut::sim::cams {
 

@@ -1,4 +1,7 @@
 #pragma once
+#include "devices/camming4/cam_table.hpp"
+#include "devices/lx3vp/ecam_table.hpp"
+#include "devices/plcopen/tab_file.hpp"
 #include "sim/cams/study.hpp"
 
 // What each kind of cam has of its own: how its tables are read and written, and what its manual says of
@@ -9,21 +12,21 @@ using CammingTable = devices::camming4::CamTable;
 using devices::lx3vp::EcamTable;
 using devices::plcopen::CamFile;
 
-devices::CamTable read_camming4(std::string_view text, const std::string& file, Problems& problems);
+CammingTable read_camming4(std::string_view text, const std::string& file, Problems& problems);
 std::vector<CamKey> camming4_keys();
 std::vector<CamKey> camming4_columns();
 CamStudy study_of(const CammingTable& table, const CamRequest& request, Problems& problems);
 IdealCam ideal_of(const CammingTable& table, MasterRange range);
 std::string file_of(CammingTable& table, const std::string& file);
 
-devices::CamTable read_lx3vp(std::string_view text, const std::string& file, Problems& problems);
+EcamTable read_lx3vp(std::string_view text, const std::string& file, Problems& problems);
 std::vector<CamKey> lx3vp_keys();
 std::vector<CamKey> lx3vp_columns();
 CamStudy study_of(const EcamTable& table, const CamRequest& request, Problems& problems);
 IdealCam ideal_of(const EcamTable& table, MasterRange range);
 std::string file_of(EcamTable& table, const std::string& file);
 
-devices::CamTable read_mc_camin(std::string_view text, const std::string& file, Problems& problems);
+CamFile read_mc_camin(std::string_view text, const std::string& file, Problems& problems);
 std::vector<CamKey> mc_camin_keys();
 std::vector<CamKey> mc_camin_columns();
 CamStudy study_of(const CamFile& cam, const CamRequest& request, Problems& problems);

@@ -60,8 +60,9 @@ CamPeak peak_of(const std::vector<CamPoint>& points, const Drawn& drawn) {
 
 }  // namespace
 
-void CamQuantity::limit(const std::string& limited_by, std::optional<double> value) {
-  if (value) limits.push_back({limited_by, *value});
+void CamQuantity::limit(std::string name, std::optional<double> value, std::string found,
+                        std::string instead) {
+  if (value) limits.push_back({std::move(name), *value, std::move(found), std::move(instead)});
 }
 
 void draw_zones(renders::Plot& plot, const std::vector<CamZone>& zones) {
@@ -73,7 +74,7 @@ void draw_zones(renders::Plot& plot, const std::vector<CamZone>& zones) {
   }
 }
 
-CamDrawing motion_plot(const CamCourse& course, const std::vector<CamZone>& zones, const MotionPlot& how,
+CamDrawing motion_plot(const CamCourse& course, const std::vector<CamZone>& zones, const CamMotionWords& how,
                        const std::string& name) {
   CamDrawing drawing;
   renders::Plot& plot = drawing.plot;

@@ -6,21 +6,24 @@
 
 #include "renders/plots.hpp"
 #include "sim/cams/course.hpp"
-#include "sim/cams/zone.hpp"
 
 namespace drycut::sim::cams {
 
-/// Velocity, acceleration or jerk as it is drawn, with what it must not pass to both sides.
+/// Velocity, acceleration or jerk as it is drawn and judged, with what it must not pass to both sides.
 struct CamQuantity {
   struct Limit {
-    std::string name;
+    std::string name;  ///< in the drawing
     double value = 0;
+    /// What is found of a peak: "velocity {is} {unit} above {limit}"; "" = it is drawn only.
+    std::string found = {};
+    /// What else than a slower master is right: "lower its ratio {is} to {most}, or ".
+    std::string instead = {};
   };
   std::string unit;  ///< "Um", "Um/Um2"
   double scale = 1;  ///< of what a point holds
   std::vector<Limit> limits = {};
 
-  void limit(const std::string& limited_by, std::optional<double> value);
+  void limit(std::string name, std::optional<double> value, std::string found = "", std::string instead = "");
 };
 
 /// The largest value of what is drawn.
@@ -31,8 +34,9 @@ struct CamPeak {
   double master = 0;
 };
 
-/// How a cam of any device is drawn: position, velocity, acceleration and jerk against the master.
-struct MotionPlot {
+/// What a kind calls the motion of a cam, drawn and judged: position, velocity, acceleration and jerk against
+/// the master, with their units and limits.
+struct CamMotionWords {
   std::string title = {};
   std::string position = {};         ///< unit of master and slave as they are shown
   std::string master_position = {};  ///< unit of the master if it is another, as counts of time
@@ -40,6 +44,8 @@ struct MotionPlot {
   CamQuantity velocity = {};
   CamQuantity acceleration = {};
   CamQuantity jerk = {};
+  double master_speed = 0;                    ///< that the limits are judged at, in the next unit
+  std::string speed_unit = {};                ///< of the master
   bool straight = false;                      ///< pieces of one ratio each: nothing but velocity is told
   std::optional<renders::Curve> played = {};  ///< velocity that the device makes of the law
 };
@@ -53,7 +59,7 @@ struct CamDrawing {
   std::vector<CamPeak> peaks = {};
 };
 /// `zones` are those of one cycle; behind a master of known speed time is told beside it.
-CamDrawing motion_plot(const CamCourse& course, const std::vector<CamZone>& zones, const MotionPlot& how,
+CamDrawing motion_plot(const CamCourse& course, const std::vector<CamZone>& zones, const CamMotionWords& how,
                        const std::string& name);
 
 }  // namespace drycut::sim::cams

@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <map>
 
+#include "base/shown_units.hpp"
 #include "base/text.hpp"
 #include "sim/cams/overlay.hpp"
 #include "sim/cams/study.hpp"
-#include "sim/report/shown_units.hpp"
 
 namespace drycut::sim::cams {
 
@@ -85,7 +85,7 @@ renders::ReportTable table_of(const std::string& title, const Columns& columns) 
   renders::ReportTable table{title, {}, {}, true};
   std::vector<double> factors;
   for (const auto& [name, unit, words] : columns.headings()) {
-    const auto shown = report::shown_unit(unit);
+    const auto shown = shown_unit(unit);
     factors.push_back(shown.factor);
     table.headings.push_back(unit.empty() ? name : fmt::format("{} [{}]", name, shown.unit));
   }
@@ -130,7 +130,7 @@ class PageMaker {
       page_.table = cam_file(table_, file);
     }
     // Also of a table that was written just now: will drycut cam take the file?
-    auto read = read_cam(played.table ? kind_name(*played.table) : "mc_camin", page_.table, file, problems_);
+    auto read = read_cam(played.table ? played.table->kind() : "mc_camin", page_.table, file, problems_);
     if (!played.table) table_ = std::move(read);
   }
 

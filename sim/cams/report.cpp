@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/sheet.hpp"
 
@@ -46,6 +47,34 @@ std::string cam_report(const CamText& text, const std::vector<CamFinding>& findi
   for (const auto& [name, columns] : text.tables) sections += (sections.empty() ? "" : "\n") + columns.text();
   if (sections.empty()) sections = "nothing to run\n";
   return text.heading + '\n' + sections + '\n' + findings_text(findings) + text.totals;
+}
+
+std::string cam_csv(const std::vector<CamPoint>& points, std::optional<double> master_per_s) {
+  std::string text(cam_csv_header);
+  if (master_per_s) text += ",time,velocity_t,acceleration_t,jerk_t";
+  text += '\n';
+  const auto out = std::back_inserter(text);
+  for (const auto& p : points) {
+    // Adding 0 turns -0 into 0.
+    fmt::format_to(out, "{},{},{},{},{},{}", p.master + 0.0, p.position + 0.0, p.velocity + 0.0,
+                   p.acceleration + 0.0, p.jerk + 0.0, p.row);
+    if (master_per_s) {
+      const double v = *master_per_s;
+      fmt::format_to(out, ",{},{},{},{}", p.master / v + 0.0, p.velocity * v + 0.0,
+                     p.acceleration * v * v + 0.0, p.jerk * v * v * v + 0.0);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string cam_samples_text(const std::vector<CamPoint>& points) {
+  Columns columns({{"master"}, {"slave"}, {"velocity"}, {"acceleration"}, {"jerk"}, {"sector"}});
+  for (const auto& p : points)
+    columns.add({number_text(p.master), number_text(p.position), number_text(p.velocity),
+                 number_text(p.acceleration), number_text(p.jerk), std::to_string(p.row)},
+                points.size());
+  return columns.text();
 }
 
 }  // namespace drycut::sim::cams

@@ -1,5 +1,7 @@
 #pragma once
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -52,5 +54,13 @@ std::string totals_text(const CamCourse& course, const std::string& master_unit,
 
 /// What `drycut cam` prints: the cam in words with the findings before the totals.
 std::string cam_report(const CamText& text, const std::vector<CamFinding>& findings);
+
+inline constexpr std::string_view cam_csv_header = "master,slave,velocity,acceleration,jerk,sector";
+/// A table of these columns, and with the master's speed [units/s] `time,velocity_t,acceleration_t,jerk_t`
+/// [s, slave units/s, /s2, /s3]. Numbers read back to the same bits.
+std::string cam_csv(const std::vector<CamPoint>& points, std::optional<double> master_per_s);
+
+/// The samples of `--at` as a table.
+std::string cam_samples_text(const std::vector<CamPoint>& points);
 
 }  // namespace drycut::sim::cams

@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cstddef>
+#include <type_traits>
 
 #include "base/text.hpp"
 #include "sim/cams/kinds.hpp"
@@ -29,22 +30,37 @@ bool owns_lx3vp(std::string_view text) {
   return header.starts_with("master") || header.starts_with("parameter");
 }
 
+/// The row of a kind by what it has of its own for its tables.
+template <auto read_table>
+constexpr CamKind kind_of(std::string_view header, bool (*owns)(std::string_view),
+                          std::vector<CamKey> (*keys)(), std::vector<CamKey> (*columns)()) {
+  using Table = std::invoke_result_t<decltype(read_table), std::string_view, std::string, Problems&>;
+  return {
+      Table::kind,
+      header,
+      owns,
+      [](std::string_view text, const std::string& file, Problems& problems) {
+        return devices::CamTable(read_table(text, file, problems));
+      },
+      keys,
+      columns,
+      [](const devices::CamTable& table, const CamRequest& request, Problems& problems) {
+        return study_of(table.as<Table>(), request, problems);
+      },
+      [](const devices::CamTable& table, MasterRange range) { return ideal_of(table.as<Table>(), range); },
+      [](devices::CamTable& table, const std::string& file) { return file_of(table.as<Table>(), file); }};
+}
+
 /// Sectors of CAMMING4 (000), run by the device's own cam engine.
-constexpr CamKind camming4_cams = {"camming4",    "sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM",
-                                   owns_camming4, read_camming4,
-                                   camming4_keys, camming4_columns};
+constexpr CamKind camming4_cams = kind_of<read_camming4>("sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM",
+                                                         owns_camming4, camming4_keys, camming4_columns);
 /// Cam tables of the ISG kernel's MC_CamIn (004): its .tab files, or CSV.
-constexpr CamKind mc_camin_cams = {
-    "mc_camin",
+constexpr CamKind mc_camin_cams = kind_of<read_mc_camin>(
     "slave (or a0,a1,a2,a3, or master,slave below # interpolation: POLY5_LINE; or a .tab file)",
-    owns_mc_camin,
-    read_mc_camin,
-    mc_camin_keys,
-    mc_camin_columns};
+    owns_mc_camin, mc_camin_keys, mc_camin_columns);
 /// Tables of the LX3VP's electronic cam (003), given or made by its own ECAMTBX.
-constexpr CamKind lx3vp_cams = {"lx3vp",    "master,slave (or # ecamtbx: K100 and parameter,value)",
-                                owns_lx3vp, read_lx3vp,
-                                lx3vp_keys, lx3vp_columns};
+constexpr CamKind lx3vp_cams = kind_of<read_lx3vp>("master,slave (or # ecamtbx: K100 and parameter,value)",
+                                                   owns_lx3vp, lx3vp_keys, lx3vp_columns);
 /// In the order of asking whose a text is.
 constexpr std::array kinds = {camming4_cams, mc_camin_cams, lx3vp_cams};
 
@@ -77,7 +93,7 @@ devices::CamTable read_no_kind(std::string_view text, const std::string& file, P
 bool owns_nothing(std::string_view /*text*/) { return false; }
 
 /// Takes what no kind knows, to tell what all of them want.
-constexpr CamKind no_kind = {"", "", owns_nothing, read_no_kind, nullptr, nullptr};
+constexpr CamKind no_kind = {"", "", owns_nothing, read_no_kind};
 
 void check_positions(const std::vector<double>& at, const CamStudy& study, Problems& problems) {
   const double first = study.course.first_master;
@@ -116,36 +132,30 @@ devices::CamTable read_cam(std::string_view device, std::string_view text, const
   return cam_kind(device, text).read(text, file, problems);
 }
 
-std::string_view kind_name(const devices::CamTable& table) {
-  constexpr std::array names = {"camming4", "lx3vp", "mc_camin"};
-  return names[table.index()];
-}
-
 CamStudy study_cam(const devices::CamTable& table, const CamRequest& request, Problems& problems) {
-  auto study = std::visit([&](const auto& one) { return study_of(one, request, problems); }, table);
+  auto study = cam_kind(table.kind(), "").study(table, request, problems);
   const auto& course = study.course;
   // A cam of sectors has its beginning, whatever stops it there.
   if (!course.runs() && course.passes == 0) return study;
   check_positions(request.at, study, problems);
   if (!problems.empty()) return {};
   study.points = request.at.empty() ? sample_cam(course) : sample_cam_at(course, request.at);
-  auto drawing = motion_plot(course, study.zones, study.drawn, request.plot_name);
+  auto drawing = motion_plot(course, study.zones, study.motion, request.plot_name);
   study.plot = std::move(drawing.plot);
   study.peaks = std::move(drawing.peaks);
   return study;
 }
 
 IdealCam ideal_cam(const devices::CamTable& table, MasterRange range) {
-  return std::visit([&](const auto& one) { return ideal_of(one, range); }, table);
+  return cam_kind(table.kind(), "").ideal(table, range);
 }
 
 bool gives_master_speed(const devices::CamTable& table) {
-  const auto* ecam = std::get_if<EcamTable>(&table);
-  return ecam != nullptr && ecam->time_axis > 0;
+  return table.kind() == EcamTable::kind && table.as<EcamTable>().time_axis > 0;
 }
 
 std::string cam_file(devices::CamTable& table, const std::string& file) {
-  return std::visit([&](auto& one) { return file_of(one, file); }, table);
+  return cam_kind(table.kind(), "").file(table, file);
 }
 
 std::string_view header_line(std::string_view text) {

@@ -25,7 +25,7 @@ struct CamRequest {
 struct CamStudy {
   CamCourse course = {};
   std::vector<CamZone> zones = {};  ///< what the slave does in a cycle of it, in the table's units
-  MotionPlot drawn = {};
+  CamMotionWords motion = {};
   CamText text = {};
   std::vector<CamFinding> findings = {};
   std::string master_unit = {};  ///< of the table
@@ -45,8 +45,13 @@ struct CamKind {
   /// Reads a table; every fault becomes a problem with line and column, and the table means nothing.
   devices::CamTable (*read)(std::string_view text, const std::string& file, Problems& problems);
   /// Its keys, `# key: value`, and its columns, as the reference tells them.
-  std::vector<CamKey> (*keys)();
-  std::vector<CamKey> (*columns)();
+  std::vector<CamKey> (*keys)() = nullptr;
+  std::vector<CamKey> (*columns)() = nullptr;
+  /// Of its own tables only: all that there is to say of a cam but its samples; the cam that a run is
+  /// compared with; the text of a file.
+  CamStudy (*study)(const devices::CamTable& table, const CamRequest& request, Problems& problems) = nullptr;
+  IdealCam (*ideal)(const devices::CamTable& table, MasterRange range) = nullptr;
+  std::string (*file)(devices::CamTable& table, const std::string& file) = nullptr;
 };
 
 /// All kinds; the first also takes what no other owns.
@@ -57,9 +62,6 @@ const CamKind& cam_kind(std::string_view name, std::string_view text);
 /// A table as `device` reads it, "" = as its text shows; it means nothing if problems were told.
 devices::CamTable read_cam(std::string_view device, std::string_view text, const std::string& file,
                            Problems& problems);
-/// The name of a table's kind.
-std::string_view kind_name(const devices::CamTable& table);
-
 /// Runs, judges, samples and draws a cam; the study means nothing if problems were told.
 CamStudy study_cam(const devices::CamTable& table, const CamRequest& request, Problems& problems);
 /// The cam that a table means; it does not run if there is a fault in it, which the study tells.

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/shown_units.hpp"
 #include "renders/caption_bar.hpp"
 #include "renders/decimate.hpp"
 #include "renders/filmstrip.hpp"
@@ -27,7 +28,6 @@
 #include "sim/report/origin.hpp"
 #include "sim/report/report.hpp"
 #include "sim/report/results.hpp"
-#include "sim/report/shown_units.hpp"
 #include "sim/report/torque.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/parameter_text.hpp"

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/shown_units.hpp"
 #include "renders/process.hpp"
 #include "sim/report/origin.hpp"
-#include "sim/report/shown_units.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim::report {

@@ -8,8 +8,7 @@
 #include <tuple>
 
 #include "devices/camming4/messages.hpp"
-#include "sim/cams/camming4/remedies.hpp"
-#include "sim/cams/travel.hpp"
+#include "sim/cams/judge.hpp"
 
 namespace drycut::sim::cams {
 
@@ -18,6 +17,7 @@ namespace {
 namespace camming4 = devices::camming4;
 using camming4::CodeClass;
 using camming4::Row;
+using devices::CamOrder;
 using Grade = CamFinding::Grade;
 
 class CammingJudge {
@@ -105,11 +105,15 @@ class CammingJudge {
     const auto tell = [&](Grade grade, int code, std::string text, CamRemedy remedy) {
       add(order, grade, code, visit.row, visit.pass, std::move(text), std::move(remedy));
     };
-    const double peak = peak_speed(visit);
+    const auto tell_all = [&](std::vector<CamFinding> passed) {
+      for (auto& limit : passed) tell(limit.grade, 0, std::move(limit.text), std::move(limit.remedy));
+    };
+    const double gradient = peak_gradient(visit);
     if (master_ > 0) {
       judge_sampling(visit, tell);
-      judge_speed(peak, tell);
-      judge_acceleration(visit, tell);
+      tell_all(passed_limits(motion_, CamOrder::velocity, peak_speed(visit)));
+      tell_all(passed_limits(motion_, CamOrder::acceleration, gradient,
+                             [&](double limit) { return gradient_remedy(visit, table_, gradient, limit); }));
     }
     judge_change_of_ratio(visit.sector.row, tell);
   }
@@ -178,33 +182,6 @@ class CammingJudge {
          fmt::format("master space too small: {} Um are over in {} ms, less than a sampling time of {} ms",
                      number(length), number(length / master_ * 1000), table_.TCamp),
          sampling_remedy(visit.sector, length));
-  }
-
-  template <typename Tell>
-  void judge_speed(double peak, const Tell& tell) {
-    const double speed = peak * *duty_.master_speed;
-    const auto unit = speed_unit(table_);
-    if (duty_.max_velocity && speed > *duty_.max_velocity * within)
-      tell(Grade::limit, 0,
-           fmt::format("velocity {} {} above {}", number(speed), unit, number(*duty_.max_velocity)),
-           slower_master(fmt::format("lower its ratio {} to {}, or ", number(peak),
-                                     number_below(*duty_.max_velocity / *duty_.master_speed)),
-                         *duty_.max_velocity / peak, unit));
-    if (table_.maxvel > 0 && speed > table_.maxvel * within)
-      tell(Grade::limit, 0,
-           fmt::format("velocity {} {} above maxvel {}: the output saturates (warning 3 or 4)", number(speed),
-                       unit, table_.maxvel),
-           slower_master("", table_.maxvel / peak, unit));
-  }
-
-  template <typename Tell>
-  void judge_acceleration(const CamVisit& visit, const Tell& tell) {
-    const double gradient = peak_gradient(visit);
-    const double acceleration = gradient * master_ * master_;
-    if (!duty_.max_acceleration || acceleration <= *duty_.max_acceleration * within) return;
-    tell(Grade::limit, 0,
-         fmt::format("acceleration {} Um/s2 above {}", number(acceleration), number(*duty_.max_acceleration)),
-         gradient_remedy(visit, table_, gradient, *duty_.max_acceleration));
   }
 
   template <typename Tell>
@@ -299,6 +276,7 @@ class CammingJudge {
   const CammingTable& table_;
   const CamDuty& duty_;
   const CamRun& run_;
+  const CamMotionWords motion_ = motion_of(table_, duty_, run_);
   double master_ = 0;  ///< [Um/s], 0 = not given
   std::vector<Entry> found_;
   std::set<std::tuple<Grade, int, int, std::string>> told_;

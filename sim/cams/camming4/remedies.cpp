@@ -1,5 +1,3 @@
-#include "sim/cams/camming4/remedies.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +5,7 @@
 #include <string_view>
 
 #include "devices/camming4/messages.hpp"
-#include "sim/cams/findings.hpp"
+#include "sim/cams/camming4/judge.hpp"
 
 namespace drycut::sim::cams {
 

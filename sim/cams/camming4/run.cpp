@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "devices/axis/speed.hpp"
-#include "sim/cams/reach.hpp"
 
 namespace drycut::sim::cams {
 

@@ -148,31 +148,6 @@ std::vector<CamZone> zones_of(const CammingTable& table, const CamRun& run) {
   return zones;
 }
 
-MotionPlot drawn(const CammingTable& table, const CamDuty& duty, const CamRun& run) {
-  const bool timed = run.master_speed.has_value();
-  const double master = run.master_speed.value_or(1);
-  const auto speed = timed ? speed_unit(table) : "Um/Um";
-  MotionPlot how;
-  how.title = "Cam " + std::filesystem::path(table.file).filename().string();
-  if (timed) how.title += fmt::format(", master at {} {}", number_text(*duty.master_speed, 6), speed);
-  how.position = "Um";
-  how.velocity = {speed, timed ? *duty.master_speed : 1};
-  how.acceleration = {timed ? "Um/s²" : "Um/Um²", master * master};
-  how.jerk = {timed ? "Um/s³" : "Um/Um³", master * master * master};
-  if (!timed) return how;
-  how.velocity.limit("max velocity", duty.max_velocity);
-  if (table.maxvel > 0) how.velocity.limit("maxvel", table.maxvel);
-  how.acceleration.limit("max acceleration", duty.max_acceleration);
-  const auto ramp = [&](const char* name, std::int32_t hundredths) {
-    if (table.maxvel > 0 && hundredths > 0)
-      how.acceleration.limit(name, table.maxvel * um_per_second(table) * 100 / hundredths);
-  };
-  const bool same = table.tdecmax == table.taccmax;
-  ramp(same ? "taccmax, tdecmax" : "taccmax", table.taccmax);
-  if (!same) ramp("tdecmax", table.tdecmax);
-  return how;
-}
-
 /// So many passes that the cam reaches `master`.
 CamRun run_to(const CammingTable& table, double master) {
   auto run = run_cam(table, {}, 1);
@@ -205,12 +180,42 @@ Known known_of(const CamRun& run) {
 
 }  // namespace
 
+CamMotionWords motion_of(const CammingTable& table, const CamDuty& duty, const CamRun& run) {
+  const bool timed = run.master_speed.has_value();
+  const double master = run.master_speed.value_or(1);
+  const auto speed = timed ? speed_unit(table) : "Um/Um";
+  CamMotionWords how;
+  how.title = "Cam " + std::filesystem::path(table.file).filename().string();
+  if (timed) how.title += fmt::format(", master at {} {}", number_text(*duty.master_speed, 6), speed);
+  how.position = "Um";
+  how.velocity = {speed, timed ? *duty.master_speed : 1};
+  how.acceleration = {timed ? "Um/s²" : "Um/Um²", master * master};
+  how.jerk = {timed ? "Um/s³" : "Um/Um³", master * master * master};
+  if (!timed) return how;
+  how.master_speed = *duty.master_speed;
+  how.speed_unit = speed;
+  how.velocity.limit("max velocity", duty.max_velocity, "velocity {is} {unit} above {limit}",
+                     "lower its ratio {is} to {most}, or ");
+  if (table.maxvel > 0)
+    how.velocity.limit("maxvel", table.maxvel,
+                       "velocity {is} {unit} above maxvel {limit}: the output saturates (warning 3 or 4)");
+  how.acceleration.limit("max acceleration", duty.max_acceleration, "acceleration {is} Um/s2 above {limit}");
+  const auto ramp = [&](const char* name, std::int32_t hundredths) {
+    if (table.maxvel > 0 && hundredths > 0)
+      how.acceleration.limit(name, table.maxvel * um_per_second(table) * 100 / hundredths);
+  };
+  const bool same = table.tdecmax == table.taccmax;
+  ramp(same ? "taccmax, tdecmax" : "taccmax", table.taccmax);
+  if (!same) ramp("tdecmax", table.tdecmax);
+  return how;
+}
+
 CamStudy study_of(const CammingTable& table, const CamRequest& request, Problems& /*problems*/) {
   const auto run = run_cam(table, request.duty, request.loops);
   CamStudy study;
   study.course = run;
   study.zones = zones_of(table, run);
-  study.drawn = drawn(table, request.duty, run);
+  study.motion = motion_of(table, request.duty, run);
   study.text = Report(table, request.duty, run).text();
   study.findings = judge(table, request.duty, run);
   study.master_unit = "Um";

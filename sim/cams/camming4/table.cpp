@@ -212,7 +212,7 @@ class Reader {
 
 }  // namespace
 
-devices::CamTable read_camming4(std::string_view text, const std::string& file, Problems& problems) {
+CammingTable read_camming4(std::string_view text, const std::string& file, Problems& problems) {
   return Reader(text, file, problems).read();
 }
 

@@ -6,9 +6,7 @@
 #include <cmath>
 
 #include "devices/lx3vp/cam_law.hpp"
-#include "sim/cams/lx3vp/remedies.hpp"
-#include "sim/cams/reach.hpp"
-#include "sim/cams/travel.hpp"
+#include "sim/cams/judge.hpp"
 
 namespace drycut::sim::cams {
 
@@ -25,7 +23,7 @@ constexpr std::size_t most_rows = 512;
 class EcamJudge {
  public:
   EcamJudge(const EcamTable& table, const CamDuty& duty, const CamCourse& run)
-      : table_(table), duty_(duty), run_(run) {}
+      : table_(table), run_(run), motion_(motion_of(table, duty, run)) {}
 
   std::vector<CamFinding> findings() {
     if (table_.is_made() && !table_.made.ok()) {
@@ -155,29 +153,20 @@ class EcamJudge {
     return played.value > law.value * within ? played : law;
   }
 
+  void judge_limits(CamOrder order, const Peak& most, const std::function<CamRemedy(double)>& of_time) {
+    const auto given = table_.time_axis > 0 ? of_time : nullptr;
+    for (auto& limit : passed_limits(motion_, order, most.value, given))
+      add(limit.grade, most.where, std::move(limit.text), std::move(limit.remedy));
+  }
+
   void judge_speed() {
-    if (!run_.master_speed) return;
-    const auto most = peak();
-    const double frequency = most.value * *run_.master_speed;
-    const auto remedy = [&](double limit) -> CamRemedy {
-      if (table_.time_axis == 0) return slower_master("", limit / most.value, "pulses/s");
+    judge_limits(CamOrder::velocity, peak(), [&](double limit) -> CamRemedy {
       if (table_.is_s_curve()) return top_speed_remedy(table_, *run_.master_speed, limit);
       return "give the same way more time";
-    };
-    if (frequency > table_.max_frequency * within)
-      add(Grade::limit, most.where,
-          fmt::format("output at {} Hz above {} Hz (words 6 and 7): the slave lags and catches up later",
-                      number(frequency), table_.max_frequency),
-          remedy(table_.max_frequency));
-    if (duty_.max_velocity && frequency > *duty_.max_velocity * within)
-      add(Grade::limit, most.where,
-          fmt::format("velocity {} pulses/s above {}", number(frequency), number(*duty_.max_velocity)),
-          remedy(*duty_.max_velocity));
+    });
   }
 
   void judge_acceleration() {
-    if (!run_.master_speed || !duty_.max_acceleration) return;
-    const double speed = *run_.master_speed;
     Peak most;
     if (table_.is_made()) most = peak_of_law(CamOrder::acceleration);
     // From the middle of a piece to the middle of the next.
@@ -185,14 +174,7 @@ class EcamJudge {
       const double gradient = std::abs(ratio(i) - ratio(i - 1)) * 2 / (length(i) + length(i - 1));
       if (gradient > most.value) most = {gradient, where(i - 1)};
     }
-    const double acceleration = most.value * speed * speed;
-    if (acceleration <= *duty_.max_acceleration * within) return;
-    add(Grade::limit, most.where,
-        fmt::format("acceleration {} pulses/s2 above {}", number(acceleration),
-                    number(*duty_.max_acceleration)),
-        table_.time_axis > 0
-            ? "give its ramps more time"
-            : slower_master("", std::sqrt(*duty_.max_acceleration / most.value), "pulses/s"));
+    judge_limits(CamOrder::acceleration, most, [](double) { return "give its ramps more time"; });
   }
 
   /// The slave is farthest at a row, for the device plays straight pieces.
@@ -320,8 +302,8 @@ class EcamJudge {
   }
 
   const EcamTable& table_;
-  const CamDuty& duty_;
   const CamCourse& run_;
+  const CamMotionWords motion_;
   const devices::CamLaw played_ = straight_law(table_.rows);
   std::vector<CamFinding> found_;
 };

@@ -1,12 +1,10 @@
-#include "sim/cams/lx3vp/remedies.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "devices/lx3vp/cam_law.hpp"
-#include "sim/cams/reach.hpp"
+#include "sim/cams/lx3vp/judge.hpp"
 
 namespace drycut::sim::cams {
 

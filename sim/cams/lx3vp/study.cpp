@@ -159,10 +159,12 @@ std::vector<CamZone> zones_of(const EcamTable& table, const CamCourse& run) {
   return zones;
 }
 
-MotionPlot drawn(const EcamTable& table, const CamDuty& duty, const CamCourse& run) {
+}  // namespace
+
+CamMotionWords motion_of(const EcamTable& table, const CamDuty& duty, const CamCourse& run) {
   const bool timed = run.master_speed.has_value();
   const double speed = run.master_speed.value_or(1);
-  MotionPlot how;
+  CamMotionWords how;
   how.title = "Cam " + std::filesystem::path(table.file).filename().string();
   if (table.is_made()) how.title += ", ECAMTBX " + type_text(table);
   if (timed && table.time_axis == 0) how.title += fmt::format(", master at {} pulses/s", plain(speed));
@@ -171,16 +173,22 @@ MotionPlot drawn(const EcamTable& table, const CamDuty& duty, const CamCourse& r
   how.velocity = {timed ? "Hz" : "slave/master", speed};
   how.acceleration = {timed ? "pulses/s²" : "1/pulse", speed * speed};
   how.jerk = {timed ? "pulses/s³" : "1/pulse²", speed * speed * speed};
-  if (timed) how.velocity.limit("words 6-7", table.max_frequency);
-  if (timed) how.velocity.limit("max velocity", duty.max_velocity);
-  if (timed) how.acceleration.limit("max acceleration", duty.max_acceleration);
-  if (!timed) how.velocity.limit(table.is_made() ? "P5" : "max_ratio", table.max_ratio);
+  if (timed) {
+    how.master_speed = speed;
+    how.speed_unit = "pulses/s";
+    how.velocity.limit(
+        "words 6-7", table.max_frequency,
+        "output at {is} Hz above {limit} Hz (words 6 and 7): the slave lags and catches up later");
+    how.velocity.limit("max velocity", duty.max_velocity, "velocity {is} pulses/s above {limit}");
+    how.acceleration.limit("max acceleration", duty.max_acceleration,
+                           "acceleration {is} pulses/s2 above {limit}");
+  } else {
+    how.velocity.limit(table.is_made() ? "P5" : "max_ratio", table.max_ratio);
+  }
   how.straight = !table.is_made();
   if (table.is_made()) how.played = played(table, run, speed);
   return how;
 }
-
-}  // namespace
 
 CamCourse run_ecam(const EcamTable& table, const CamDuty& duty, int loops) {
   constexpr double ticks_per_second = 10000;
@@ -206,7 +214,7 @@ CamStudy study_of(const EcamTable& table, const CamRequest& request, Problems& p
   CamStudy study;
   study.course = run;
   study.zones = zones_of(table, run);
-  if (run.runs()) study.drawn = drawn(table, request.duty, run);
+  if (run.runs()) study.motion = motion_of(table, request.duty, run);
   study.text = text_of(table, run);
   study.findings = judge_ecam(table, request.duty, run);
   study.master_unit = "pulses";

@@ -274,7 +274,7 @@ class Reader {
 
 }  // namespace
 
-devices::CamTable read_lx3vp(std::string_view text, const std::string& file, Problems& problems) {
+EcamTable read_lx3vp(std::string_view text, const std::string& file, Problems& problems) {
   return Reader(text, file, problems).read();
 }
 

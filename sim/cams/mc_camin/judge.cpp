@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/cams/reach.hpp"
-#include "sim/cams/travel.hpp"
+#include "sim/cams/judge.hpp"
 
 namespace drycut::sim::cams {
 
@@ -22,7 +21,11 @@ using Grade = CamFinding::Grade;
 class CamInJudge {
  public:
   CamInJudge(const CamInRun& run, const CamDuty& duty)
-      : run_(run), cam_(run.cam), limits_(limits_of(run, duty)), unit_(run.cam.slave_unit) {}
+      : run_(run),
+        cam_(run.cam),
+        limits_(limits_of(run, duty)),
+        motion_(motion_of(run, duty)),
+        unit_(run.cam.slave_unit) {}
 
   std::vector<CamFinding> findings() {
     for (const auto& refusal : run_.refused)
@@ -59,27 +62,22 @@ class CamInJudge {
   }
 
   void judge_limits() {
-    judge_limit(CamOrder::velocity, "velocity", limits_.velocity);
-    judge_limit(CamOrder::acceleration, "acceleration", limits_.acceleration);
-    judge_limit(CamOrder::jerk, "jerk", limits_.jerk);
+    judge_limit(CamOrder::velocity, "velocity", motion_.velocity);
+    judge_limit(CamOrder::acceleration, "acceleration", motion_.acceleration);
+    judge_limit(CamOrder::jerk, "jerk", motion_.jerk);
   }
 
   /// The peak of the polynomials; where they jump there is no limit to the next derivative.
-  void judge_limit(CamOrder order, const char* name, std::optional<double> limit) {
-    if (!limit || !run_.master_speed) return;
-    const int power = static_cast<int>(order);
-    const double in_time = std::pow(*run_.master_speed, power) / increments_per_unit;
+  void judge_limit(CamOrder order, const char* name, const CamQuantity& quantity) {
+    if (quantity.limits.empty()) return;
     CamWorst worst;
     for (const CamPiece& piece : run_.law.pieces) {
-      const double peak = piece.peak(order) * in_time;
-      if (peak > *limit * within) worst.take(peak, piece.row);
+      const double peak = piece.peak(order);
+      if (!passed_limits(motion_, order, peak).empty()) worst.take(peak, piece.row);
     }
-    const double speed = *run_.master_speed / increments_per_unit;
-    if (worst.count > 0)
-      add(Grade::limit, worst,
-          fmt::format("{} {} {} above {}", name, number(worst.value), per(power), number(*limit)),
-          slower_master("", speed * std::pow(*limit / worst.value, 1.0 / power), cam_.master_unit + "/s"));
-    judge_steps(power, name);
+    for (auto& limit : passed_limits(motion_, order, worst.value))
+      add(limit.grade, worst, limit.text, std::move(limit.remedy));
+    judge_steps(static_cast<int>(order), name);
   }
 
   void judge_steps(int power, const char* name) {
@@ -278,6 +276,7 @@ class CamInJudge {
   const CamInRun& run_;
   const devices::plcopen::CamFile& cam_;
   CamLimits limits_;
+  CamMotionWords motion_;
   const std::string& unit_;
   std::vector<CamFinding> found_;
 };

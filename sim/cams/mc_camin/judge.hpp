@@ -35,6 +35,9 @@ CamInRun run_cam_in(const CamFile& cam, const CamDuty& duty, int loops);
 /// jumps, what the slave does beyond its rows, remarks.
 std::vector<CamFinding> judge_cam_in(const CamInRun& run, const CamDuty& duty);
 
+/// The motion in the kernel's words.
+CamMotionWords motion_of(const CamInRun& run, const CamDuty& duty);
+
 /// The slave's limits in force: those of the options before those of the file [deg or mm, s].
 devices::plcopen::CamLimits limits_of(const CamInRun& run, const CamDuty& duty);
 

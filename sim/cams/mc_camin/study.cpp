@@ -199,9 +199,13 @@ std::vector<CamZone> zones_of(const CamInRun& run) {
   return zones;
 }
 
-MotionPlot drawn(const CamInRun& run, const CamDuty& duty) {
+}  // namespace
+
+std::string increments_of(const std::string& unit) { return unit == "mm" ? "0.1 um" : "0.0001 deg"; }
+
+CamMotionWords motion_of(const CamInRun& run, const CamDuty& duty) {
   const Scale scale(run);
-  MotionPlot how;
+  CamMotionWords how;
   how.title =
       fmt::format("Cam {}, MC_CamIn {}", std::filesystem::path(run.cam.table.file).filename().string(),
                   name_of(run.cam.interpolation));
@@ -213,16 +217,14 @@ MotionPlot drawn(const CamInRun& run, const CamDuty& duty) {
   how.jerk = {scale.unit(3), scale.of(3)};
   if (!scale.timed) return how;
   how.title += fmt::format(", master at {} {}/s", plain(scale.speed / increments_per_unit), scale.master);
+  how.master_speed = scale.speed / increments_per_unit;
+  how.speed_unit = scale.master + "/s";
   const auto limits = limits_of(run, duty);
-  how.velocity.limit("maxvel", limits.velocity);
-  how.acceleration.limit("maxacc", limits.acceleration);
-  how.jerk.limit("maxjerk", limits.jerk);
+  how.velocity.limit("maxvel", limits.velocity, "velocity {is} {unit} above {limit}");
+  how.acceleration.limit("maxacc", limits.acceleration, "acceleration {is} {unit} above {limit}");
+  how.jerk.limit("maxjerk", limits.jerk, "jerk {is} {unit} above {limit}");
   return how;
 }
-
-}  // namespace
-
-std::string increments_of(const std::string& unit) { return unit == "mm" ? "0.1 um" : "0.0001 deg"; }
 
 CamInRun run_cam_in(const devices::plcopen::CamFile& cam, const CamDuty& duty, int loops) {
   CamInRun run;
@@ -249,7 +251,7 @@ CamStudy study_of(const CamFile& cam, const CamRequest& request, Problems& /*pro
   study.master_unit = increments_of(cam.master_unit);
   if (!run.runs()) return study;
   study.zones = zones_of(run);
-  study.drawn = drawn(run, request.duty);
+  study.motion = motion_of(run, request.duty);
   return study;
 }
 
@@ -281,7 +283,7 @@ std::vector<CamKey> mc_camin_columns() {
           {"a0, a1, a2, a3", "numbers", "", "in place of slave: coefficients of each row's polynomial"}};
 }
 
-devices::CamTable read_mc_camin(std::string_view text, const std::string& file, Problems& problems) {
+CamFile read_mc_camin(std::string_view text, const std::string& file, Problems& problems) {
   return devices::plcopen::read_cam(text, file, problems).value_or(CamFile{});
 }
 

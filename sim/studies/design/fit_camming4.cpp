@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "devices/camming4/cam_table.hpp"
 #include "sim/cams/study.hpp"
 #include "sim/studies/design/fit.hpp"
 #include "sim/studies/design/ramps.hpp"
@@ -238,7 +239,7 @@ DeviceCam played(SectorTable table, const DesignJob& job, const UmJob& um) {
   const auto rows = std::count_if(table.table.sectors.begin(), table.table.sectors.end(),
                                   [](const auto& sector) { return sector.line > 0; });
   made.notes.push_back(fmt::format("{} sectors, 1 Um = {} mm", rows, std::pow(10, -um.decpt)));
-  made.table = {table.table};
+  made.table = table.table;
   Problems none;
   const auto study = cams::study_cam(made.table, {made.duty}, none);
   const double from = job.kind == DesignKind::rotary_knife ? table.sync_begin : 0;

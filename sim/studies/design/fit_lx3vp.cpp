@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "devices/lx3vp/block.hpp"
+#include "devices/lx3vp/ecam_table.hpp"
 #include "sim/studies/design/fit.hpp"
 
 namespace drycut::sim::studies {
@@ -242,7 +243,7 @@ std::optional<DeviceCam> fit_lx3vp(const DesignJob& job, const DesignAxes& axes,
   made.notes.push_back(
       fmt::format("{} rows, the law never more than {:.2f} pulses from the pieces between them",
                   table.rows.size(), fitted->deviation));
-  made.table = {table};
+  made.table = table;
   return made;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "devices/plcopen/tab_file.hpp"
 #include "sim/cams/study.hpp"
 #include "sim/studies/design/fit.hpp"
 
@@ -109,13 +110,13 @@ DeviceCam played(const DesignedCam& cam, const DesignJob& job, const CubicRows& 
   made.notes.push_back(fmt::format("{} cubics of {}, {} of them synchronous (POLYNOM_3_KOEFF)",
                                    rows.all * job.blades, length_text(width), rows.synchronous * job.blades));
   for (std::size_t line = 1; line <= file.table.lines(); ++line) file.lines.push_back(static_cast<int>(line));
-  made.table = {file};
+  made.table = file;
   Problems none;
   const auto study = cams::study_cam(made.table, {made.duty}, none);
   made.figures = figures_of(study.course.law, 0, job.length / increment, increment, slave_unit, job);
   // Where the carriage turns round is as exact as the cam was found: its travel begins there.
   if (job.max_travel) {
-    auto& travel = std::get<devices::plcopen::CamFile>(made.table).limits.travel;
+    auto& travel = made.table.as<devices::plcopen::CamFile>().limits.travel;
     travel.least = std::floor(made.figures.low / increment);
     travel.most = std::ceil((made.figures.low + *job.max_travel) / increment);
   }

@@ -10,7 +10,9 @@
 #include <regex>
 
 #include "base/text.hpp"
+#include "devices/camming4/cam_table.hpp"
 #include "devices/lx3vp/block.hpp"
+#include "devices/lx3vp/ecam_table.hpp"
 #include "sim/cams/study.hpp"
 #include "sim/records/own_file.hpp"
 #include "sim/scenario/format.hpp"
@@ -32,9 +34,9 @@ class SceneMaker {
   std::optional<CamScene> make() {
     const auto before = problems_.size();
     if (const auto* qmove = section<controllers::QmoveSection>("camming4"))
-      take(std::get<devices::camming4::CamTable>(sheet_.device->table), *qmove);
+      take(sheet_.device->table.as<devices::camming4::CamTable>(), *qmove);
     else if (const auto* lx3vp = section<controllers::Lx3vpSection>("lx3vp"))
-      take(std::get<devices::lx3vp::EcamTable>(sheet_.device->table), *lx3vp);
+      take(sheet_.device->table.as<devices::lx3vp::EcamTable>(), *lx3vp);
     else if (const auto* plcopen = section<controllers::PlcopenSection>("mc_camin"))
       take(*plcopen);
     if (problems_.size() != before) return {};
@@ -227,7 +229,7 @@ std::optional<devices::plcopen::CamFile> present_table(const scenario::Scenario&
   const auto table =
       cams::read_cam("mc_camin", *text, (scene.file.parent_path() / file.text).string(), problems);
   if (problems.size() != before) return {};
-  return std::get<devices::plcopen::CamFile>(table);
+  return table.as<devices::plcopen::CamFile>();
 }
 
 std::optional<CamScene> cam_scene(const DesignSheet& sheet, const scenario::Scenario& scene,

@@ -82,7 +82,7 @@ std::optional<DesignAxes::Cut> cut_of(const devices::plcopen::CamFile& table, do
   constexpr double a_turn = 3'600'000;  // of the slave
   const double slave_unit = circumference / a_turn;
   Problems none;
-  const auto study = cams::study_cam({table}, {}, none);
+  const auto study = cams::study_cam(table, {}, none);
   double longest = 0;
   std::optional<DesignAxes::Cut> cut;
   double begin = 0;

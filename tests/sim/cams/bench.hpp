@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "sim/cams/camming4/judge.hpp"
-#include "sim/cams/camming4/run.hpp"
 #include "tests/sim/cams/told.hpp"
 
 namespace drycut::sim::cams {
@@ -15,9 +14,7 @@ namespace drycut::sim::cams {
 inline const std::string header = "sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM\n";
 
 /// Reads a table that has no fault.
-inline CammingTable table(const std::string& text) {
-  return std::get<CammingTable>(sound(text, read_camming4));
-}
+inline CammingTable table(const std::string& text) { return sound(text, read_camming4); }
 /// The header is put before the rows.
 inline CammingTable rows(const std::string& text) { return table(header + text); }
 

@@ -11,7 +11,7 @@
 namespace drycut::sim::cams::ecams {
 
 /// Reads a table that has no fault.
-inline EcamTable table(const std::string& text) { return std::get<EcamTable>(sound(text, read_lx3vp)); }
+inline EcamTable table(const std::string& text) { return sound(text, read_lx3vp); }
 
 /// The faults of a text, as they are printed, without the file's name.
 inline std::vector<std::string> faults(const std::string& text) { return faults_of(text, read_lx3vp); }

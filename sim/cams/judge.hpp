@@ -1,12 +1,36 @@
 #pragma once
+#include <cmath>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "devices/cam/travel.hpp"
+#include "devices/cam/table.hpp"
 #include "sim/cams/findings.hpp"
+#include "sim/cams/motion_plot.hpp"
 
 namespace drycut::sim::cams {
+
+// What is judged alike of all cams, in the words of their kinds.
+
+/// The largest of a kind of finding, and how many there are.
+struct CamWorst {
+  int count = 0;
+  double value = 0;
+  int row = 0;
+
+  void take(double size, int at) {
+    ++count;
+    if (std::abs(size) <= std::abs(value)) return;
+    value = size;
+    row = at;
+  }
+};
+
+/// The limits that a peak of the law passes, a finding each, which has no place yet. Unless `remedy` says
+/// what to do of a limit, a slower master is.
+std::vector<CamFinding> passed_limits(const CamMotionWords& motion, devices::CamOrder order, double peak,
+                                      const std::function<CamRemedy(double limit)>& remedy = {});
 
 /// How a table calls the travel.
 struct TravelWords {

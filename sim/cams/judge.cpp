@@ -1,4 +1,4 @@
-#include "sim/cams/travel.hpp"
+#include "sim/cams/judge.hpp"
 
 #include <fmt/format.h>
 
@@ -44,6 +44,29 @@ CamRemedy travel_remedy(const devices::CamTravel& travel, double low, double hig
 }
 
 }  // namespace
+
+std::vector<CamFinding> passed_limits(const CamMotionWords& motion, devices::CamOrder order, double peak,
+                                      const std::function<CamRemedy(double limit)>& remedy) {
+  const auto& quantity = order == devices::CamOrder::velocity       ? motion.velocity
+                         : order == devices::CamOrder::acceleration ? motion.acceleration
+                                                                    : motion.jerk;
+  const double value = peak * quantity.scale;
+  std::vector<CamFinding> passed;
+  for (const auto& limit : quantity.limits) {
+    if (limit.found.empty() || value <= limit.value * within) continue;
+    const auto slower = [&] {
+      const auto instead = fmt::format(fmt::runtime(limit.instead), fmt::arg("is", number(peak)),
+                                       fmt::arg("most", number_below(limit.value / quantity.scale)));
+      const double share = std::pow(limit.value / value, 1.0 / static_cast<int>(order));
+      return slower_master(instead, motion.master_speed * share, motion.speed_unit);
+    };
+    passed.push_back({CamFinding::Grade::limit, 0, "",
+                      fmt::format(fmt::runtime(limit.found), fmt::arg("is", number(value)),
+                                  fmt::arg("unit", quantity.unit), fmt::arg("limit", number(limit.value))),
+                      remedy ? remedy(limit.value) : slower()});
+  }
+  return passed;
+}
 
 std::vector<TravelFault> travel_faults(const devices::CamTravel& travel, double low, double high,
                                        const TravelWords& words) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace drycut::sim::report {
+namespace drycut {
 
 /// A device's unit as the report shows it; its files keep the device's own.
 struct ShownUnit {
@@ -50,4 +50,4 @@ inline ShownUnit shown_unit(std::string_view unit) {
   return {std::string(unit), 1};
 }
 
-}  // namespace drycut::sim::report
+}  // namespace drycut
