@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "devices/cam_axis.hpp"
-#include "sim/loop/observer.hpp"
+#include "sim/record/observer.hpp"
 
 namespace drycut::sim::cams {
 
@@ -28,7 +28,7 @@ struct PlayedCam {
 };
 
 /// Follows the cams of a controller through a run.
-class CamRecorder : public loop::Observer {
+class CamRecorder : public record::Observer {
  public:
   /// How far the drive behind a pulse output is behind its pulses, or nothing if none tells.
   using Deviation = std::function<std::function<double()>(const devices::Address& pulses)>;

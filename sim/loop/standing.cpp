@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "sim/loop/recorder.hpp"
+#include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
 
@@ -81,13 +81,13 @@ std::vector<std::string> Standing::texts(Time now) const {
   if (never.empty() && !stand) return texts;  // they work
   for (const auto& lamp : lamps_)
     if (lamp.last && lamp.changed && now - *lamp.changed >= stays)
-      texts.push_back(fmt::format("{} is on since {} s", lamp.plug, seconds_text(*lamp.changed)));
+      texts.push_back(fmt::format("{} is on since {} s", lamp.plug, record::seconds_text(*lamp.changed)));
   if (!never.empty()) {
     texts.push_back(std::move(never));
     return texts;
   }
   // All have worked: where they have stopped, and what they wait for.
-  texts.push_back(fmt::format("{} since {} s", fmt::join(states, ", "), seconds_text(*last)));
+  texts.push_back(fmt::format("{} since {} s", fmt::join(states, ", "), record::seconds_text(*last)));
   if (auto waited = never_on(inputs_); !waited.empty()) texts.push_back(std::move(waited));
   return texts;
 }

@@ -6,14 +6,14 @@
 
 #include "devices/controller.hpp"
 #include "sim/loop/names.hpp"
-#include "sim/loop/observer.hpp"
+#include "sim/record/observer.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
 
 /// Compares where axes believe to be with where their machine is: another scale, another place at the first
 /// command. Only of axes that count a machine with a position, and that no program homes.
-class Whereabouts : public Observer {
+class Whereabouts : public record::Observer {
  public:
   Whereabouts(const scenario::Scenario& scenario, devices::Controller& controller, Names& names);
 

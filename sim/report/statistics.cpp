@@ -7,7 +7,7 @@
 
 namespace drycut::sim::report {
 
-EventNumbers event_numbers(const loop::EventLog& events, const std::string& event, const std::string& value,
+EventNumbers event_numbers(const record::EventLog& events, const std::string& event, const std::string& value,
                            double from, double until) {
   EventNumbers found;
   double order = 0;

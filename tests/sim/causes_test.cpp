@@ -8,13 +8,13 @@
 namespace drycut::sim::loop {
 namespace {
 
-RecordedEvent told(double at, const std::string& source, const std::string& event, const std::string& text,
-                   std::vector<RecordedEvent::Value> values = {}) {
+record::RecordedEvent told(double at, const std::string& source, const std::string& event,
+                           const std::string& text, std::vector<record::RecordedEvent::Value> values = {}) {
   return {static_cast<Time>(at * 1e9), 0, source, event, std::move(values), text, severity_of(event)};
 }
 
-CheckResult failed(std::optional<double> at) {
-  CheckResult result{"cut length", "each cut: length > 0", false, {}, "", {}, ""};
+record::CheckResult failed(std::optional<double> at) {
+  record::CheckResult result{"cut length", "each cut: length > 0", false, {}, "", {}, ""};
   result.failed_at = at;
   return result;
 }
@@ -54,8 +54,7 @@ TEST(Causes, WhatAControllerWarnedOfExplainsWhatAMachineBreaks) {
   Causes causes;
   causes.happened(told(2.36, "AxisX", "warning", "slave out of syncrange"));
   causes.happened(told(2.5147, "knife", "tear", "", {{"mismatch", 102.165, "mm/s"}}));
-  EXPECT_EQ(causes.of({failed(2.5147)}, {}),
-            "because AxisX at 2.36 s: slave out of syncrange");
+  EXPECT_EQ(causes.of({failed(2.5147)}, {}), "because AxisX at 2.36 s: slave out of syncrange");
   Causes alone;
   alone.happened(told(2.5147, "knife", "tear", "", {{"mismatch", 102.165, "mm/s"}}));
   EXPECT_EQ(alone.of({failed(2.5147)}, {}), "after knife at 2.5147 s: it tore the web");
