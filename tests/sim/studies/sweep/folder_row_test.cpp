@@ -53,8 +53,11 @@ TEST_P(FolderRow, IsTheRowOfAWorker) {
   const auto worker = parse_row(of_worker).value();
   EXPECT_EQ(row.limit, worker.limit);
   EXPECT_EQ(row.rating, worker.rating);
-  for (std::size_t i = 0; i < row.numbers.size(); ++i)
+  for (std::size_t i = 0; i < row.numbers.size(); ++i) {
+    EXPECT_EQ(std::isnan(row.numbers[i]), std::isnan(worker.numbers[i])) << question.columns[i];
+    if (std::isnan(row.numbers[i])) continue;
     EXPECT_NEAR(row.numbers[i], worker.numbers[i], 1e-8 * std::abs(worker.numbers[i])) << question.columns[i];
+  }
 }
 INSTANTIATE_TEST_SUITE_P(OfBothFormats, FolderRow, testing::Values("csv", "hdf5"));
 
