@@ -53,6 +53,20 @@ struct DriveRatings {
 
   [[nodiscard]] double continuous(double speed) const;  ///< torque for ever: S1 [N m]
   [[nodiscard]] double peak(double speed) const;        ///< largest driving torque [N m]
+
+  bool operator==(const DriveRatings&) const = default;
+  /// Names every member to `archive`, as archive(key, member).
+  template <typename Archive, typename Self>
+  static void visit(Archive& archive, Self& self) {
+    archive("rotor_inertia", self.rotor_inertia);
+    archive("stall_torque", self.stall_torque);
+    archive("rated_torque", self.rated_torque);
+    archive("peak_torque", self.peak_torque);
+    archive("torque_at_max_speed", self.torque_at_max_speed);
+    archive("rated_speed", self.rated_speed);
+    archive("max_speed", self.max_speed);
+    archive("works_at_limit", self.works_at_limit);
+  }
 };
 
 /// What a drive has done since the start.

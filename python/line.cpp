@@ -187,13 +187,6 @@ py::list events_of(Line& line) {
   return events;
 }
 
-py::list checks_of(Line& line) {
-  py::list checks;
-  for (const auto& c : line.own().checks())
-    checks.append(py::make_tuple(c.name, "", c.passed, c.margin, c.unit, py::none(), c.detail));
-  return checks;
-}
-
 }  // namespace
 
 void add_line(py::module_& module) {
@@ -208,7 +201,7 @@ void add_line(py::module_& module) {
           .def(
               "unit", [](Line& line, const std::string& name) { return line.own().unit(name); }, "name"_a)
           .def("take_events", events_of)
-          .def("checks", checks_of);
+          .def("checks", [](Line& line) { return python_of(line.own().checks()); });
   for (auto& each : methods) {
     const auto made = py::reinterpret_steal<py::object>(
         PyDescr_NewMethod(reinterpret_cast<PyTypeObject*>(type.ptr()), &each));

@@ -8,12 +8,8 @@
 #include "python/shared.hpp"
 #include "sim/library.hpp"
 #include "sim/loop/simulation.hpp"
-#include "sim/output_folder.hpp"
-#include "sim/report/film.hpp"
-#include "sim/report/gallery.hpp"
 #include "sim/report/part_meshes.hpp"
-#include "sim/report/results.hpp"
-#include "sim/report/torque.hpp"
+#include "sim/report/run_folder.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/studies/bode/loop.hpp"
 #include "sim/time.hpp"
@@ -25,48 +21,6 @@ namespace {
 namespace report = sim::report;
 using Simulation = sim::loop::Simulation;
 
-/// What `drycut run` puts into the folder of a scenario, around a run of it.
-class RunFolder {
- public:
-  RunFolder(const sim::scenario::Scenario& scenario, Simulation& simulation,
-            const std::filesystem::path& folder)
-      : scenario_(scenario), simulation_(simulation) {
-    Problems problems;
-    meshes_ = report::load_part_meshes(scenario, simulation.plants(), problems);
-    auto names = report::picture_files;
-    names.insert(names.end(),
-                 {report::trace_file, report::events_file, report::checks_file, report::scenario_file});
-    folder_.emplace(folder, "run", names, problems);
-    refuse(problems);
-  }
-  /// An old verdict goes before a new one is made.
-  void begin() {
-    folder_->begin();
-    report::write_checks(report::outcome_to_come(), folder_->add(report::checks_file));
-    simulation_.follow_cams();
-    report::follow_torques(simulation_);
-    simulation_.write_to(folder_->add(report::trace_file), folder_->add(report::events_file));
-  }
-  /// Returns what was left out because a helper program is missing.
-  std::string finish(const sim::loop::Outcome& outcome) {
-    report::write_scenario(scenario_, folder_->add(report::scenario_file));
-    const auto film =
-        simulation_.snapshots().empty() ? renders::Film{} : report::film_of(scenario_, simulation_, meshes_);
-    const auto threads = std::max(1U, std::thread::hardware_concurrency());
-    auto left_out =
-        report::write_pictures(scenario_, simulation_, film, outcome, *folder_, static_cast<int>(threads),
-                               [](const char* /*doing*/, double /*done*/) { listen(); });
-    report::write_checks(outcome, folder_->add(report::checks_file));
-    return left_out;
-  }
-
- private:
-  const sim::scenario::Scenario& scenario_;
-  Simulation& simulation_;
-  report::PartMeshes meshes_;
-  std::optional<sim::OutputFolder> folder_;
-};
-
 sim::scenario::Scenario read_with_pictures(const std::filesystem::path& file, const Settings& set) {
   Problems problems;
   auto scenario = sim::scenario::read_scenario(file, overrides_of(set), problems);
@@ -75,24 +29,34 @@ sim::scenario::Scenario read_with_pictures(const std::filesystem::path& file, co
 }
 
 py::dict run(const std::filesystem::path& file, const Settings& set,
-             const std::optional<std::filesystem::path>& out) {
+             const std::optional<std::filesystem::path>& out, bool pictures) {
   std::optional<sim::scenario::Scenario> scenario;
   std::optional<Simulation> simulation;
-  sim::loop::Outcome outcome;
-  std::string left_out;
+  report::RunResult result;
+  report::RunLeft left;
   {
     const py::gil_scoped_release unlocked;
     scenario.emplace(out ? read_with_pictures(file, set) : sim::read_for_program(file, set));
     Problems problems;
     simulation.emplace(*scenario, problems);
     refuse(problems);
-    std::optional<RunFolder> folder;
-    if (out) folder.emplace(*scenario, *simulation, *out).begin();
-    outcome = simulation->run([](sim::Time) { listen(); });
-    if (folder) left_out = folder->finish(outcome);
+    if (out) {
+      const auto meshes = report::load_part_meshes(*scenario, simulation->plants(), problems);
+      report::RunFolder folder(*out, problems);
+      refuse(problems);
+      folder.begin();
+      report::RunRequest request;
+      request.pictures = pictures;
+      request.in_memory = true;
+      request.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+      request.progress = [](const char*, double) { listen(); };
+      left = folder.run(*scenario, *simulation, meshes, request, result);
+    } else {
+      result.outcome = simulation->run([](sim::Time) { listen(); });
+    }
   }
   auto notes = simulation->notes();
-  if (!left_out.empty()) notes.push_back("left out: " + left_out);
+  if (!left.left_out.empty()) notes.push_back("left out: " + left.left_out);
   py::dict columns;
   py::dict units;
   const auto& recording = simulation->recording();
@@ -108,12 +72,8 @@ py::dict run(const std::filesystem::path& file, const Settings& set,
     for (const auto& value : event.values) values[py::str(value.name)] = value.number;
     events.append(py::make_tuple(event.at_seconds(), event.source, event.event, values, event.text));
   }
-  py::list checks;
-  for (const auto& check : outcome.checks)
-    checks.append(py::make_tuple(check.name, check.expectation, check.passed, check.margin, check.unit,
-                                 check.at, check.detail));
-  return py::dict("passed"_a = outcome.passed(), "failure"_a = outcome.failure, "checks"_a = checks,
-                  "events"_a = events, "columns"_a = columns, "units"_a = units, "notes"_a = notes);
+  return py::dict("outcome"_a = python_of(result.outcome), "events"_a = events, "columns"_a = columns,
+                  "units"_a = units, "notes"_a = notes);
 }
 
 py::object at_frequency(const std::optional<sim::studies::AtFrequency>& margin) {
@@ -154,7 +114,7 @@ py::dict bode(const std::filesystem::path& file, const Settings& set,
 }  // namespace
 
 void add_runs(py::module_& module) {
-  module.def("run", run, "file"_a, "set"_a, "out"_a);
+  module.def("run", run, "file"_a, "set"_a, "out"_a, "pictures"_a);
   module.def(
       "bode",
       [](const std::filesystem::path& file, const Settings& set, const std::string& wire,

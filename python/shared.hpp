@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/problem.hpp"
+#include "sim/record/visit.hpp"
 #include "sim/scenario/scenario.hpp"
 
 // The extension under the Python package `drycut`: what the program does, with numbers for numpy. The package
@@ -52,6 +53,39 @@ auto column(const Items& items, Of of) {
   values.reserve(items.size());
   for (const auto& item : items) values.push_back(of(item));
   return values;
+}
+
+template <typename T>
+py::object python_of(const T& value);
+
+struct DictWriter {
+  py::dict dict;
+  template <typename T>
+  void operator()(const char* key, const T& member) {
+    dict[key] = python_of(member);
+  }
+};
+
+/// What came of a run as Python has it: a dict a visited value, None for what is not there, times in seconds.
+template <typename T>
+py::object python_of(const T& value) {
+  if constexpr (sim::record::Visited<T>) {
+    DictWriter writer;
+    T::visit(writer, value);
+    return std::move(writer.dict);
+  } else if constexpr (sim::record::is_optional<T>) {
+    return value ? python_of(*value) : py::none();
+  } else if constexpr (sim::record::is_list<T>) {
+    py::list list;
+    for (const auto& item : value) list.append(python_of(item));
+    return list;
+  } else if constexpr (sim::record::is_time<T>) {
+    return py::float_(sim::seconds(value));
+  } else if constexpr (std::is_enum_v<T>) {
+    return py::str(sim::record::word_of(value));
+  } else {
+    return py::cast(value);
+  }
 }
 
 // Each adds its part to the module.

@@ -140,11 +140,6 @@ std::vector<Event> Simulation::take_events() {
   return events;
 }
 
-std::vector<Check> Simulation::checks() {
-  std::vector<Check> checks;
-  for (const auto& result : run_->simulation.outcome().checks)
-    checks.push_back({result.name, result.passed, result.margin, result.unit, result.detail});
-  return checks;
-}
+std::vector<Check> Simulation::checks() { return run_->simulation.outcome().checks; }
 
 }  // namespace drycut

@@ -1,4 +1,5 @@
 #pragma once
+#include <drycut/check.hpp>
 #include <drycut/problem.hpp>
 
 #include <filesystem>
@@ -34,15 +35,6 @@ struct Event {
   std::string name;
   std::map<std::string, double> values = {};  ///< in the units that events.csv gives
   std::string text = {};                      ///< of a remark, "" = none
-};
-
-/// What a check of the scenario has come to.
-struct Check {
-  std::string name;
-  bool passed = false;
-  std::optional<double> margin = {};  ///< how far the worst moment was from the limit; negative: beyond it
-  std::string unit = {};              ///< of the margin, "" if it is none or mixed
-  std::string detail = {};            ///< in words
 };
 
 /// A scenario put together and run step by step: the controller with its program, the machine, wires,

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _core
 from ._problems import Path, Settings, check_folder, settings
@@ -30,18 +30,7 @@ class Event(NamedTuple):
     text: str
 
 
-class Check(NamedTuple):
-    """What a check of the scenario came to.
-
-    name         as the scenario has it
-    expectation  "each cut: abs(length - 800) <= 0.1, from 4 s"; "" of Simulation.checks()
-    passed       True where it holds
-    margin       how far the worst moment was from the limit; negative: beyond it; None: there is none to tell
-    unit         of the margin, "" = a pure number
-    at           the worst moment [s]; None: not known
-    detail       in words
-    """
-
+class _Check(NamedTuple):
     name: str
     expectation: str
     passed: bool
@@ -49,6 +38,37 @@ class Check(NamedTuple):
     unit: str
     at: float | None
     detail: str
+
+
+class Check(_Check):
+    """What a check of the scenario came to: a tuple of the first seven, the others are its attributes.
+
+    name         as the scenario has it
+    expectation  "each cut: abs(length - 800) <= 0.1, from 4 s"
+    passed       True where it holds
+    margin       how far the worst moment was from the limit; negative: beyond it; None: there is none to tell
+    unit         of the margin, "" = a pure number
+    at           the worst moment [s]; None: not known
+    detail       in words
+    failed_at    when it failed first [s]; None: it did not, or that can be said at the end only
+    used         share of the limit at the worst moment, above 1: beyond it; None: not known
+    tolerances   limits that it sets for values of events: dicts with event, value, low, high, from, until [s]
+    idle         it failed for it found nothing to judge
+    doubt        though it passed: why it may have judged nothing; "" = none
+    too_few      from when on there were too few of the events that it counts [s]; None: there were not
+    """
+
+    failed_at: float | None
+    used: float | None
+    tolerances: list[dict[str, Any]]
+    idle: bool
+    doubt: str
+    too_few: float | None
+
+    def __new__(cls, *args: Any, **named: Any) -> "Check":
+        check = super().__new__(cls, *args, **{key: named.pop(key) for key in cls._fields if key in named})
+        check.__dict__.update(named)
+        return check
 
 
 @dataclass
@@ -62,6 +82,7 @@ class Run:
     trace    numpy structured array, shape (instants,): field `time` [s], then a float64 field a recorded channel
     units    of the fields of `trace`, "" = a pure number
     notes    what a reader should know that is no fault
+    outcome  all that came of it, as in checks.json: end [s], cause, warnings, alarms, drives with their figures
     """
 
     passed: bool
@@ -71,27 +92,31 @@ class Run:
     trace: Table
     units: dict[str, str]
     notes: list[str]
+    outcome: dict[str, Any] = field(default_factory=dict)
 
     def frame(self) -> "pandas.DataFrame":
         """The trace as a pandas DataFrame over time [s]; units in its `attrs["units"]`. Needs pandas."""
         return frame(self.trace, self.units, "time")
 
 
-def run(file: Path, set: Settings | None = None, *, out: Path | None = None) -> Run:
+def run(file: Path, set: Settings | None = None, *, out: Path | None = None, pictures: bool = True) -> Run:
     """Runs a scenario from time zero to its end.
 
     file  scenario (.yaml)
     set   overrides, {"plants.web.speed": "80 m/min"}
-    out   folder for what `drycut run` puts into the scenario's own: trace.csv, events.csv, checks.json, report.html,
-          plots and film; else nothing is drawn or written
+    out   folder for what `drycut run` puts into the scenario's own, the same bytes: trace.csv and events.csv or
+          trace.h5, checks.json, report.html, plots and film, and retentive values into their file; else nothing is
+          drawn or written
+    pictures  False: no frames, plots or report, as --no-pictures
 
-    Retentive values are read and not written. Raises BadInput with all problems of the scenario and its programs.
+    Raises BadInput with all problems of the scenario and its programs.
     """
     check_folder(out)
-    got = _core.run(file, settings(set), out)
-    return Run(passed=got["passed"], failure=got["failure"], checks=[Check(*check) for check in got["checks"]],
+    got = _core.run(file, settings(set), out, pictures)
+    outcome = got["outcome"]
+    return Run(passed=outcome["passed"], failure=outcome["failure"], checks=[Check(**check) for check in outcome["checks"]],
                events=[Event(*event) for event in got["events"]], trace=table(got["columns"], got["units"]),
-               units=got["units"], notes=got["notes"])
+               units=got["units"], notes=got["notes"], outcome=outcome)
 
 
 class Simulation(_core.Simulation):
@@ -138,4 +163,4 @@ class Simulation(_core.Simulation):
 
     def checks(self) -> list[Check]:  # type: ignore[override]
         """The checks of the scenario as if the run ended now."""
-        return [Check(*check) for check in super().checks()]
+        return [Check(**check) for check in super().checks()]

@@ -85,7 +85,7 @@ std::vector<Annotation> annotations_of(const std::vector<report::RunResult>& res
     if (result.outcome.passed()) continue;
     for (const auto& alarm : result.outcome.alarms) {
       add(Annotation::Kind::warning, result.place_of(checks.size()),
-          fmt::format("{}: alarm of {}", result.name, alarm.source), loop::text_of(alarm));
+          fmt::format("{}: alarm of {}", result.name, alarm.source), record::text_of(alarm));
       all.back().lasting += ": " + alarm.text;
     }
   }

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "sim/file.hpp"
-#include "sim/records/own_file.hpp"
+#include "sim/record/own_file.hpp"
 #include "sim/studies/cluster/engine.hpp"
 
 namespace drycut::sim::cli {
@@ -93,7 +93,7 @@ void check_output(const char* option, const std::string& file, const InputFile& 
   else if (const auto why = hindrance(file); !why.empty())
     refuse(fmt::format("{} cannot be written: {}", file, why), "name another file");
   else if (!is_input && !replacing.force && fs::is_regular_file(file, ignored) &&
-           !records::is_own_file(file, replacing.header))
+           !record::is_own_file(file, replacing.header))
     refuse(fmt::format("{} is there already, and drycut did not write it", file),
            "name another file, or replace it with --force");
   const auto folder = fs::path(file).parent_path();

@@ -45,7 +45,7 @@ struct InputFile {
   std::filesystem::path file;
   std::string kind;  ///< "scenario", "table"
 };
-/// What an option's file may replace: what drycut wrote (records::is_own_file), all else only with --force.
+/// What an option's file may replace: what drycut wrote (record::is_own_file), all else only with --force.
 struct Replacing {
   bool force = false;
   std::string_view header = {};  ///< with which the first line of a table of its kind begins

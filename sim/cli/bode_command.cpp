@@ -56,13 +56,14 @@ Known known_gain(const studies::LoopResult& result, const studies::LimitCycle* c
 }
 
 /// The limits of the options and what there is.
-std::vector<loop::CheckResult> judged(const BodeOptions& options, const studies::LoopResult& result,
-                                      const studies::LimitCycle* cycle) {
-  std::vector<loop::CheckResult> checks;
+std::vector<record::CheckResult> judged(const BodeOptions& options, const studies::LoopResult& result,
+                                        const studies::LimitCycle* cycle) {
+  std::vector<record::CheckResult> checks;
   const auto judge = [&](const char* name, const std::optional<double>& limit, const Known& known,
                          const char* unit) {
     if (!limit) return;
-    loop::CheckResult check{name, fmt::format("{} >= {:g} {}", name, *limit, unit), false, {}, unit, {}, ""};
+    record::CheckResult check{name, fmt::format("{} >= {:g} {}", name, *limit, unit), false, {}, unit, {},
+                              ""};
     if (const auto& margin = known.margin) {
       check.passed = margin->value >= *limit;
       check.margin = margin->value - *limit;
@@ -78,7 +79,7 @@ std::vector<loop::CheckResult> judged(const BodeOptions& options, const studies:
 }
 
 /// "FAIL: the gain margin of 7.10 dB is below 12 dB".
-std::string judged_text(const loop::CheckResult& check) {
+std::string judged_text(const record::CheckResult& check) {
   const auto limit = check.expectation.substr(check.expectation.rfind(">= ") + 3);
   if (!check.margin) return fmt::format("FAIL: the {} is {}", check.name, check.detail);
   return fmt::format("{}: the {} of {} is {} {}", check.passed ? "PASS" : "FAIL", check.name,
@@ -89,7 +90,7 @@ std::string judged_text(const loop::CheckResult& check) {
 /// All that was asked for; `folder` may be null; `faults` are the lines that fail the measurement.
 void write(const BodeOptions& options, const scenario::Scenario& scenario, const studies::LoopResult& result,
            const studies::LimitCycle* cycle, const std::vector<std::string>& faults,
-           const std::vector<loop::CheckResult>& checks, OutputFolder* folder) {
+           const std::vector<record::CheckResult>& checks, OutputFolder* folder) {
   if (folder != nullptr)
     studies::write_bode_report(result, cycle, faults, checks, scenario::expand(scenario), *folder);
   if (result.sweep.points.empty()) return;

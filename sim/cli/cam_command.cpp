@@ -9,7 +9,7 @@
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/table_values.hpp"
 #include "sim/file.hpp"
-#include "sim/records/own_file.hpp"
+#include "sim/record/own_file.hpp"
 #include "sim/report/report.hpp"
 
 namespace drycut::sim::cli {
@@ -51,7 +51,7 @@ void write(const CamOptions& options, const cams::CamStudy& study) {
       write_file(options.csv, text);
   }
   if (!options.rows.empty() && !study.table.empty())
-    write_file(options.rows, fmt::format("## {} cam.\n{}", records::own_mark, study.table));
+    write_file(options.rows, fmt::format("## {} cam.\n{}", record::own_mark, study.table));
   if (!options.png.empty() && !study.plot.panels.empty()) report::draw_png(study.plot, options.png);
 }
 

@@ -27,13 +27,13 @@ std::optional<double> from_of(const CompareOptions& options, Problems& problems)
   return seconds(*time);
 }
 
-std::vector<studies::RunFolder> read_runs(const CompareOptions& options, Problems& problems) {
+std::vector<studies::ComparedRun> read_runs(const CompareOptions& options, Problems& problems) {
   if (options.runs.size() < 2) {
     problems.push_back({options.runs.empty() ? "compare" : options.runs[0].string(), 1, 1,
                         "one run alone is nothing to compare", "name two folders of runs or more"});
   }
   const auto labels = studies::labels_of(options.runs, problems);
-  std::vector<studies::RunFolder> runs;
+  std::vector<studies::ComparedRun> runs;
   for (std::size_t i = 0; i < options.runs.size(); ++i) {
     std::error_code ignored;
     if (fs::equivalent(options.out, options.runs[i], ignored))
@@ -46,8 +46,9 @@ std::vector<studies::RunFolder> read_runs(const CompareOptions& options, Problem
 }
 
 /// Its names are known when the runs have been read.
-studies::Allowances allowances_of(const CompareOptions& options, const std::vector<studies::RunFolder>& runs,
-                                  std::optional<double> from, Problems& problems) {
+studies::Allowances allowances_of(const CompareOptions& options,
+                                  const std::vector<studies::ComparedRun>& runs, std::optional<double> from,
+                                  Problems& problems) {
   auto allowances = studies::read_allowances(options.tolerances, problems);
   if (!problems.empty() || allowances.named.empty()) return allowances;
   std::vector<std::pair<std::string, std::string>> figures;

@@ -12,8 +12,8 @@
 #include "base/plain_text.hpp"
 #include "base/text.hpp"
 #include "sim/cli/arguments.hpp"
-#include "sim/records/csv_files.hpp"
-#include "sim/records/own_file.hpp"
+#include "sim/record/csv_files.hpp"
+#include "sim/record/own_file.hpp"
 #include "sim/studies/compare/run_folder.hpp"
 #include "sim/studies/convert.hpp"
 
@@ -40,15 +40,15 @@ void check_files(const ConvertOptions& options, const std::vector<fs::path>& fil
   std::error_code ignored;
   // Anybody's trace may begin with its time; drycut's is the one that has its events beside it.
   const auto& events = files.back();
-  const bool is_own_trace = files.size() > 1 && records::is_own_file(events, records::events_header);
-  const auto header = is_own_trace ? records::trace_header : records::events_header;
+  const bool is_own_trace = files.size() > 1 && record::is_own_file(events, record::events_header);
+  const auto header = is_own_trace ? record::trace_header : record::events_header;
   for (const auto& file : files) {
     if (options.out.empty() && fs::exists(file, ignored))
       problems.push_back({file.string(), 1, 1, "there is such a file already",
                           "name the file with --out: one that drycut wrote is replaced then"});
     else
       check_output("--out", file.string(), {options.run, "record"},
-                   {options.force, &file == &events ? records::events_header : header}, problems);
+                   {options.force, &file == &events ? record::events_header : header}, problems);
   }
 }
 
@@ -70,9 +70,9 @@ int convert_run(const ConvertOptions& options) {
                          ? file_beside(options.run, endings.at(static_cast<std::size_t>(format)))
                          : options.out;
     std::vector<fs::path> files = {out};
-    if (format == studies::RecordFormat::csv) files.push_back(records::events_beside(out));
+    if (format == studies::RecordFormat::csv) files.push_back(record::events_beside(out));
     check_files(options, files, problems);
-    auto record = problems.empty() ? studies::read_record(options.run, problems) : records::Record{};
+    auto record = problems.empty() ? studies::read_record(options.run, problems) : record::Record{};
     if (format == studies::RecordFormat::hdf5) studies::check_names(record, options.run, problems);
     if (problems.empty()) {
       try {
@@ -83,8 +83,8 @@ int convert_run(const ConvertOptions& options) {
       }
       std::string names;
       for (const auto& file : files) names += (names.empty() ? "" : ", ") + file.string();
-      if (!record.failure.empty())
-        fmt::print("note: the run did not come to its end: {}\n", printable(record.failure));
+      if (!record.outcome.failure.empty())
+        fmt::print("note: the run did not come to its end: {}\n", printable(record.outcome.failure));
       fmt::print("{} rows of {} channels, {} events: {}\n", record.recording.times().size(),
                  record.recording.columns().size(), record.recording.events().size(), names);
       return all_passed;

@@ -25,7 +25,7 @@
 #include "sim/live/port.hpp"
 #include "sim/live/server.hpp"
 #include "sim/live/session.hpp"
-#include "sim/loop/recorder.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::cli {
@@ -163,7 +163,7 @@ int run_line(const LiveOptions& options, const std::filesystem::path& opcua, liv
   const auto tell_loss = [&](const live::News& news) {
     if (news.record_lost.empty() || std::exchange(run_without_record, news.run) == news.run) return;
     fmt::print(stderr, "drycut live: the record has ended at {} s, the line goes on: {}\n",
-               loop::seconds_text(news.time), printable(news.record_lost));
+               record::seconds_text(news.time), printable(news.record_lost));
   };
   line.run({[&](auto news) {
               tell_loss(*news);

@@ -7,12 +7,12 @@
 #include <cstdlib>
 #include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "base/text.hpp"
+#include "sim/record/json.hpp"
 #include "sim/studies/fingerprint.hpp"
 
 namespace drycut::sim::cli {
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 using nlohmann::json;
-using nlohmann::ordered_json;
+using record::Json;
 
 constexpr auto* entry_file = "entry.json";
 
@@ -66,73 +66,24 @@ json helpers() {
   return files;
 }
 
-ordered_json json_of(const std::vector<loop::CheckResult>& checks) {
-  auto all = ordered_json::array();
-  for (const auto& check : checks) {
-    all.push_back({{"name", check.name},
-                   {"expectation", check.expectation},
-                   {"passed", check.passed},
-                   {"unit", check.unit},
-                   {"detail", check.detail}});
-    if (check.margin) all.back()["margin"] = *check.margin;
-    if (check.at) all.back()["at"] = *check.at;
-    if (check.failed_at) all.back()["failed_at"] = *check.failed_at;
-  }
-  return all;
-}
-
-std::optional<double> number_of(const ordered_json& json, const char* key) {
-  return json.contains(key) ? std::optional(json.at(key).get<double>()) : std::nullopt;
-}
-
-std::vector<loop::CheckResult> checks_of(const ordered_json& json) {
-  std::vector<loop::CheckResult> checks;
-  for (const auto& check : json)
-    checks.push_back({check.at("name"), check.at("expectation"), check.at("passed"),
-                      number_of(check, "margin"), check.at("unit"), number_of(check, "at"),
-                      check.at("detail"), number_of(check, "failed_at")});
-  return checks;
-}
-
-ordered_json json_of(const KeptRun& run) {
-  ordered_json json = {{"end", run.outcome.end},     {"checks", json_of(run.outcome.checks)},
-                       {"cause", run.outcome.cause}, {"warnings", run.outcome.warnings},
-                       {"notes", run.notes},         {"has_report", run.has_report},
-                       {"scene", run.scene}};
-  json["alarms"] = ordered_json::array();
-  for (const auto& [at, source, text] : run.outcome.alarms) json["alarms"].push_back({at, source, text});
-  if (const auto& half = run.outcome.half_step)
-    json["half_step"] = {{"step", half->step}, {"failure", half->failure}, {"checks", json_of(half->checks)}};
-  return json;
-}
-
-KeptRun run_of(const ordered_json& json) {
-  KeptRun run;
-  run.outcome.end = json.at("end");
-  run.outcome.checks = checks_of(json.at("checks"));
-  run.outcome.cause = json.at("cause");
-  run.outcome.warnings = json.at("warnings").get<std::vector<std::string>>();
-  for (const auto& alarm : json.at("alarms"))
-    run.outcome.alarms.push_back({alarm.at(0), alarm.at(1), alarm.at(2)});
-  run.has_report = json.at("has_report");
-  run.notes = json.at("notes").get<std::vector<std::string>>();
-  run.scene = json.at("scene");
-  if (json.contains("half_step")) {
-    const auto& half = json.at("half_step");
-    run.outcome.half_step = {half.at("step"), half.at("failure"), checks_of(half.at("checks"))};
-  }
-  return run;
+/// What a run has listed, in the order in which it did: a hit lists it likewise.
+std::vector<std::string> listed_by_run(const OutputFolder& folder) {
+  std::vector<std::string> names;
+  std::ifstream manifest(folder.path() / ".drycut-run");
+  for (std::string line; std::getline(manifest, line);)
+    if (folder.listed().contains(line)) names.push_back(line);
+  return names;
 }
 
 /// The entry as it was kept, with all its files; nullopt if anything of it is another.
-std::optional<ordered_json> sound_entry(const fs::path& entry, const std::string& inputs) {
+std::optional<Json> sound_entry(const fs::path& entry, const std::string& inputs) {
   Problems ignored;
   constexpr std::uintmax_t largest = 64U << 20U;
   const auto text = read_file(entry / entry_file, ignored, largest);
   if (!text) return {};
   const auto end = text->find('\n');  // of the first line: the fingerprint of the others
   if (end == std::string::npos || text->substr(0, end) != fingerprint_of(text->substr(end + 1))) return {};
-  auto json = ordered_json::parse(text->substr(end + 1));
+  auto json = Json::parse(text->substr(end + 1));
   if (json.at("inputs") != inputs) return {};
   for (const auto& [name, fingerprint] : json.at("files").items()) {
     const bool is_inside = !name.starts_with('/') && name.find("..") == std::string::npos;
@@ -196,7 +147,8 @@ std::optional<KeptRun> RunCache::take(const std::string& inputs, OutputFolder& t
   try {
     const auto json = sound_entry(entry, inputs);
     if (!json) return {};
-    auto run = run_of(json->at("run"));
+    KeptRun run;
+    record::take_json(json->at("run"), run);
     for (const auto& [name, fingerprint] : json->at("files").items())
       fs::copy_file(entry / "files" / name, to.add(name), fs::copy_options::overwrite_existing);
     std::error_code ignored;
@@ -214,14 +166,14 @@ void RunCache::keep(const std::string& inputs, const OutputFolder& from, const K
   const auto begun = fs::path(fmt::format("{}.{}", entry.string(), getpid()));
   std::error_code error;
   const std::shared_ptr<void> remains(nullptr, [&](void*) { fs::remove_all(begun, error); });
-  ordered_json json = {{"inputs", inputs}, {"run", json_of(run)}};
-  for (const auto& name : from.listed()) {
+  Json json = {{"inputs", inputs}, {"run", record::json_of(run)}};
+  for (const auto& name : listed_by_run(from)) {
     const auto copy = begun / "files" / name;
     fs::create_directories(copy.parent_path());
     fs::copy_file(from.path() / name, copy, fs::copy_options::overwrite_existing);
     json["files"][name] = fingerprint_of_file(copy);
   }
-  const auto text = json.dump(2) + "\n";
+  const auto text = record::json_text(json, 2) + "\n";
   write_file(begun / entry_file, fingerprint_of(text) + "\n" + text);
   fs::remove_all(entry);            // a damaged one
   fs::rename(begun, entry, error);  // unless another process has kept the same

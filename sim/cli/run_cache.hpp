@@ -26,10 +26,18 @@ std::string inputs_of_run(const scenario::Scenario& scenario, const FileSet& fil
 
 /// What a run left beside its files.
 struct KeptRun {
-  loop::Outcome outcome;
+  record::Outcome outcome;
   bool has_report = false;
   std::vector<std::string> notes;
   std::string scene;  ///< name of the glTF file, "" = none
+
+  template <typename Archive, typename Self>
+  static void visit(Archive& archive, Self& self) {
+    archive("outcome", self.outcome);
+    archive("has_report", self.has_report);
+    archive("notes", self.notes);
+    archive("scene", self.scene);
+  }
 };
 
 /// Results of runs, kept by what determines them: a folder an entry, DIR/FINGERPRINT. An entry takes its name

@@ -12,7 +12,6 @@
 #include <thread>
 
 #include "base/plain_text.hpp"
-#include "renders/gltf.hpp"
 #include "sim/cli/annotations.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/progress.hpp"
@@ -24,20 +23,13 @@
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/parallel.hpp"
-#include "sim/records/run_files.hpp"
-#include "sim/report/film.hpp"
-#include "sim/report/gallery.hpp"
 #include "sim/report/index.hpp"
 #include "sim/report/results.hpp"
-#include "sim/report/torque.hpp"
 #include "sim/studies/compare/scene_run.hpp"
-#include "sim/studies/half_step.hpp"
 
 namespace drycut::sim::cli {
 
 namespace {
-
-std::string scene_file_of(const Job& job) { return job.result.directory.filename().string() + ".glb"; }
 
 /// Takes the folders of all results; what lies in them and is not ours is told before anything runs.
 void open_folders(Work& work, const RunOptions& options, Problems& problems) {
@@ -54,14 +46,7 @@ void open_folders(Work& work, const RunOptions& options, Problems& problems) {
     work.between.emplace_back(options.out / name, "runs", std::vector<std::string>{}, problems);
   for (auto& group : work.groups)
     group.folder.emplace(group.result.directory, "compare", studies::comparison_files, problems);
-  for (auto& job : work.jobs) {
-    auto names = report::picture_files;
-    for (const auto* name : {report::trace_file, report::events_file, report::hdf5_file, report::checks_file,
-                             report::scenario_file})
-      names.emplace_back(name);
-    names.push_back(scene_file_of(*job));
-    job->folder.emplace(job->result.directory, "run", names, problems);
-  }
+  for (auto& job : work.jobs) job->folder.emplace(job->result.directory, problems);
 }
 
 /// What nothing has run for must not be taken for this call's: a verdict over all, which a machine reads.
@@ -80,10 +65,7 @@ void begin(Work& work) {
   work.folder->begin();
   for (auto& folder : work.between) folder.begin();
   for (auto& group : work.groups) group.folder->begin();
-  for (auto& job : work.jobs) {
-    job->folder->begin();
-    report::write_checks(report::outcome_to_come(), job->folder->add(report::checks_file));
-  }
+  for (auto& job : work.jobs) job->folder->begin();
 }
 
 /// Takes the results from the cache if it has them.
@@ -91,11 +73,11 @@ bool is_unchanged(Job& job, const RunCache& cache, const RunOptions& options) {
   job.inputs =
       inputs_of_run(job.scenario, job.files,
                     {job.result.name, options.pictures, options.gltf, options.verify_step, options.strict});
-  auto kept = cache.take(job.inputs, *job.folder);
+  auto kept = cache.take(job.inputs, job.folder->files());
   if (!kept) return false;
   job.result.outcome = std::move(kept->outcome);
   job.result.has_report = kept->has_report;
-  if (!kept->scene.empty()) job.scene = job.result.directory / kept->scene;
+  if (!kept->scene.empty()) job.left.scene = job.result.directory / kept->scene;
   job.kept_notes = std::move(kept->notes);
   return true;
 }
@@ -103,11 +85,12 @@ bool is_unchanged(Job& job, const RunCache& cache, const RunOptions& options) {
 /// Keeps what the next run of the same would leave again. What it has left out it might not leave out then.
 /// The verdict stands where it cannot be kept.
 void keep(Job& job, const RunCache& cache) {
-  if (!job.result.outcome.failure.empty() || !job.left_out.empty() || InterruptWatch::come() != 0) return;
+  if (!job.result.outcome.failure.empty() || !job.left.left_out.empty() || InterruptWatch::come() != 0)
+    return;
   try {
-    cache.keep(
-        job.inputs, *job.folder,
-        {job.result.outcome, job.result.has_report, job.simulation->notes(), job.scene.filename().string()});
+    cache.keep(job.inputs, job.folder->files(),
+               {job.result.outcome, job.result.has_report, job.simulation->notes(),
+                job.left.scene.filename().string()});
   } catch (const std::exception& error) {
     job.notes.push_back(fmt::format("not kept in the cache: {}", drycut::words_of(error)));
   }
@@ -115,52 +98,18 @@ void keep(Job& job, const RunCache& cache) {
 
 void run_job(Job& job, const RunOptions& options, int threads,
              const std::function<void(const char*, double)>& progress) {
-  auto& folder = *job.folder;
   using Clock = std::chrono::steady_clock;
-  const auto since = [begun = Clock::now()] {
-    return std::chrono::duration<double>(Clock::now() - begun).count();
-  };
-  const auto duration = static_cast<double>(job.scenario.scene.duration);
-  if (options.pictures) {
-    job.simulation->follow_cams();
-    report::follow_torques(*job.simulation);
-  }
-  if (!options.pictures && !options.gltf) job.simulation->keep_nothing();
-  records::RunFiles files(job.scenario, *job.simulation, folder);
-  job.result.outcome = job.simulation->run([&](Time now) {
-    progress("running", static_cast<double>(now) / duration);
-    if (InterruptWatch::come() != 0)
-      job.simulation->stop(
-          fmt::format("interrupted at {} s; what was recorded until then is kept", loop::seconds_text(now)));
-  });
-  auto& outcome = job.result.outcome;
-  if (options.strict && !outcome.warnings.empty() && outcome.failure.empty())
-    outcome.checks.push_back(report::no_warnings(outcome));
-  job.simulating = since();
-  if (job.half && InterruptWatch::come() == 0)
-    job.result.outcome.half_step = studies::run_half_step(std::move(*job.half), [&](Time now) {
-      progress("at half the step", static_cast<double>(now) / duration);
-    });
-  report::write_scenario(job.scenario, folder.add(report::scenario_file));
-  loop::keep_retentive(job.scenario, job.simulation->retentive_state());
-  files.finish(job.result.outcome);
-  const auto finished = [&] {
-    report::write_checks(job.result.outcome, folder.add(report::checks_file));
-    job.took = since();
-  };
-  if (!options.pictures && !options.gltf) return finished();
-  const auto film = job.simulation->snapshots().empty()
-                        ? renders::Film{}
-                        : report::film_of(job.scenario, *job.simulation, job.meshes);
-  if (options.gltf && !film.frames.empty()) {
-    job.scene = folder.add(scene_file_of(job));
-    renders::write_gltf(film, job.scene, job.scenario.pictures.slow);
-  }
-  if (!options.pictures) return finished();
-  job.left_out = report::write_pictures(job.scenario, *job.simulation, film, job.result.outcome, folder,
-                                        threads, progress);
-  job.result.has_report = true;
-  finished();
+  const auto begun = Clock::now();
+  report::RunRequest request;
+  request.pictures = options.pictures;
+  request.gltf = options.gltf;
+  request.strict = options.strict;
+  request.half = job.half ? &*job.half : nullptr;
+  request.threads = threads;
+  request.progress = progress;
+  request.is_interrupted = [] { return InterruptWatch::come() != 0; };
+  job.left = job.folder->run(job.scenario, *job.simulation, job.meshes, request, job.result);
+  job.took = std::chrono::duration<double>(Clock::now() - begun).count();
 }
 
 void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options) {
@@ -198,7 +147,7 @@ void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options)
 /// Compares the members of a scene from the files that they left.
 void run_group(Group& group, bool pictures) {
   Problems problems;
-  std::vector<studies::RunFolder> runs;
+  std::vector<studies::ComparedRun> runs;
   for (std::size_t i = 0; i < group.members.size(); ++i) {
     runs.push_back(studies::read_run(group.members[i]->result.directory, problems));
     runs.back().label = group.scene.members[i].name.text;
@@ -225,7 +174,7 @@ void run_groups(std::vector<Group>& groups, bool pictures) {
 int status_of(const Work& work) {
   if (!work.refused.empty()) return bad_input;
   int status = all_passed;
-  const auto take = [&](const std::string& trouble, const loop::Outcome& outcome) {
+  const auto take = [&](const std::string& trouble, const record::Outcome& outcome) {
     if (!trouble.empty() || !outcome.failure.empty()) {
       status = simulation_failed;
     } else if (!outcome.passed() && status == all_passed) {

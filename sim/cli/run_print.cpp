@@ -17,7 +17,7 @@ std::string verdict(bool passed, std::string_view word) {
 }
 
 /// Of a run that stopped nothing is ok that has only held so far.
-void print_checks(const std::vector<loop::CheckResult>& checks, Say say, bool stopped) {
+void print_checks(const std::vector<record::CheckResult>& checks, Say say, bool stopped) {
   for (const auto& check : checks) {
     if (say == Say::failures && check.passed) continue;
     const auto margin = report::margin_text(check);
@@ -63,12 +63,13 @@ void print_result(const Job& job, Say say) {
                                                                             : "FAILED";
   fmt::print("{}: {}, {} ({} s simulated{})\n", printable(result.name), verdict(passed, word),
              job.trouble.empty() ? report::verdict_text(result.outcome) : job.trouble,
-             loop::seconds_text(result.outcome.end), job.kept_notes ? " earlier; unchanged" : "");
+             record::seconds_text(result.outcome.end), job.kept_notes ? " earlier; unchanged" : "");
   print_checks(result.outcome.checks, say, !job.trouble.empty() || !result.outcome.failure.empty());
   if (say == Say::failures) return print_place(result);
   if (say == Say::more && !job.kept_notes)
     fmt::print("  simulated in {:.2f} s, {:.0f} times as fast as the machine; all of it took {:.2f} s\n",
-               job.simulating, seconds(result.outcome.end) / std::max(job.simulating, 1e-6), job.took);
+               job.left.simulating, seconds(result.outcome.end) / std::max(job.left.simulating, 1e-6),
+               job.took);
   if (result.outcome.half_step) {
     const auto margins = studies::margin_table(result.outcome, job.scenario.scene.step);
     if (!margins.rows.empty())
@@ -78,8 +79,8 @@ void print_result(const Job& job, Say say) {
   for (const auto& note : job.notes) fmt::print("  note {}\n", printable(note));
   for (const auto& note : job.kept_notes ? *job.kept_notes : job.simulation->notes())
     fmt::print("  note {}\n", printable(note));
-  if (!job.left_out.empty()) fmt::print(stderr, "left out: {}\n", job.left_out);
-  if (!job.scene.empty()) fmt::print("  3D scene: {}\n", job.scene.string());
+  if (!job.left.left_out.empty()) fmt::print(stderr, "left out: {}\n", job.left.left_out);
+  if (!job.left.scene.empty()) fmt::print("  3D scene: {}\n", job.left.scene.string());
   print_place(result);
 }
 

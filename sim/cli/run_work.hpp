@@ -12,6 +12,7 @@
 #include "sim/output_folder.hpp"
 #include "sim/report/film.hpp"
 #include "sim/report/results.hpp"
+#include "sim/report/run_folder.hpp"
 #include "sim/studies/compare/scene_run.hpp"
 
 namespace drycut::sim::cli {
@@ -26,15 +27,13 @@ struct Job {
   std::unique_ptr<loop::Simulation> simulation;
   report::PartMeshes meshes;
   report::RunResult result;
-  std::optional<OutputFolder> folder;
+  std::optional<report::RunFolder> folder;
+  report::RunLeft left;
   std::vector<std::string> notes;                      ///< of what was read
   std::string inputs;                                  ///< all that determines its results, with --cache
   std::optional<std::vector<std::string>> kept_notes;  ///< it was not run: its results are those of a cache
   std::string trouble;                                 ///< a result could not be written
-  std::string left_out;         ///< because a helper program is missing, and what to install
-  std::filesystem::path scene;  ///< the glTF file, "" = none
-  double simulating = 0;        ///< [s] of the clock, the run alone
-  double took = 0;              ///< [s] of the clock, to the last picture
+  double took = 0;                                     ///< [s] of the clock, to the last picture
 };
 
 /// A scene that compares some of the jobs.

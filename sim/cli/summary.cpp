@@ -69,7 +69,7 @@ class Text {
     if (summary_.links && result.has_report)
       name = fmt::format("[{}]({})", name, link(result.directory / "report.html"));
     text_ += fmt::format("| {} | {} | {} of {} | {} s |\n", name, verdict(result), passed, checks.size(),
-                         loop::seconds_text(result.outcome.end));
+                         record::seconds_text(result.outcome.end));
   }
 
   void warnings(const std::vector<report::RunResult>& results) {

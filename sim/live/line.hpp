@@ -39,11 +39,11 @@ struct News {
   std::string failure;      ///< the simulation itself cannot go on
   std::string record_lost;  ///< why the record has ended while the line goes on, "" = it has not
   Punctuality punctuality;
-  std::vector<plants::PartPose> poses;      ///< as LineDescription::parts
-  std::vector<double> values;               ///< as LineDescription::targets
-  std::vector<double> lamps;                ///< as LineDescription::lamps
-  std::vector<loop::RecordedEvent> events;  ///< since the last news
-  std::size_t events_left_out = 0;          ///< there were so many more
+  std::vector<plants::PartPose> poses;        ///< as LineDescription::parts
+  std::vector<double> values;                 ///< as LineDescription::targets
+  std::vector<double> lamps;                  ///< as LineDescription::lamps
+  std::vector<record::RecordedEvent> events;  ///< since the last news
+  std::size_t events_left_out = 0;            ///< there were so many more
   struct Samples {
     std::shared_ptr<const std::vector<std::string>> names;  ///< in their order
     std::vector<Time> times;
@@ -51,7 +51,7 @@ struct News {
   };
   Samples samples;                                    ///< since the last news
   std::optional<devices::ProgramPositions> programs;  ///< if anybody wants to know
-  std::optional<loop::Outcome> outcome;               ///< of the checks as if it ended now; twice a second
+  std::optional<record::Outcome> outcome;             ///< of the checks as if it ended now; twice a second
 };
 
 /// What there is to see and to set; of one run.

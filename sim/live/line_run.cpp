@@ -155,7 +155,7 @@ Problems LineRun::act(const scenario::Stimulus& stimulus) {
 
 // A master that writes registers as fast as it can makes events by the thousand: those do not displace what
 // the machine reports.
-void LineRun::happened(const loop::RecordedEvent& event) {
+void LineRun::happened(const record::RecordedEvent& event) {
   auto& kept = event.source == "timeline" ? done_ : events_;
   kept.push_back(event);
   if (kept.size() > most_told) {

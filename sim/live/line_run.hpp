@@ -14,7 +14,7 @@
 namespace drycut::sim::live {
 
 /// One run of a live line, from time zero: the simulation, its record, and what is seen of it.
-class LineRun : public loop::Observer {
+class LineRun : public record::Observer {
  public:
   /// May be used if there are no problems.
   LineRun(const Line::Options& options, Problems& problems);
@@ -45,7 +45,7 @@ class LineRun : public loop::Observer {
   Problems act(const scenario::Stimulus& stimulus);
   [[nodiscard]] loop::Simulation& simulation() { return *simulation_; }
 
-  void happened(const loop::RecordedEvent& event) override;
+  void happened(const record::RecordedEvent& event) override;
   /// From now on seen() tells whether such an event has happened; "" = any. A problem if nothing reports it.
   Problems await(const std::string& event);
   [[nodiscard]] bool seen() const { return seen_; }
@@ -60,7 +60,7 @@ class LineRun : public loop::Observer {
 
   /// What is to be seen now, and what has come since it was told last.
   void tell(News& news);
-  [[nodiscard]] loop::Outcome outcome() { return simulation_->outcome(); }
+  [[nodiscard]] record::Outcome outcome() { return simulation_->outcome(); }
   std::shared_ptr<const LineDescription> describe();
 
  private:
@@ -88,8 +88,8 @@ class LineRun : public loop::Observer {
   std::vector<loop::Target> targets_;  ///< what an operator sets: switches of the panel, settings of plants
   std::vector<loop::Reading> lamps_;
   // What has happened since it was told last, the latest of it.
-  std::deque<loop::RecordedEvent> done_;    ///< by the timeline
-  std::deque<loop::RecordedEvent> events_;  ///< the others
+  std::deque<record::RecordedEvent> done_;    ///< by the timeline
+  std::deque<record::RecordedEvent> events_;  ///< the others
   std::size_t events_left_out_ = 0;
   std::optional<std::string> awaited_;
   bool seen_ = false;

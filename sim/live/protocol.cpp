@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.hpp"
+#include "sim/record/json.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::live {
@@ -22,9 +23,7 @@ double rounded(double number, double unit) {
   return std::isfinite(number) ? std::round(number / unit) * unit : 0;
 }
 
-std::string text_of(const ordered_json& json) {
-  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-}
+using record::json_text;
 
 ordered_json list_of(const Problems& problems) {
   auto list = ordered_json::array();
@@ -62,7 +61,7 @@ class Parser {
 
  private:
   std::optional<decltype(Request::what)> read_act(const ordered_json& act) {
-    auto text = text_of(act);
+    auto text = json_text(act);
     if (text.size() <= most_of_act) return Act{std::move(text)};
     refuse(fmt::format("an act of {} bytes", text.size()),
            fmt::format("{} at most; make several of it", most_of_act));
@@ -133,21 +132,21 @@ class Parser {
 };
 
 /// [["length", 800.1, "mm"], ["number", 3, ""]]
-ordered_json numbers_json(const loop::RecordedEvent& event) {
+ordered_json numbers_json(const record::RecordedEvent& event) {
   auto list = ordered_json::array();
   for (const auto& [name, number, unit] : event.values)
     list.push_back({name, std::isfinite(number) ? ordered_json(number) : ordered_json(), unit});
   return list;
 }
 
-ordered_json events_json(const std::vector<loop::RecordedEvent>& events) {
+ordered_json events_json(const std::vector<record::RecordedEvent>& events) {
   auto list = ordered_json::array();
   for (const auto& event : events)
     list.push_back({{"time", event.at_seconds()},
                     {"source", event.source},
                     {"event", event.event},
                     {"severity", name_of(event.severity)},
-                    {"values", loop::values_text(event, 6)},
+                    {"values", record::values_text(event, 6)},
                     {"numbers", numbers_json(event)}});
   return list;
 }
@@ -183,22 +182,6 @@ ordered_json positions_json(const devices::ProgramPositions& positions) {
                      {"doing", task.doing},
                      {"calls", task.calls}});
   return {{"tasks", tasks}, {"scanned", positions.scanned}};
-}
-
-ordered_json drive_json(const loop::DriveVerdict& drive) {
-  auto figures = ordered_json::array();
-  for (const auto& figure : drive.figures)
-    figures.push_back({{"name", figure.name}, {"share", figure.share}});
-  return {{"name", drive.drive}, {"holds", drive.holds()}, {"figures", figures}};
-}
-
-ordered_json outcome_json(const loop::Outcome& outcome) {
-  auto checks = ordered_json::array();
-  for (const auto& check : outcome.checks)
-    checks.push_back({{"name", check.name}, {"passed", check.passed}, {"detail", check.detail}});
-  auto drives = ordered_json::array();
-  for (const auto& drive : outcome.drives) drives.push_back(drive_json(drive));
-  return {{"checks", checks}, {"drives", drives}};
 }
 
 ordered_json channel_json(const LineDescription::Channel& channel) {
@@ -261,24 +244,24 @@ std::string description_json(const LineDescription& line) {
     plants.push_back({{"name", plant.name}, {"type", plant.type}, {"web", plant.web}, {"cuts", plant.cuts}});
   auto programs = ordered_json::array();
   for (const auto& program : line.programs) programs.push_back(program_json(program));
-  return text_of({{"line",
-                   {{"process", line.process},
-                    {"run", line.run},
-                    {"title", line.title},
-                    {"scenario", line.scenario},
-                    {"step", seconds(line.step)},
-                    {"duration", seconds(line.duration)},
-                    {"targets", targets},
-                    {"lamps", line.lamps},
-                    {"faults", faults},
-                    {"channels", channels},
-                    {"plants", plants},
-                    {"controller", line.controller},
-                    {"opcua", opcua_json(line.opcua)},
-                    {"parts", line.parts},
-                    {"checks", line.checks},
-                    {"programs", programs},
-                    {"notes", line.notes}}}});
+  return json_text({{"line",
+                     {{"process", line.process},
+                      {"run", line.run},
+                      {"title", line.title},
+                      {"scenario", line.scenario},
+                      {"step", seconds(line.step)},
+                      {"duration", seconds(line.duration)},
+                      {"targets", targets},
+                      {"lamps", line.lamps},
+                      {"faults", faults},
+                      {"channels", channels},
+                      {"plants", plants},
+                      {"controller", line.controller},
+                      {"opcua", opcua_json(line.opcua)},
+                      {"parts", line.parts},
+                      {"checks", line.checks},
+                      {"programs", programs},
+                      {"notes", line.notes}}}});
 }
 
 std::string news_json(const News& news) {
@@ -298,8 +281,8 @@ std::string news_json(const News& news) {
   if (news.events_left_out > 0) json["left_out"] = news.events_left_out;
   if (!news.events.empty()) json["events"] = events_json(news.events);
   if (news.programs) json["programs"] = positions_json(*news.programs);
-  if (news.outcome) json["outcome"] = outcome_json(*news.outcome);
-  return text_of({{"news", std::move(json)}});
+  if (news.outcome) json["outcome"] = record::json_of(*news.outcome);
+  return json_text({{"news", std::move(json)}});
 }
 
 bool knows(const News::Samples& samples, const Sample& wanted) {
@@ -331,7 +314,7 @@ std::string samples_json(const News::Samples& samples, const Sample& wanted) {
   const auto last = samples.times.size() - 1;
   auto names = ordered_json::array();
   for (std::size_t item = 0; item < sampled; ++item) names.push_back(wanted.names[item]);
-  text = R"({"samples":{"names":)" + text_of(names) + R"(,"times":[)";
+  text = R"({"samples":{"names":)" + json_text(names) + R"(,"times":[)";
   if (sampled > 0)
     for (const auto time : samples.times) put(seconds(time));
   text += R"(],"rows":[)";
@@ -339,14 +322,14 @@ std::string samples_json(const News::Samples& samples, const Sample& wanted) {
     for (std::size_t item = 0; item < sampled; ++item) put(value(row, item));
   text += R"(],"watched":{)";
   for (std::size_t item = sampled; item < columns.size(); ++item) {
-    text += (item == sampled ? "" : ",") + text_of(wanted.names[item]) + ":";
+    text += (item == sampled ? "" : ",") + json_text(wanted.names[item]) + ":";
     put(value(last, item));
   }
   return text + "}}}";
 }
 
 std::string busy_json(double id) {
-  return text_of(
+  return json_text(
       {{"done", id},
        {"busy", true},
        {"problems",
@@ -356,14 +339,14 @@ std::string busy_json(double id) {
 }
 
 std::string answer_json(double id, const Problems& problems) {
-  return text_of({{"done", id}, {"problems", list_of(problems)}});
+  return json_text({{"done", id}, {"problems", list_of(problems)}});
 }
 
 std::string values_json(double id, const Problems& problems, const std::vector<double>& values) {
   auto list = ordered_json::array();
   for (const double value : values)
     list.push_back(std::isfinite(value) ? ordered_json(value) : ordered_json());
-  return text_of({{"done", id}, {"problems", list_of(problems)}, {"values", std::move(list)}});
+  return json_text({{"done", id}, {"problems", list_of(problems)}, {"values", std::move(list)}});
 }
 
 }  // namespace drycut::sim::live

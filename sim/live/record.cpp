@@ -32,7 +32,7 @@ fs::path next_in(const fs::path& folder) {
 }  // namespace
 
 Record::Record(const fs::path& folder, const scenario::Scenario& scenario, std::uint64_t fingerprint,
-               const loop::Recording& recording) {
+               const record::Recording& recording) {
   write([&] {
     folder_ = next_in(folder);
     session_.emplace(folder_ / session_file, scenario, fingerprint);
@@ -53,7 +53,7 @@ void Record::sample(Time time) {
   write([&] { files_->sample(time); });
 }
 
-void Record::happened(const loop::RecordedEvent& event) {
+void Record::happened(const record::RecordedEvent& event) {
   write([&] { files_->happened(event); });
 }
 

@@ -5,23 +5,23 @@
 #include <string>
 
 #include "sim/live/session.hpp"
-#include "sim/loop/observer.hpp"
-#include "sim/loop/recorder.hpp"
-#include "sim/loop/trace_files.hpp"
+#include "sim/record/observer.hpp"
+#include "sim/record/recording.hpp"
+#include "sim/record/trace_files.hpp"
 
 namespace drycut::sim::live {
 
 /// What a live run writes: its session, its trace and its events. When one of them cannot be written any more
 /// (a full disk), the record ends there, in whole lines, and the run goes on without.
-class Record final : public loop::Observer {
+class Record final : public record::Observer {
  public:
   /// In a new folder in `folder`, which has the next number. `recording` has all its channels and outlives
   /// this.
   Record(const std::filesystem::path& folder, const scenario::Scenario& scenario, std::uint64_t fingerprint,
-         const loop::Recording& recording);
+         const record::Recording& recording);
 
   void sample(Time time) override;
-  void happened(const loop::RecordedEvent& event) override;
+  void happened(const record::RecordedEvent& event) override;
   /// Everything is in the files.
   void finish() override;
   /// Something was done to the line.
@@ -38,7 +38,7 @@ class Record final : public loop::Observer {
 
   std::filesystem::path folder_;
   std::optional<SessionFile> session_;
-  std::optional<loop::TraceFiles> files_;
+  std::optional<record::TraceFiles> files_;
   std::string lost_;
 };
 

@@ -8,7 +8,7 @@
 
 #include "sim/file.hpp"
 #include "sim/loop/controller_loader.hpp"
-#include "sim/records/own_file.hpp"
+#include "sim/record/own_file.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/forms.hpp"
@@ -307,7 +307,7 @@ std::string scenario_of_session(const std::filesystem::path& file, const std::fi
   const auto base =
       std::filesystem::proximate(scenario.file, std::filesystem::absolute(to).parent_path(), unknown);
   return fmt::format("# {} replay: the session {} as a scenario\nextends: {}\nscene: {{duration: {}}}\n",
-                     records::own_mark, file.string(),
+                     record::own_mark, file.string(),
                      scenario::yaml_text((unknown ? scenario.file : base).string()),
                      scenario::format_time(std::max(replay->reached, scenario.scene.step))) +
          scenario::yaml_of([&](scenario::Archive& archive) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "sim/loop/trace_files.hpp"
+#include "sim/record/trace_files.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::live {
@@ -54,7 +54,7 @@ class SessionFile {
   void reached(Time now);
 
  private:
-  loop::GrowingFile lines_;
+  record::GrowingFile lines_;
 };
 
 /// A session to be run again: simulated to `reached`, it is what the live line was.

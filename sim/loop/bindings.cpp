@@ -13,7 +13,7 @@ namespace {
 
 class Binder {
  public:
-  Binder(const Lookup& lookup, Recording& recording, Problems& problems)
+  Binder(const Lookup& lookup, record::Recording& recording, Problems& problems)
       : lookup_(lookup),
         scenario_(lookup.scenario),
         pictures_(lookup.scenario.pictures),
@@ -43,7 +43,7 @@ class Binder {
   }
 
   void add_channel(const scenario::Text& name) {
-    if (!recording_.add(lookup_.watch, name.text)) no_channel(name);
+    if (!lookup_.watch.record(name.text, recording_)) no_channel(name);
   }
 
   /// A lane shows a state: a quantity with a unit is none.
@@ -59,7 +59,8 @@ class Binder {
     const auto found = std::find_if(lookup_.plants.begin(), lookup_.plants.end(),
                                     [&](const auto& one) { return one.name == plant.text; });
     bool known = found != lookup_.plants.end() && !found->plant->drives().empty();
-    for (const auto& name : motor_channels(plant.text)) known = known && recording_.add(lookup_.watch, name);
+    for (const auto& name : motor_channels(plant.text))
+      known = known && lookup_.watch.record(name, recording_);
     if (!known)
       fault(plant.place, fmt::format("'{}' is no plant with a drive that has ratings", plant.text),
             "name a plant with parameters servo.rated_torque, servo.peak_torque, ...");
@@ -166,7 +167,7 @@ class Binder {
   const Lookup& lookup_;
   const scenario::Scenario& scenario_;
   const scenario::PicturesSection& pictures_;
-  Recording& recording_;
+  record::Recording& recording_;
   Problems& problems_;
 };
 
@@ -176,7 +177,7 @@ std::vector<std::string> motor_channels(const std::string& plant) {
   return {plant + ".motor.speed", plant + ".motor.torque"};
 }
 
-Captions bind_recording(const Lookup& lookup, Recording& recording, Problems& problems) {
+Captions bind_recording(const Lookup& lookup, record::Recording& recording, Problems& problems) {
   return Binder(lookup, recording, problems).bind();
 }
 

@@ -5,8 +5,8 @@
 #include "base/problem.hpp"
 #include "sim/loop/known_events.hpp"
 #include "sim/loop/names.hpp"
-#include "sim/loop/recorder.hpp"
 #include "sim/loop/watch.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
@@ -36,7 +36,7 @@ struct Captions {
 
 /// Adds to the recording what is to be recorded, then what the pictures need. What is not there, and what in
 /// the pictures does not fit, goes to `problems`.
-Captions bind_recording(const Lookup& lookup, Recording& recording, Problems& problems);
+Captions bind_recording(const Lookup& lookup, record::Recording& recording, Problems& problems);
 
 /// What of a plant is recorded for the picture of its motor: speed, then torque.
 std::vector<std::string> motor_channels(const std::string& plant);

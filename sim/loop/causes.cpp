@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/loop/recorder.hpp"
+#include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
 
@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_causes = 200;  ///< of each kind
 
 /// Machines tell numbers and no text.
-std::string text_of(const RecordedEvent& event) {
+std::string text_of(const record::RecordedEvent& event) {
   const auto number = [&](const char* value) {
     const auto* found = event.find(value);
     return found != nullptr ? found->number : 0;
@@ -36,7 +36,7 @@ std::string text_of(const RecordedEvent& event) {
   return event.text.empty() ? fmt::format("{}: {}", event.event, values_text(event, 4)) : event.text;
 }
 /// What a machine suffers from what went wrong before.
-std::string blow_of(const RecordedEvent& event) {
+std::string blow_of(const record::RecordedEvent& event) {
   if (event.event == "tear") return "it tore the web";
   const auto* speed = event.find("speed");
   if (speed == nullptr) return "";
@@ -48,7 +48,7 @@ std::string blow_of(const RecordedEvent& event) {
 }
 
 // When the first check failed that can say so; those that found nothing to judge cannot.
-std::optional<double> first_failure(const std::vector<CheckResult>& checks) {
+std::optional<double> first_failure(const std::vector<record::CheckResult>& checks) {
   std::optional<double> first;
   for (const auto& check : checks)
     if (!check.passed && check.failed_at && (!first || *check.failed_at < *first)) first = check.failed_at;
@@ -56,7 +56,7 @@ std::optional<double> first_failure(const std::vector<CheckResult>& checks) {
 }
 
 // What the timeline did to the machine just before a check failed, or while it counted too few events.
-std::string last_set(const std::vector<Alarm>& sets, const std::vector<CheckResult>& checks) {
+std::string last_set(const std::vector<record::Alarm>& sets, const std::vector<record::CheckResult>& checks) {
   constexpr double soon = 1;  // [s]
   for (const auto& set : sets)
     for (const auto& check : checks) {
@@ -68,9 +68,9 @@ std::string last_set(const std::vector<Alarm>& sets, const std::vector<CheckResu
   return "";
 }
 
-bool found_nothing(const std::vector<CheckResult>& checks) {
+bool found_nothing(const std::vector<record::CheckResult>& checks) {
   return std::any_of(checks.begin(), checks.end(),
-                     [](const CheckResult& check) { return !check.passed && check.idle; });
+                     [](const record::CheckResult& check) { return !check.passed && check.idle; });
 }
 
 std::string text_of_fault(const Alarm& fault) {
@@ -81,15 +81,11 @@ std::string joined(const std::string& text) { return text.empty() ? "" : "; " + 
 
 }  // namespace
 
-std::string text_of(const Alarm& alarm) {
-  return fmt::format("{} at {:.6g} s: {}", alarm.source, alarm.at, alarm.text);
-}
-
-void Causes::happened(const RecordedEvent& event) {
+void Causes::happened(const record::RecordedEvent& event) {
   const double at = event.at_seconds();
-  const auto keep = [&](std::vector<Alarm>& list, bool each_text) {
+  const auto keep = [&](std::vector<record::Alarm>& list, bool each_text) {
     auto text = text_of(event);
-    const bool known = std::any_of(list.begin(), list.end(), [&](const Alarm& told) {
+    const bool known = std::any_of(list.begin(), list.end(), [&](const record::Alarm& told) {
       return told.source == event.source && (!each_text || told.text == text);
     });
     if (!known && list.size() < most_causes) list.push_back({at, event.source, std::move(text)});
@@ -102,7 +98,7 @@ void Causes::happened(const RecordedEvent& event) {
       sets_.push_back({at, event.event, event.text});
   } else if (const auto blow = blow_of(event); !blow.empty()) {
     const bool known = std::any_of(blows_.begin(), blows_.end(),
-                                   [&](const Alarm& one) { return one.source == event.source; });
+                                   [&](const record::Alarm& one) { return one.source == event.source; });
     if (!known) blows_.push_back({at, event.source, blow});
   } else if (event.severity >= Severity::error) {
     keep(errors_, false);
@@ -139,7 +135,7 @@ std::string Causes::state_that_stands(double now) const {
   return fmt::format("{} stands at {:g} since {:.6g} s", latest->name, latest->last, latest->changed);
 }
 
-std::vector<Alarm> Causes::alarms() const {
+std::vector<record::Alarm> Causes::alarms() const {
   constexpr std::size_t most_told = 20;
   auto all = errors_;
   all.insert(all.end(), warnings_.begin(), warnings_.end());
@@ -148,12 +144,12 @@ std::vector<Alarm> Causes::alarms() const {
   return all;
 }
 
-const Alarm* Causes::first_error(double until) const {
+const record::Alarm* Causes::first_error(double until) const {
   return errors_.empty() || errors_.front().at > until ? nullptr : &errors_.front();
 }
 
-const Alarm* Causes::last_warning(double until, const std::string& source) const {
-  const Alarm* last = nullptr;
+const record::Alarm* Causes::last_warning(double until, const std::string& source) const {
+  const record::Alarm* last = nullptr;
   for (const auto& warning : warnings_)
     if (warning.at <= until && (source.empty() || warning.source == source)) last = &warning;
   return last;
@@ -164,7 +160,7 @@ const Alarm* Causes::last_warning(double until, const std::string& source) const
 std::string Causes::by_time(double failed_at, const Known& known) const {
   constexpr double soon = 1;         // [s] what lies so little before a failure is held to be its cause
   constexpr double told_late = 0.1;  // [s] an error is told once it has lasted
-  const Alarm* fault = nullptr;
+  const record::Alarm* fault = nullptr;
   for (const auto& one : faults_)
     if (one.at <= failed_at) fault = &one;
   const auto* error = first_error(failed_at + told_late);
@@ -188,15 +184,16 @@ std::string Causes::by_time(double failed_at, const Known& known) const {
                          limit.begin);
   if (warning == nullptr) return "";
   // An error of the same source that follows confirms it.
-  const bool confirmed = std::any_of(errors_.begin(), errors_.end(), [&](const Alarm& later) {
+  const bool confirmed = std::any_of(errors_.begin(), errors_.end(), [&](const record::Alarm& later) {
     return later.source == warning->source && later.at - warning->at <= soon;
   });
   return fmt::format("{} {}", confirmed || failed_at - warning->at <= soon ? "because" : "after",
                      text_of(*warning));
 }
 
-std::string Causes::of(const std::vector<CheckResult>& checks, const Known& known) const {
-  if (std::all_of(checks.begin(), checks.end(), [](const CheckResult& check) { return check.passed; }))
+std::string Causes::of(const std::vector<record::CheckResult>& checks, const Known& known) const {
+  if (std::all_of(checks.begin(), checks.end(),
+                  [](const record::CheckResult& check) { return check.passed; }))
     return "";
   if (!known.contradictions.empty()) {
     const auto* error = first_error(std::numeric_limits<double>::infinity());
@@ -222,7 +219,7 @@ std::string Causes::of(const std::vector<CheckResult>& checks, const Known& know
 }
 
 // Where nothing to judge was found, the machine stands: where. Else what looks odd, and what was done to it.
-std::string Causes::last_resort(const std::vector<CheckResult>& checks, const Known& known,
+std::string Causes::last_resort(const std::vector<record::CheckResult>& checks, const Known& known,
                                 const std::string& before) const {
   if (found_nothing(checks) && !known.hindrances.empty()) {
     const auto* error = first_error(std::numeric_limits<double>::infinity());

@@ -5,25 +5,16 @@
 #include <utility>
 #include <vector>
 
-#include "sim/loop/checks.hpp"
-#include "sim/loop/observer.hpp"
+#include "sim/record/observer.hpp"
+#include "sim/record/outcome.hpp"
 
 namespace drycut::sim::loop {
 
-/// What a controller or a machine told of that is not as it should be.
-struct Alarm {
-  double at = 0;  ///< [s]
-  std::string source;
-  std::string text;
-};
-/// "Axis at 6.49 s: warning 12"
-std::string text_of(const Alarm& alarm);
-
 /// Keeps what may be the cause of a failure: the first errors and warnings of each source, faults, drives at
 /// their limits, since when the program's states have stood as they are.
-class Causes : public Observer {
+class Causes : public record::Observer {
  public:
-  void happened(const RecordedEvent& event) override;
+  void happened(const record::RecordedEvent& event) override;
   void sample(Time now) override;
   /// A number of the program that tells how far it is; it outlives this.
   void follow(std::string name, const double* number);
@@ -44,12 +35,12 @@ class Causes : public Observer {
   };
   /// Why the checks failed, as the end of a sentence: "because Knife at 2.282 s: the cam asks for ...", or
   /// where it only came before, "after ..."; "" if nothing tells or all passed.
-  [[nodiscard]] std::string of(const std::vector<CheckResult>& checks, const Known& known) const;
+  [[nodiscard]] std::string of(const std::vector<record::CheckResult>& checks, const Known& known) const;
   /// "gbPhase stands at 1 since 0.31 s": the state that changed last, if it has not for a long time; "" =
   /// there is none.
   [[nodiscard]] std::string state_that_stands(double now) const;
   /// The first errors and warnings in the order of their times, twenty at most.
-  [[nodiscard]] std::vector<Alarm> alarms() const;
+  [[nodiscard]] std::vector<record::Alarm> alarms() const;
 
  private:
   struct State {
@@ -64,17 +55,17 @@ class Causes : public Observer {
     double begin = 0;  ///< [s]
     double end = 0;
   };
-  [[nodiscard]] const Alarm* first_error(double until) const;
-  [[nodiscard]] const Alarm* last_warning(double until, const std::string& source) const;
+  [[nodiscard]] const record::Alarm* first_error(double until) const;
+  [[nodiscard]] const record::Alarm* last_warning(double until, const std::string& source) const;
   [[nodiscard]] std::string by_time(double failed_at, const Known& known) const;
-  [[nodiscard]] std::string last_resort(const std::vector<CheckResult>& checks, const Known& known,
+  [[nodiscard]] std::string last_resort(const std::vector<record::CheckResult>& checks, const Known& known,
                                         const std::string& before) const;
 
-  std::vector<Alarm> errors_;    ///< the first of each source
-  std::vector<Alarm> warnings_;  ///< the first of each source and text
-  std::vector<Alarm> faults_;
-  std::vector<Alarm> sets_;   ///< what the timeline did to the machine
-  std::vector<Alarm> blows_;  ///< the first of each source: it ran into a stop, it sank
+  std::vector<record::Alarm> errors_;    ///< the first of each source
+  std::vector<record::Alarm> warnings_;  ///< the first of each source and text
+  std::vector<record::Alarm> faults_;
+  std::vector<record::Alarm> sets_;   ///< what the timeline did to the machine
+  std::vector<record::Alarm> blows_;  ///< the first of each source: it ran into a stop, it sank
   std::vector<Limit> limits_;
   std::vector<State> states_;
 };

@@ -18,10 +18,10 @@ constexpr int shown_digits = 6;
 
 std::string window_text(const scenario::Check& check) {
   std::string text;
-  if (check.from > 0) text += fmt::format(", from {} s", seconds_text(check.from));
-  if (check.until) text += fmt::format(", until {} s", seconds_text(*check.until));
-  if (check.within) text += fmt::format(", within {} s", seconds_text(*check.within));
-  if (check.every) text += fmt::format(", every {} s", seconds_text(*check.every));
+  if (check.from > 0) text += fmt::format(", from {} s", record::seconds_text(check.from));
+  if (check.until) text += fmt::format(", until {} s", record::seconds_text(*check.until));
+  if (check.within) text += fmt::format(", within {} s", record::seconds_text(*check.within));
+  if (check.every) text += fmt::format(", every {} s", record::seconds_text(*check.every));
   return text;
 }
 
@@ -195,7 +195,7 @@ void Checks::take_into_window(State& state, Time now) {
   state.taken = true;
 }
 
-bool Checks::concerns(const State& state, const RecordedEvent& event) {
+bool Checks::concerns(const State& state, const record::RecordedEvent& event) {
   return !state.check.event.text.empty() && names_event(state.check.event.text, event.source, event.event) &&
          in_window(state.check, event.at_seconds());
 }
@@ -208,7 +208,7 @@ std::string Checks::operands_text(const State& state, double Operand::*number) {
   std::string text;
   for (const auto& operand : state.operands)
     text += fmt::format("{}{}={:.{}g}{}{}", text.empty() ? "" : "; ", operand.name,
-                        without_noise(operand.*number), shown_digits, operand.unit.empty() ? "" : " ",
+                        record::without_noise(operand.*number), shown_digits, operand.unit.empty() ? "" : " ",
                         operand.unit);
   return text;
 }
@@ -277,7 +277,7 @@ void Checks::sample(Time now) {
   }
 }
 
-void Checks::happened(const RecordedEvent& event) {
+void Checks::happened(const record::RecordedEvent& event) {
   for (auto& state : states_) {
     if (!concerns(state, event)) continue;
     switch (state.check.kind) {
@@ -330,14 +330,15 @@ void Checks::finish_statistics(State& state) {
       set(fmt::format("{}_{}", statistic_names[i], series.value), numbers[i]);
       const auto name = fmt::format("{}_{}", statistic_names[i], series.value);
       if (state.check.expression.text.find(name) == std::string::npos) continue;
-      values += fmt::format("{}{}={:.6g}{}{}", values.empty() ? "" : "; ", name, without_noise(numbers[i]),
-                            series.unit.empty() ? "" : " ", series.unit);
+      values += fmt::format("{}{}={:.6g}{}{}", values.empty() ? "" : "; ", name,
+                            record::without_noise(numbers[i]), series.unit.empty() ? "" : " ", series.unit);
     }
   }
   state.expression->finish();
   for (const auto& statistic : state.expression->statistics())
     values += fmt::format("{}{}={:.6g}{}{}", values.empty() ? "" : "; ", statistic.text,
-                          without_noise(statistic.value), statistic.unit.empty() ? "" : " ", statistic.unit);
+                          record::without_noise(statistic.value), statistic.unit.empty() ? "" : " ",
+                          statistic.unit);
   const int events = state.count;
   evaluate(state, 0, values);
   state.count = events;
@@ -351,8 +352,8 @@ std::string Checks::looked_at(const State& state) {
              : check.event.text + (state.count == 1 ? " event" : " events");
 }
 
-std::vector<CheckResult> Checks::results(Time end) {
-  std::vector<CheckResult> all;
+std::vector<record::CheckResult> Checks::results(Time end) {
+  std::vector<record::CheckResult> all;
   for (auto& state : states_) {
     if (state.windowed && looks_at_instants(state.check)) close_windows(state, end);
     const Tally so_far = state;
@@ -363,8 +364,8 @@ std::vector<CheckResult> Checks::results(Time end) {
   return all;
 }
 
-std::vector<Tolerance> Checks::tolerances_of(const State& state) {
-  std::vector<Tolerance> tolerances;
+std::vector<record::Tolerance> Checks::tolerances_of(const State& state) {
+  std::vector<record::Tolerance> tolerances;
   const auto& check = state.check;
   if (check.kind != scenario::Check::Kind::each || !state.expression || state.count == 0) return tolerances;
   for (const auto& slot : state.slots) {
@@ -376,23 +377,25 @@ std::vector<Tolerance> Checks::tolerances_of(const State& state) {
   return tolerances;
 }
 
-CheckResult Checks::result(State& state, Time end) {
+record::CheckResult Checks::result(State& state, Time end) {
   const auto& check = state.check;
-  CheckResult result{check.name.text, expectation_text(check) + state.rate, false, {}, state.unit, {}, ""};
+  record::CheckResult result{
+      check.name.text, expectation_text(check) + state.rate, false, {}, state.unit, {}, ""};
   const bool by_event = check.kind == scenario::Check::Kind::each || check.kind == scenario::Check::Kind::all;
   if (by_event && state.count < check.at_least) {
     const bool cycles = state.windowed && check.kind == scenario::Check::Kind::each;
     const auto what = cycles ? fmt::format("cycle from {0} to {0}", check.event.text) : check.event.text;
-    result.detail = fmt::format(
-        "{} between {} s and {} s, at least {} expected",
-        state.count == 0 ? "no " + what : fmt::format("only {} x {}", state.count, what),
-        seconds_text(check.from), seconds_text(std::min(end, check.until.value_or(end))), check.at_least);
+    result.detail =
+        fmt::format("{} between {} s and {} s, at least {} expected",
+                    state.count == 0 ? "no " + what : fmt::format("only {} x {}", state.count, what),
+                    record::seconds_text(check.from),
+                    record::seconds_text(std::min(end, check.until.value_or(end))), check.at_least);
     result.idle = state.count == 0;
     result.too_few = seconds(check.from);
     return result;
   }
   const auto never_looked_at = [&] {
-    return fmt::format("never looked at: the run ended at {} s", seconds_text(end));
+    return fmt::format("never looked at: the run ended at {} s", record::seconds_text(end));
   };
   if (check.kind == scenario::Check::Kind::never && check.from > end) {
     result.detail = never_looked_at();

@@ -7,47 +7,20 @@
 
 #include "sim/loop/known_events.hpp"
 #include "sim/loop/names.hpp"
-#include "sim/loop/observer.hpp"
-#include "sim/loop/recorder.hpp"
+#include "sim/loop/watch.hpp"
+#include "sim/record/observer.hpp"
+#include "sim/record/outcome.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/scenario/expression.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
 
-/// Limits that a check sets for a value of each event.
-struct Tolerance {
-  std::string event;  ///< as the check names it: "cut", "knife.cut"
-  std::string value;
-  double low = 0;    ///< -infinity: no limit there
-  double high = 0;   ///< infinity: the same
-  double from = 0;   ///< [s] events from here on count ...
-  double until = 0;  ///< ... up to there
-};
-
-/// What a check came to.
-struct CheckResult {
-  std::string name;
-  std::string expectation;  ///< "each cut: abs(length - 800) <= 0.1, from 4.0 s"
-  bool passed = false;
-  std::optional<double> margin;          ///< how far the worst moment was from the limit; negative: beyond it
-  std::string unit;                      ///< of the margin, "" if it is none or mixed
-  std::optional<double> at;              ///< [s] the worst moment
-  std::string detail;                    ///< "15 cuts, worst length = 800.047 mm at 7.204 s"
-  std::optional<double> failed_at = {};  ///< [s] first, where that can be said before the end
-  std::optional<double> used = {};       ///< share of the limit at the worst moment, above 1: beyond it
-  std::vector<Tolerance> tolerances = {};
-  bool idle = false;  ///< it failed for it found nothing to judge
-  std::string doubt =
-      {};  ///< though it passed: "(gbStep == 2) was 0 at all 2601 instants: it judged nothing"
-  std::optional<double> too_few = {};  ///< [s] of events that it counts there were too few, from then on
-  bool deadline = false;               ///< its limit is a time by which something has come
-};
-
 /// Evaluates the checks of a scenario while it runs. always / eventually look at every record instant, the
 /// others at every event; an expression has a channel's number in the unit of its trace.csv column. So do
 /// statistics: of `all` at every event, else at every physics step, whatever is recorded, over a window of
 /// time or, of `each`, from behind one event to the next.
-class Checks : public Observer {
+class Checks : public record::Observer {
  public:
   Checks(const scenario::Scenario& scenario, Watch& watch, Names& names,
          const std::vector<KnownEvent>& events, Problems& problems);
@@ -60,9 +33,9 @@ class Checks : public Observer {
   /// The watch has been updated for this record instant.
   void sample(Time now) override;
   /// An event; the watch has been updated for it.
-  void happened(const RecordedEvent& event) override;
+  void happened(const record::RecordedEvent& event) override;
   /// As if the run ended at `end`, now; it may go on.
-  [[nodiscard]] std::vector<CheckResult> results(Time end);
+  [[nodiscard]] std::vector<record::CheckResult> results(Time end);
 
  private:
   struct Series {
@@ -125,15 +98,15 @@ class Checks : public Observer {
   /// Judges the windows that have ended before `now`.
   void close_windows(State& state, Time now);
   void take_into_window(State& state, Time now);
-  static bool concerns(const State& state, const RecordedEvent& event);
+  static bool concerns(const State& state, const record::RecordedEvent& event);
   static void evaluate(State& state, double at, const std::string& values);
   static void note_operands(State& state);
   static std::string operands_text(const State& state, double Operand::*number = &Operand::noted);
   static std::string failed_text(const State& state);
   static void finish_statistics(State& state);
   static std::string looked_at(const State& state);
-  CheckResult result(State& state, Time end);
-  static std::vector<Tolerance> tolerances_of(const State& state);
+  record::CheckResult result(State& state, Time end);
+  static std::vector<record::Tolerance> tolerances_of(const State& state);
 
   Watch& watch_;
   Watch at_steps_;  ///< what statistics of every step look at

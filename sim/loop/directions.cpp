@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "sim/loop/consistency.hpp"
-#include "sim/loop/recorder.hpp"
+#include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
 
@@ -54,7 +54,7 @@ void Directions::sample(Time now) {
 void Directions::tell(const Axis& axis, Time now) {
   const auto& loop = axis.loop;
   auto text = fmt::format("{} went {} counts against its drive from {} s to {} s: ", loop.name, axis.against,
-                          seconds_text(*axis.begun), seconds_text(now));
+                          record::seconds_text(*axis.begun), record::seconds_text(now));
   text += !axis.swapped.empty() ? axis.swapped
           : loop.forward
               ? fmt::format("it counts the wrong way, or forward and backward are swapped ({})", loop.remedy)

@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "devices/controller.hpp"
-#include "sim/loop/observer.hpp"
+#include "sim/record/observer.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
 
 /// Finds axes that move away from where they are driven to: their count is the wrong way round, or forward
 /// and backward are swapped. It looks at the first second in which an axis is driven.
-class Directions : public Observer {
+class Directions : public record::Observer {
  public:
   Directions(const scenario::Scenario& scenario, devices::Controller& controller);
 

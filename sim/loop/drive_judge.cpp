@@ -28,21 +28,21 @@ constexpr double percent = 100;
 
 // The share of the speed at which a figure would be at 90 % of its rating. `constant`: the share of the
 // square of the torque that does not go with the speed.
-double advised_for(const DriveFigure& figure, double constant) {
+double advised_for(const record::DriveFigure& figure, double constant) {
   const double wanted = good / figure.share;
   const auto torque = [&](double square) {
     return constant < 1 ? std::sqrt(std::max(0.0, (square - constant) / (1 - constant))) : 0;
   };
   switch (figure.goes) {
-    case DriveFigure::Goes::as_the_speed:
+    case record::DriveFigure::Goes::as_the_speed:
       return wanted;
-    case DriveFigure::Goes::as_the_torque:
+    case record::DriveFigure::Goes::as_the_torque:
       return torque(wanted * wanted);
-    case DriveFigure::Goes::as_its_square:
+    case record::DriveFigure::Goes::as_its_square:
       return torque(wanted);
-    case DriveFigure::Goes::as_the_braking:
+    case record::DriveFigure::Goes::as_the_braking:
       return wanted;
-    case DriveFigure::Goes::not_with_it:
+    case record::DriveFigure::Goes::not_with_it:
       break;
   }
   return 1;
@@ -74,14 +74,6 @@ void Thinned::add(double x, double y) {
   for (std::size_t i = 0; 2 * i < points_.size(); ++i) points_[i] = points_[2 * i];
   points_.resize((points_.size() + 1) / 2);
   stride_ *= 2;
-}
-
-bool DriveVerdict::holds() const { return trips.empty() && tightest().share <= 1; }
-
-const DriveFigure& DriveVerdict::tightest() const {
-  return *std::max_element(figures.begin(), figures.end(), [](const auto& a, const auto& b) {
-    return (a.judged ? a.share : 0) < (b.judged ? b.share : 0);
-  });
 }
 
 DriveJudge::DriveJudge(const scenario::Scenario& scenario, const std::vector<NamedPlant>& plants)
@@ -180,7 +172,7 @@ void DriveJudge::sample(Time /*now*/) {
   }
 }
 
-void DriveJudge::happened(const RecordedEvent& event) {
+void DriveJudge::happened(const record::RecordedEvent& event) {
   for (auto& drive : drives_) {
     if (drive.plant != event.source) continue;
     for (const auto& [name, words] : trip_events)
@@ -204,9 +196,9 @@ double DriveJudge::cycle_of(const std::string& plant, Time now) const {
   return seconds(now);
 }
 
-DriveVerdict DriveJudge::verdict(Drive drive) const {
+record::DriveVerdict DriveJudge::verdict(Drive drive) const {
   const auto& stage = *drive.stage;
-  DriveVerdict verdict;
+  record::DriveVerdict verdict;
   verdict.drive = drive.plant + "." + drive.name;
   verdict.ratings = stage.ratings();
   auto means = judge_rest(drive);
@@ -224,7 +216,7 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
   const auto& worst = drive.worst;
   const auto& peaks = stage.peaks();
   const auto& ratings = verdict.ratings;
-  using Goes = DriveFigure::Goes;
+  using Goes = record::DriveFigure::Goes;
   const auto add = [&](std::string name, double value, double rating, std::string unit, Goes goes,
                        bool judged, const std::string& window) {
     const double share = rating > 0 ? value / rating : value > 0 ? 2 : 0;
@@ -290,7 +282,7 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
 }
 
 // What neither passes nor fails.
-void DriveJudge::remark(DriveVerdict& verdict, bool whole) const {
+void DriveJudge::remark(record::DriveVerdict& verdict, bool whole) const {
   if (!whole) {
     if (!verdict.steady)
       verdict.notes.push_back(
@@ -305,7 +297,7 @@ void DriveJudge::remark(DriveVerdict& verdict, bool whole) const {
                       : fmt::format(
                             "drives.cycle, {} s, is longer than the run from the first motion on; "
                             "take a longer scene.duration",
-                            seconds_text(cycle_));
+                            record::seconds_text(cycle_));
   bool over = false;
   const auto& means = verdict.figures.front().window;
   for (const auto& figure : verdict.figures) {
@@ -316,39 +308,17 @@ void DriveJudge::remark(DriveVerdict& verdict, bool whole) const {
   (over ? verdict.warnings : verdict.notes).push_back(std::move(text));
 }
 
-std::vector<DriveVerdict> DriveJudge::verdicts() const {
-  std::vector<DriveVerdict> verdicts;
+std::vector<record::DriveVerdict> DriveJudge::verdicts() const {
+  std::vector<record::DriveVerdict> verdicts;
   verdicts.reserve(drives_.size());
   for (const auto& drive : drives_) verdicts.push_back(verdict(drive));
   return verdicts;
 }
 
-std::string text_of(const DriveVerdict& verdict) {
-  const auto& figure = verdict.tightest();
-  auto text =
-      verdict.drive + (verdict.alike > 1 ? fmt::format(", each of {}: ", verdict.alike) : std::string(": "));
-  text += fmt::format("{}", fmt::join(verdict.trips, ", "));
-  // Behind a trip only what is over its limit tells something.
-  if (verdict.trips.empty() || figure.share > 1)
-    text +=
-        fmt::format("{}{} {:.4g} of {:.4g} {} ({:.0f} %, {})", verdict.trips.empty() ? "" : "; ", figure.name,
-                    figure.value, figure.rating, figure.unit, figure.share * percent, figure.window);
-  std::vector<std::string> others;
-  for (const auto& other : verdict.figures)
-    if (&other != &figure && other.judged && other.share > 1)
-      others.push_back(fmt::format("{} {:.0f} %", other.name, other.share * percent));
-  if (!others.empty()) text += fmt::format(", {}", fmt::join(others, ", "));
-  if (!verdict.limit_elsewhere.empty())
-    text += fmt::format("; outside of these cycles at its torque limit {}", verdict.limit_elsewhere);
-  if (const double share = std::floor(verdict.advised * percent);
-      figure.share > 1 && share > 0 && share < percent)
-    text += fmt::format("; within 90 % at {:.0f} % of this speed, by a cautious estimate", share);
-  return text;
-}
-
-std::vector<CheckResult> DriveJudge::results(const std::vector<DriveVerdict>& verdicts) const {
+std::vector<record::CheckResult> DriveJudge::results(
+    const std::vector<record::DriveVerdict>& verdicts) const {
   if (!judged_ || drives_.empty()) return {};
-  CheckResult result;
+  record::CheckResult result;
   result.name = "drive within its ratings";
   result.expectation =
       "torque, speed, current, heat, DC link and brake resistor of every drive within their ratings, over "

@@ -5,55 +5,13 @@
 #include <vector>
 
 #include "plants/power_stage.hpp"
-#include "sim/loop/checks.hpp"
 #include "sim/loop/drive_cycles.hpp"
 #include "sim/loop/names.hpp"
-#include "sim/loop/observer.hpp"
+#include "sim/record/observer.hpp"
+#include "sim/record/outcome.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
-
-/// One number of a drive beside what it may be.
-struct DriveFigure {
-  std::string name;   ///< "rms torque"
-  double value = 0;   ///< in `unit`
-  double rating = 0;  ///< in `unit`
-  std::string unit;
-  double share = 0;  ///< of what it may be, 1 = all; fails above, warns above 0.9
-  /// How it goes with the machine's speed.
-  enum class Goes { not_with_it, as_the_speed, as_the_torque, as_its_square, as_the_braking };
-  Goes goes = Goes::as_the_speed;
-  bool judged = true;       ///< else it is only told
-  std::string window = {};  ///< when that was: "steady cycle", "from the first cut on"
-};
-
-/// What came of a drive over its machine cycles.
-struct DriveVerdict {
-  std::string drive;   ///< "knife.servo"
-  std::string cycles;  ///< "24 cycles from cut to cut"
-  plants::DriveRatings ratings;
-  std::vector<DriveFigure> figures;
-  double inertia_ratio = 0;        ///< load over rotor
-  int alike = 1;                   ///< drives that do the same: all figures are those of one
-  double energy = 0;               ///< from the mains, mean of a cycle [J]
-  bool steady = false;             ///< a steady cycle was found: what the drive bears for ever is known
-  std::vector<std::string> trips;  ///< "tripped by overload at 3.2 s", "pulled out at 3.2 s"
-  /// When the torque limit acted outside of what is judged: "twice, 0.12 s in all, first at 0.8 s"; "" =
-  /// never.
-  std::string limit_elsewhere;
-  std::vector<std::string> notes;     ///< heat that is not judged, no steady cycle
-  std::vector<std::string> warnings;  ///< of heat that is not judged and would be over its rating
-  /// At this share of the machine's speed all would be within 90 % of their ratings, by a cautious estimate
-  /// from one run: friction and load stay, the rest of the torque goes with the speed. 1 where all are; 0
-  /// where friction and load alone are too much.
-  double advised = 1;
-  std::vector<std::pair<double, double>> cycle_points;  ///< mean size of speed [rad/s], rms torque [N m]
-  std::vector<std::pair<double, double>> points;        ///< speed [rad/s] and torque [N m] at record instants
-
-  [[nodiscard]] bool holds() const;
-  /// The figure with the largest share.
-  [[nodiscard]] const DriveFigure& tightest() const;
-};
 
 /// Points of a plane, at most so many: every second one goes when there are more.
 class Thinned {
@@ -78,17 +36,18 @@ class DriveJudge : public Observer {
   DriveJudge(const scenario::Scenario& scenario, const std::vector<NamedPlant>& plants);
 
   void sample(Time now) override;
-  void happened(const RecordedEvent& event) override;
+  void happened(const record::RecordedEvent& event) override;
   /// Length of the machine cycle of a plant at `now`, for what is told as a share of it: as the scenario
   /// names it, else the last from cut to cut, else the run so far [s].
   [[nodiscard]] double cycle_of(const std::string& plant, Time now) const;
   /// The verdicts as they stand, a drive each.
-  [[nodiscard]] std::vector<DriveVerdict> verdicts() const;
+  [[nodiscard]] std::vector<record::DriveVerdict> verdicts() const;
   /// The check "drive within its ratings" is among the checks.
   [[nodiscard]] bool judges() const { return judged_; }
   /// The check "drive within its ratings"; none without drives, or where the scenario switches it off;
   /// from verdicts().
-  [[nodiscard]] std::vector<CheckResult> results(const std::vector<DriveVerdict>& verdicts) const;
+  [[nodiscard]] std::vector<record::CheckResult> results(
+      const std::vector<record::DriveVerdict>& verdicts) const;
 
  private:
   /// What stretches of cycles came to, the worst of each.
@@ -139,15 +98,12 @@ class DriveJudge : public Observer {
   static void end_cycle(Drive& drive, DriveCycles::Ended ended);
   static void judge_row(Drive& drive);
   static std::string judge_rest(Drive& drive);
-  void remark(DriveVerdict& verdict, bool whole) const;
-  [[nodiscard]] DriveVerdict verdict(Drive drive) const;
+  void remark(record::DriveVerdict& verdict, bool whole) const;
+  [[nodiscard]] record::DriveVerdict verdict(Drive drive) const;
 
   bool judged_;
   Time cycle_;
   std::vector<Drive> drives_;
 };
-
-/// "knife.servo, each of 2: rms torque 6.1 of 9.5 N m (64 %, steady cycle)".
-std::string text_of(const DriveVerdict& verdict);
 
 }  // namespace drycut::sim::loop

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "devices/controller.hpp"
-#include "sim/loop/observer.hpp"
+#include "sim/record/observer.hpp"
 
 namespace drycut::sim::loop {
 
 /// Finds axes that hunt: they swing to and fro, and the swings do not die away.
-class Hunting : public Observer {
+class Hunting : public record::Observer {
  public:
   explicit Hunting(devices::Controller& controller);
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "devices/cam_axis.hpp"
-#include "sim/loop/observer.hpp"
+#include "sim/record/observer.hpp"
 
 namespace drycut::sim::loop {
 

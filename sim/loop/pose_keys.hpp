@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "plants/part.hpp"
-#include "sim/loop/observer.hpp"
+#include "sim/record/observer.hpp"
 
 namespace drycut::sim::loop {
 

@@ -3,20 +3,20 @@
 #include <fmt/format.h>
 
 #include "sim/loop/known_events.hpp"
-#include "sim/loop/recorder.hpp"
+#include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
 
-void Remarks::happened(const RecordedEvent& event) {
+void Remarks::happened(const record::RecordedEvent& event) {
   constexpr std::size_t shown = 5;
   if (event.text.empty() || event.source == "timeline") return;
   ++count_;
   const bool urgent = is_of_program(event.event);  // stands before remarks on values
   if ((urgent ? urgent_ : remarks_.size()) >= shown) return;
   const auto place = urgent ? urgent_++ : remarks_.size();
-  remarks_.insert(
-      remarks_.begin() + static_cast<std::ptrdiff_t>(place),
-      fmt::format("{} at {} s: {}: {}", event.source, seconds_text(event.time), event.event, event.text));
+  remarks_.insert(remarks_.begin() + static_cast<std::ptrdiff_t>(place),
+                  fmt::format("{} at {} s: {}: {}", event.source, record::seconds_text(event.time),
+                              event.event, event.text));
   if (remarks_.size() > shown) remarks_.pop_back();
 }
 

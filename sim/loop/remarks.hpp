@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "sim/loop/observer.hpp"
+#include "sim/record/observer.hpp"
 
 namespace drycut::sim::loop {
 
 /// Keeps the first of what the controller remarks during a run, for a reader who does not open events.csv.
-class Remarks : public Observer {
+class Remarks : public record::Observer {
  public:
-  void happened(const RecordedEvent& event) override;
+  void happened(const record::RecordedEvent& event) override;
   /// The remarks, and how many more there were.
   [[nodiscard]] std::vector<std::string> notes() const;
 

@@ -53,7 +53,7 @@ Snapshot* Shutter::hold(Time now) {
   return &shot;
 }
 
-void Shutter::happened(const RecordedEvent& event) {
+void Shutter::happened(const record::RecordedEvent& event) {
   if (!around_ || event_ || !names_event(around_->event.text, event.source, event.event)) return;
   if (++seen_ != around_->number) return;
   event_ = event.time + static_cast<Time>(std::llround(event.within * 1e9));

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "plants/plant.hpp"
-#include "sim/loop/observer.hpp"
 #include "sim/loop/pose_keys.hpp"
-#include "sim/loop/recorder.hpp"
+#include "sim/record/observer.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
@@ -30,7 +30,7 @@ struct Snapshot {
 /// Decides when a frame's poses are taken and keeps them: between two times, or around an event. As nobody
 /// knows beforehand when an event happens, the poses of the stretch `before` it are held until then. From the
 /// first frame on it looks at the parts between frames too, so that what moves fast can be followed.
-class Shutter : public Observer {
+class Shutter : public record::Observer {
  public:
   explicit Shutter(const scenario::PicturesSection& pictures);
 
@@ -41,7 +41,7 @@ class Shutter : public Observer {
   /// Looks at the parts of all plants, always the same ones. Gives the object to fill with the shot at `now`,
   /// which has the poses already; nullptr if no shot is due, or none is wanted after all.
   Snapshot* look(Time now, const std::vector<plants::Part>& parts);
-  void happened(const RecordedEvent& event) override;
+  void happened(const record::RecordedEvent& event) override;
 
   /// The shots of the film.
   [[nodiscard]] const std::vector<Snapshot>& kept() const { return kept_; }

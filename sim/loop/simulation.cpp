@@ -20,11 +20,6 @@
 
 namespace drycut::sim::loop {
 
-bool Outcome::passed() const {
-  return failure.empty() &&
-         std::all_of(checks.begin(), checks.end(), [](const CheckResult& c) { return c.passed; });
-}
-
 Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
     : scenario_(scenario),
       step_(scenario.scene.step),
@@ -163,10 +158,10 @@ void Simulation::delay_outputs(Problems& problems) {
 }
 
 void Simulation::write_to(const std::filesystem::path& trace, const std::filesystem::path& events) {
-  write_to(std::make_unique<TraceFiles>(recording_, trace, events), trace.parent_path());
+  write_to(std::make_unique<record::TraceFiles>(recording_, trace, events), trace.parent_path());
 }
 
-void Simulation::write_to(std::unique_ptr<Observer> files, const std::filesystem::path& folder) {
+void Simulation::write_to(std::unique_ptr<record::Observer> files, const std::filesystem::path& folder) {
   recording_.spool_in(folder);
   files_ = std::move(files);
   observers_.push_back(files_.get());
@@ -223,7 +218,7 @@ void Simulation::step() {
 }
 
 // A drive tells how long it was saturated, the machine cycle says how much that is.
-void Simulation::add_share(RecordedEvent& event) const {
+void Simulation::add_share(record::RecordedEvent& event) const {
   if (event.event != "saturated") return;
   const auto* begin = event.find("begin");
   const auto* end = event.find("end");
@@ -241,8 +236,8 @@ void Simulation::collect_events() {
   for (const auto& [name, plant] : named_) {
     if (!plant->has_events()) continue;
     for (const auto& event : plant->take_events()) {
-      RecordedEvent recorded{time_, event.fraction * h_,          name, std::string(event.name), {},
-                             "",    severity_of(name, event.name)};
+      record::RecordedEvent recorded{time_, event.fraction * h_,          name, std::string(event.name), {},
+                                     "",    severity_of(name, event.name)};
       for (const auto& value : event.values) {
         recorded.values.push_back({std::string(value.name), value.number, std::string(value.unit)});
       }
@@ -253,7 +248,7 @@ void Simulation::collect_events() {
   if (controller_ && controller_->has_events()) {
     for (auto& event : controller_->take_events()) {
       if (event.event == "error" && program_error_.empty()) {
-        program_error_ = fmt::format("{}, at {} s", event.text, seconds_text(time_));
+        program_error_ = fmt::format("{}, at {} s", event.text, record::seconds_text(time_));
       }
       const auto severity = severity_of_every_run(event.event);
       recording_.happened(
@@ -280,7 +275,7 @@ void Simulation::record() {
   next_record_ = time_ + scenario_.record.every;
   if (const auto name = watch_->not_finite(); !name.empty()) {
     failure_ = fmt::format("{} is no longer a finite number at {} s: the simulation diverged", name,
-                           seconds_text(time_));
+                           record::seconds_text(time_));
   }
 }
 
@@ -358,7 +353,7 @@ void Simulation::run_to_end(const std::function<void(Time)>& progress) {
   }
 }
 
-Outcome Simulation::run(const std::function<void(Time)>& progress) {
+record::Outcome Simulation::run(const std::function<void(Time)>& progress) {
   try {
     run_to_end(progress);
     for (auto* observer : observers_) observer->finish();
@@ -439,8 +434,8 @@ void Simulation::warn_of_program(std::vector<std::string>& warnings) {
   for (auto& text : ended_at_once(scenario_, *controller_, time_)) warnings.push_back(std::move(text));
 }
 
-Outcome Simulation::outcome() {
-  Outcome outcome;
+record::Outcome Simulation::outcome() {
+  record::Outcome outcome;
   outcome.end = time_;
   outcome.failure = failure_;
   outcome.checks = checks_->results(time_);

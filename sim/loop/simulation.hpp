@@ -19,18 +19,20 @@
 #include "sim/loop/drive_judge.hpp"
 #include "sim/loop/hunting.hpp"
 #include "sim/loop/names.hpp"
-#include "sim/loop/observer.hpp"
+#include "sim/record/observer.hpp"
 #include "sim/loop/played_cams.hpp"
-#include "sim/loop/recorder.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/loop/remarks.hpp"
 #include "sim/loop/shutter.hpp"
 #include "sim/loop/standing.hpp"
 #include "sim/loop/strobe.hpp"
 #include "sim/loop/timeline.hpp"
-#include "sim/loop/trace_files.hpp"
 #include "sim/loop/unasked.hpp"
 #include "sim/loop/watch.hpp"
 #include "sim/loop/whereabouts.hpp"
+#include "sim/record/observer.hpp"
+#include "sim/record/recording.hpp"
+#include "sim/record/trace_files.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
@@ -71,7 +73,7 @@ class Simulation {
   /// Writes trace.csv and events.csv, here and while it runs; before run().
   void write_to(const std::filesystem::path& trace, const std::filesystem::path& events);
   /// The same into any other files; `folder` has room for what waits for pictures of the run.
-  void write_to(std::unique_ptr<Observer> files, const std::filesystem::path& folder);
+  void write_to(std::unique_ptr<record::Observer> files, const std::filesystem::path& folder);
   /// Keeps nothing for pictures of the run: no rows, no events, no poses. Before run().
   void keep_nothing();
   /// Keeps what the controller's cams play, for pictures of it; before run().
@@ -85,7 +87,7 @@ class Simulation {
   }
 
   /// Runs to the end of the scenario. `progress` is told the simulated time now and then.
-  Outcome run(const std::function<void(Time)>& progress = {});
+  record::Outcome run(const std::function<void(Time)>& progress = {});
 
   // For whoever works at the machine while it runs, in place of run().
   /// What is recorded of time zero; advance() does it else.
@@ -103,7 +105,7 @@ class Simulation {
   /// Adds an observer, which must outlive the simulation. It hears of what happens from now on.
   void add(Observer& observer) { observers_.push_back(&observer); }
   /// Tells one more every step, which costs time in each; before the first one. It outlives the simulation.
-  void tell_steps(Observer& observer) { steppers_.push_back(&observer); }
+  void tell_steps(record::Observer& observer) { steppers_.push_back(&observer); }
   /// Takes an entry of the timeline more, before the step at which it is due: at() in the future, or now. The
   /// run is the same as if it had stood behind the scenario's own. False, and nothing taken, if it does not
   /// fit.
@@ -111,7 +113,7 @@ class Simulation {
     return timeline_->add(stimulus, problems);
   }
   /// What came of the run, if it ended now.
-  [[nodiscard]] Outcome outcome();
+  [[nodiscard]] record::Outcome outcome();
   [[nodiscard]] Time time() const { return time_; }
   [[nodiscard]] const std::string& failure() const { return failure_; }
   [[nodiscard]] Bus& bus() { return bus_; }
@@ -140,9 +142,9 @@ class Simulation {
   [[nodiscard]] std::string retentive_state() const {
     return controller_ ? controller_->retentive_state() : "";
   }
-  [[nodiscard]] const Recording& recording() const { return recording_; }
+  [[nodiscard]] const record::Recording& recording() const { return recording_; }
   /// The same, given away after run().
-  [[nodiscard]] Recording take_recording() { return std::move(recording_); }
+  [[nodiscard]] record::Recording take_recording() { return std::move(recording_); }
   [[nodiscard]] const std::vector<Snapshot>& snapshots() const { return shutter_.kept(); }
   /// What turned too far from the frame before to be seen as it turns, a frame each.
   [[nodiscard]] std::vector<std::optional<Strobe>> strobes() const;
@@ -176,7 +178,7 @@ class Simulation {
 
   void run_to_end(const std::function<void(Time)>& progress);
   void step();
-  void add_share(RecordedEvent& event) const;
+  void add_share(record::RecordedEvent& event) const;
   void collect_events();
   void record();
   void snapshot();
@@ -213,10 +215,10 @@ class Simulation {
   std::unique_ptr<Hunting> hunting_;
   std::unique_ptr<Standing> standing_;
   std::unique_ptr<Whereabouts> whereabouts_;
-  std::vector<Observer*> observers_;      ///< all of them, in the order in which they are told
-  std::vector<Observer*> steppers_;       ///< those that are told every step
-  std::vector<KnownEvent> known_events_;  ///< of the plants
-  std::vector<KnownEvent> all_events_;    ///< with those of timeline and controller
+  std::vector<record::Observer*> observers_;  ///< all of them, in the order in which they are told
+  std::vector<record::Observer*> steppers_;   ///< those that are told every step
+  std::vector<KnownEvent> known_events_;      ///< of the plants
+  std::vector<KnownEvent> all_events_;        ///< with those of timeline and controller
   std::string failure_;
   std::vector<std::string> notes_of_setup_;
   OpenTerminals open_;

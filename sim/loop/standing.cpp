@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "sim/loop/consistency.hpp"
-#include "sim/loop/recorder.hpp"
+#include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
 
@@ -98,10 +98,10 @@ std::vector<std::string> Standing::texts(Time now) const {
   if (!never.empty()) texts.push_back(never);
   for (const auto& lamp : lamps_)
     if (lamp.last && lamp.changed && now - *lamp.changed >= stays)
-      texts.push_back(fmt::format("{} is on since {} s", lamp.plug, seconds_text(*lamp.changed)));
+      texts.push_back(fmt::format("{} is on since {} s", lamp.plug, record::seconds_text(*lamp.changed)));
   if (!never.empty()) return texts;
   // All have worked: where they have stopped, and what they wait for.
-  texts.push_back(fmt::format("{} since {} s", fmt::join(states, ", "), seconds_text(worked_)));
+  texts.push_back(fmt::format("{} since {} s", fmt::join(states, ", "), record::seconds_text(worked_)));
   if (auto waited = never_on(); !waited.empty()) texts.push_back(std::move(waited));
   return texts;
 }

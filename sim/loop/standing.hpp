@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "devices/controller.hpp"
-#include "sim/loop/observer.hpp"
+#include "sim/record/observer.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
 
 /// Follows what is wired to the controller, from record instant to record instant: what never came, and what
 /// came and stays.
-class Standing : public Observer {
+class Standing : public record::Observer {
  public:
   Standing(const scenario::Scenario& scenario, devices::Controller& controller);
 

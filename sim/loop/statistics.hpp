@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/loop/event_log.hpp"
+#include "sim/record/event_log.hpp"
 
 namespace drycut::sim::loop {
 

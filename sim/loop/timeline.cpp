@@ -165,15 +165,15 @@ std::vector<std::string> Timeline::left_undone(Time end) const {
     undone.push_back(
         entry.when ? fmt::format("the timeline's entry of line {} never happened: its `when` did not "
                                  "come true in {} s",
-                                 entry.line, seconds_text(end))
+                                 entry.line, record::seconds_text(end))
                    : fmt::format("the timeline's entry of line {} never happened: it is due at {} s, the "
                                  "run ended at {} s",
-                                 entry.line, seconds_text(entry.due), seconds_text(end)));
+                                 entry.line, record::seconds_text(entry.due), record::seconds_text(end)));
   }
   return undone;
 }
 
-void Timeline::work(Time now, Recording& recording) {
+void Timeline::work(Time now, record::Recording& recording) {
   if (now >= next_look_) {
     trigger(now);
     next_look_ = now + look_every_;
@@ -210,7 +210,7 @@ void Timeline::trigger(Time now) {
   });
 }
 
-void Timeline::act(const Entry& entry, Time now, Recording& recording) {
+void Timeline::act(const Entry& entry, Time now, record::Recording& recording) {
   const auto tell = [&](const char* event, const std::string& text) {
     recording.happened({now, 0, "timeline", event, {}, text, severity_of_every_run(event)});
   };
@@ -223,7 +223,7 @@ void Timeline::act(const Entry& entry, Time now, Recording& recording) {
   for (const auto& ramp : entry.ramps) {
     std::erase_if(ramps_, [&](const Ramp& other) { return other.target.name == ramp.target.name; });
     ramps_.push_back({ramp.target, ramp.target.read(), ramp.value, now, entry.over});
-    tell("ramp", fmt::format("{} over {} s", ramp.text, seconds_text(entry.over)));
+    tell("ramp", fmt::format("{} over {} s", ramp.text, record::seconds_text(entry.over)));
   }
   for (const auto& fault : entry.faults) {
     fault.act(fault.value);

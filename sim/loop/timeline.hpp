@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "sim/loop/names.hpp"
-#include "sim/loop/recorder.hpp"
+#include "sim/loop/watch.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/scenario/expression.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -28,7 +29,7 @@ class Timeline {
   bool add(const scenario::Stimulus& stimulus, Problems& problems);
 
   /// Acts on everything due at `now`; what was done is told to `record`.
-  void run(Time now, Recording& recording) {
+  void run(Time now, record::Recording& recording) {
     if (now >= next_) work(now, recording);
   }
 
@@ -71,9 +72,9 @@ class Timeline {
   [[nodiscard]] Entry bind(const scenario::Stimulus& stimulus, const std::vector<std::string>& known,
                            Problems& problems);
   void take(Entry entry);
-  void work(Time now, Recording& recording);
+  void work(Time now, record::Recording& recording);
   void trigger(Time now);
-  void act(const Entry& entry, Time now, Recording& recording);
+  void act(const Entry& entry, Time now, record::Recording& recording);
   void move_ramps(Time now);
   [[nodiscard]] Time next_after(Time now) const;
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
-#include "sim/loop/recorder.hpp"
+#include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
 
@@ -19,7 +19,7 @@ Unasked::Unasked(const scenario::Scenario& scenario, const std::vector<KnownEven
   }
 }
 
-void Unasked::happened(const RecordedEvent& event) {
+void Unasked::happened(const record::RecordedEvent& event) {
   for (auto& watched : watched_) {
     if (watched.name != event.event || watched.source != event.source) continue;
     constexpr int shown_digits = 4;
@@ -29,12 +29,12 @@ void Unasked::happened(const RecordedEvent& event) {
   }
 }
 
-std::vector<CheckResult> Unasked::results() const {
-  std::vector<CheckResult> results;
+std::vector<record::CheckResult> Unasked::results() const {
+  std::vector<record::CheckResult> results;
   for (const auto& watched : watched_) {
     if (watched.times == 0) continue;
     const auto name = watched.source + "." + watched.name;
-    CheckResult result;
+    record::CheckResult result;
     result.name = "no " + name;
     result.expectation = fmt::format("never {}, which no check asks about", name);
     result.detail = fmt::format("{}, first at {:.6g} s: {}", counted(watched.times, "time"), watched.first,

@@ -4,20 +4,20 @@
 
 #include "sim/loop/checks.hpp"
 #include "sim/loop/known_events.hpp"
-#include "sim/loop/observer.hpp"
+#include "sim/record/observer.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
 
 /// Fails a run in which a machine did what it must not, though no check asks about it: events that their
 /// plant declares failures. Where a check names the event, that check alone decides.
-class Unasked : public Observer {
+class Unasked : public record::Observer {
  public:
   Unasked(const scenario::Scenario& scenario, const std::vector<KnownEvent>& events);
 
-  void happened(const RecordedEvent& event) override;
+  void happened(const record::RecordedEvent& event) override;
   /// A failed check for each kind that happened; none where none did.
-  [[nodiscard]] std::vector<CheckResult> results() const;
+  [[nodiscard]] std::vector<record::CheckResult> results() const;
 
  private:
   struct Watched {

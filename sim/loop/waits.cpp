@@ -7,7 +7,7 @@
 
 #include "base/text.hpp"
 #include "sim/loop/consistency.hpp"
-#include "sim/loop/recorder.hpp"
+#include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
 
@@ -73,12 +73,12 @@ Waits waits_of(devices::Controller& controller, Time now) {
     found.since = std::max(found.since, seconds(wait.since_ns));
     if (wait.ended) {
       found.texts.push_back(fmt::format("{} came to its end, line {}, at {} s", wait.program, wait.line,
-                                        seconds_text(wait.since_ns)));
+                                        record::seconds_text(wait.since_ns)));
       continue;
     }
     found.texts.push_back(fmt::format(
         "{} stands at line {}, {}{}, since {} s", wait.program, wait.line, code_of(*program, wait.line),
-        values_of(*program, wait.line, controller), seconds_text(wait.since_ns)));
+        values_of(*program, wait.line, controller), record::seconds_text(wait.since_ns)));
     if (program->language == "st") break;  // what comes behind has to wait for it
   }
   const auto running = std::count_if(programs.begin(), programs.end(),
@@ -99,7 +99,7 @@ std::vector<std::string> ended_at_once(const scenario::Scenario& scenario, devic
     const auto wire = wire_that_it_names(scenario, controller, wait.program);
     if (!wire.empty())
       found.push_back(fmt::format("{} came to its end at {} s, line {}, and looks after {} no more",
-                                  wait.program, seconds_text(wait.since_ns), wait.line, wire));
+                                  wait.program, record::seconds_text(wait.since_ns), wait.line, wire));
   }
   return found;
 }

@@ -27,4 +27,12 @@ std::string Watch::not_finite() const {
   return "";
 }
 
+bool Watch::record(const std::string& name, record::Recording& recording) {
+  if (recording.column(name) != nullptr) return true;
+  const auto* from = slot(name);
+  if (from == nullptr) return false;
+  recording.add(name, unit(name)).slot = from;
+  return true;
+}
+
 }  // namespace drycut::sim::loop

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/loop/names.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/scenario/expression.hpp"
 
 namespace drycut::sim::loop {
@@ -20,6 +21,9 @@ class Watch {
   const double* slot(const std::string& name);
   /// The same for an expression, with its unit.
   scenario::Expression::Operand operand(const std::string& name);
+  /// Records a reading as a channel; false if nothing has this name. One that is recorded twice is recorded
+  /// once.
+  bool record(const std::string& name, record::Recording& recording);
   /// Unit of a reading that has a slot.
   [[nodiscard]] const std::string& unit(const std::string& name) const {
     return readings_[index_.at(name)].unit;

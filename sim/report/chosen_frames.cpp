@@ -18,7 +18,7 @@ constexpr double another_length = 0.01;  // of the length of the cut before
 
 /// The cut at the worst moment of the first check that looks at cuts.
 std::optional<double> worst_cut(const std::vector<double>& cuts,
-                                const std::vector<loop::CheckResult>& checks) {
+                                const std::vector<record::CheckResult>& checks) {
   constexpr double same = 1e-6;  // [s]
   for (const auto& check : checks) {
     if (!check.at) continue;
@@ -52,7 +52,7 @@ std::optional<std::size_t> in_widest_gap(const std::vector<double>& times,
 
 }  // namespace
 
-std::vector<Moment> moments_of(const loop::EventLog& events, const std::vector<loop::CheckResult>& checks,
+std::vector<Moment> moments_of(const record::EventLog& events, const std::vector<record::CheckResult>& checks,
                                double begin_s, double end_s) {
   const auto is_in = [&](double at) { return at >= begin_s && at <= end_s; };
   std::vector<Moment> faults, changes, others;

@@ -16,7 +16,7 @@ struct Moment {
 /// What happened while a film was taken, the most telling first: the first cut, faults, where a check failed,
 /// the worst cut, the end, cuts of another length than the one before, the first of every other event of a
 /// plant.
-std::vector<Moment> moments_of(const loop::EventLog& events, const std::vector<loop::CheckResult>& checks,
+std::vector<Moment> moments_of(const record::EventLog& events, const std::vector<record::CheckResult>& checks,
                                double begin_s, double end_s);
 /// What a film about an event shows: the event, the film's beginning and end.
 std::vector<Moment> moments_around(double event_s, double begin_s, double end_s);

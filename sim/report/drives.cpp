@@ -12,7 +12,7 @@ namespace drycut::sim::report {
 
 namespace {
 
-std::string grade_text(const loop::DriveFigure& figure, bool judged) {
+std::string grade_text(const record::DriveFigure& figure, bool judged) {
   const auto* word = !figure.judged || !judged ? "not judged,"
                      : figure.share > 1        ? "FAIL"
                      : figure.share > 0.9      ? "close,"
@@ -68,8 +68,8 @@ renders::Curve continuous_curve(const plants::DriveRatings& ratings, bool both_w
   return curve;
 }
 
-void draw_torque_over_speed(const loop::DriveVerdict& drive, renders::Curve points, const std::string& title,
-                            renders::Plot& plot) {
+void draw_torque_over_speed(const record::DriveVerdict& drive, renders::Curve points,
+                            const std::string& title, renders::Plot& plot) {
   const double backwards = -0.02 * drive.ratings.max_speed * units::rpm;
   const bool both_ways =
       std::any_of(points.x.begin(), points.x.end(), [&](double speed) { return speed < backwards; });
@@ -88,7 +88,7 @@ void draw_torque_over_speed(const loop::DriveVerdict& drive, renders::Curve poin
   plot.panels.push_back(std::move(panel));
 }
 
-renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts, bool judged) {
+renders::ReportTable drive_table(const std::vector<record::DriveVerdict>& verdicts, bool judged) {
   renders::ReportTable table{
       "Drives and their ratings", {"drive", "", "value", "limit", "used"}, {}, false, true};
   for (const auto& verdict : verdicts) {
@@ -120,15 +120,15 @@ renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts
   return table;
 }
 
-const loop::DriveVerdict* drive_of(const std::vector<loop::DriveVerdict>& verdicts,
-                                   const std::string& plant) {
+const record::DriveVerdict* drive_of(const std::vector<record::DriveVerdict>& verdicts,
+                                     const std::string& plant) {
   const auto found = std::find_if(verdicts.begin(), verdicts.end(), [&](const auto& verdict) {
     return verdict.drive.starts_with(plant + ".");
   });
   return found == verdicts.end() ? nullptr : &*found;
 }
 
-std::vector<renders::Plot> drive_plots(const std::vector<loop::DriveVerdict>& verdicts,
+std::vector<renders::Plot> drive_plots(const std::vector<record::DriveVerdict>& verdicts,
                                        const std::vector<scenario::PlotRequest>& requests) {
   std::vector<renders::Plot> plots;
   plots.reserve(verdicts.size());

@@ -108,7 +108,7 @@ std::vector<renders::Callout> chosen_callouts(const scenario::PicturesSection::O
 
 /// Of a long run only what a short film of it shows.
 std::vector<renders::LiveCurve> live_curves(const scenario::PicturesSection& pictures,
-                                            const loop::Recording& recording, const renders::Film& film) {
+                                            const record::Recording& recording, const renders::Film& film) {
   Rows rows{0, recording.times().size()};
   if (rows.count() > renders::kMostSamples && !film.frames.empty()) {
     const auto ns = [](double time) { return static_cast<Time>(std::max(0.0, time) * second); };

@@ -67,7 +67,7 @@ class TableRows {
   std::size_t count_ = 0;
 };
 
-renders::ReportTable event_table(const loop::Recording& recording, const loop::KnownEvent& known) {
+renders::ReportTable event_table(const record::Recording& recording, const loop::KnownEvent& known) {
   renders::ReportTable table{fmt::format("{} of {}", known.name, known.source), {"time [s]"}, {}, true};
   for (const auto& [name, unit] : known.values) {
     table.headings.push_back(unit.empty() ? name : fmt::format("{} [{}]", name, shown_unit(unit).unit));
@@ -81,7 +81,7 @@ renders::ReportTable event_table(const loop::Recording& recording, const loop::K
       row.cells.push_back(
           value == nullptr
               ? ""
-              : fmt::format("{:.6g}", loop::without_noise(shown_unit(unit).factor * value->number)));
+              : fmt::format("{:.6g}", record::without_noise(shown_unit(unit).factor * value->number)));
     }
     rows.add(std::move(row));
   }
@@ -139,7 +139,7 @@ renders::ReportTable controller_table(loop::Simulation& simulation) {
 std::string units_note(double simulated) { return fmt::format("{:g} s", simulated); }
 
 /// The units of the device in which something was recorded, explained; how large the user's own are.
-std::vector<std::string> units_explained(const loop::Recording& recording,
+std::vector<std::string> units_explained(const record::Recording& recording,
                                          const scenario::PicturesSection& pictures) {
   std::vector<std::string> lines;
   const auto& columns = recording.columns();
@@ -153,7 +153,7 @@ std::vector<std::string> units_explained(const loop::Recording& recording,
   return lines;
 }
 
-MachineFacts facts_of(const loop::Simulation& simulation, const loop::Outcome& outcome) {
+MachineFacts facts_of(const loop::Simulation& simulation, const record::Outcome& outcome) {
   MachineFacts facts{outcome.drives, {}};
   for (const auto& [name, plant] : simulation.plants())
     for (const auto& [own, travel, cuts] : plant->recurrences())
@@ -182,7 +182,7 @@ std::vector<double> times_of(const std::vector<loop::Snapshot>& shots) {
   return times;
 }
 
-std::vector<Moment> moments_in_film(const loop::Simulation& simulation, const loop::Outcome& outcome) {
+std::vector<Moment> moments_in_film(const loop::Simulation& simulation, const record::Outcome& outcome) {
   const double begin = seconds(simulation.snapshots().front().time);
   const double end = seconds(simulation.snapshots().back().time);
   const auto event = simulation.frames_event();
@@ -191,7 +191,7 @@ std::vector<Moment> moments_in_film(const loop::Simulation& simulation, const lo
 }
 
 /// What the machine does, at a glance.
-std::vector<ChosenFrame> frames_to_show(const loop::Simulation& simulation, const loop::Outcome& outcome,
+std::vector<ChosenFrame> frames_to_show(const loop::Simulation& simulation, const record::Outcome& outcome,
                                         std::size_t wanted) {
   return chosen_frames(times_of(simulation.snapshots()), moments_in_film(simulation, outcome), wanted);
 }
@@ -206,7 +206,7 @@ std::string frame_label(const loop::Simulation& simulation, const ChosenFrame& c
 }  // namespace
 
 renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& simulation,
-                          const loop::Outcome& outcome, const Drawn& drawn) {
+                          const record::Outcome& outcome, const Drawn& drawn) {
   renders::Report report;
   report.title = scenario.scene.title.empty() ? scenario.file.stem().string() : scenario.scene.title;
   report.scenario = scenario.file.filename().string();
@@ -255,7 +255,7 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
     };
     if (std::any_of(simulation.known_events().begin(), simulation.known_events().end(), is_known)) continue;
     rows.add(
-        {{fmt::format("{:.6f}", event.at_seconds()), event.source, event.event, loop::values_text(event)}});
+        {{fmt::format("{:.6f}", event.at_seconds()), event.source, event.event, record::values_text(event)}});
   }
   rows.finish();
   if (!others.rows.empty()) report.tables.push_back(std::move(others));
@@ -269,7 +269,7 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
 }
 
 std::string write_pictures(const scenario::Scenario& scenario, loop::Simulation& simulation,
-                           const renders::Film& film, const loop::Outcome& outcome, OutputFolder& folder,
+                           const renders::Film& film, const record::Outcome& outcome, OutputFolder& folder,
                            int threads, const std::function<void(const char*, double)>& progress) {
   Drawn drawn;
   std::string left_out;

@@ -17,10 +17,10 @@ namespace drycut::sim::report {
 
 /// The plots that the scenario asks for; where it asks for none, one with the recorded channels, a panel a
 /// unit. Those of motors need the drives of the machine.
-std::vector<renders::Plot> plots_of(const scenario::Scenario& scenario, const loop::Recording& recording,
+std::vector<renders::Plot> plots_of(const scenario::Scenario& scenario, const record::Recording& recording,
                                     const MachineFacts& machine = {});
 /// What the spectra that the scenario asks for tell, a line each.
-std::vector<std::string> findings_of(const scenario::Scenario& scenario, const loop::Recording& recording,
+std::vector<std::string> findings_of(const scenario::Scenario& scenario, const record::Recording& recording,
                                      const MachineFacts& machine);
 
 /// Picture files made for a report.
@@ -39,7 +39,7 @@ std::vector<renders::ReportSection> cam_sections(const std::vector<cams::CamPage
 
 /// The report but for its plots and the sections of cams.
 renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& simulation,
-                          const loop::Outcome& outcome, const Drawn& drawn);
+                          const record::Outcome& outcome, const Drawn& drawn);
 
 /// What is drawn of a run.
 inline const std::vector<std::string> picture_files = {"report.html", "film.mp4", "filmstrip.png",
@@ -49,7 +49,7 @@ inline const std::vector<std::string> picture_files = {"report.html", "film.mp4"
 /// install; "" = nothing. `progress` is told what is being done and which share of it is. Throws
 /// std::runtime_error if something cannot be drawn or written.
 std::string write_pictures(const scenario::Scenario& scenario, loop::Simulation& simulation,
-                           const renders::Film& film, const loop::Outcome& outcome, OutputFolder& folder,
+                           const renders::Film& film, const record::Outcome& outcome, OutputFolder& folder,
                            int threads, const std::function<void(const char*, double)>& progress);
 
 }  // namespace drycut::sim::report

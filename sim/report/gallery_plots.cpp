@@ -11,20 +11,20 @@
 
 namespace drycut::sim::report {
 
-loop::EventNumbers event_numbers(const loop::EventLog& events, const std::string& event,
+loop::EventNumbers event_numbers(const record::EventLog& events, const std::string& event,
                                  const std::string& value, const scenario::PlotRequest& plot) {
   return plot.until ? event_numbers(events, event, value, seconds(plot.from), seconds(*plot.until))
                     : event_numbers(events, event, value, seconds(plot.from));
 }
 
-Rows rows_between(const loop::Recording& recording, Time from, const std::optional<Time>& until) {
+Rows rows_between(const record::Recording& recording, Time from, const std::optional<Time>& until) {
   const auto& times = recording.times();
   const auto first = std::lower_bound(times.begin(), times.end(), from);
   const auto end = until ? std::upper_bound(first, times.end(), *until) : times.end();
   return {static_cast<std::size_t>(first - times.begin()), static_cast<std::size_t>(end - times.begin())};
 }
 
-renders::Curve channel_curve(const loop::Recording& recording, const loop::Recording::Column& column,
+renders::Curve channel_curve(const record::Recording& recording, const record::Recording::Column& column,
                              Rows rows) {
   renders::Envelope envelope(rows.count());
   for (auto row = rows.first; row < rows.end; ++row)
@@ -33,7 +33,7 @@ renders::Curve channel_curve(const loop::Recording& recording, const loop::Recor
   return {column.name, std::move(kept.x), std::move(kept.y)};
 }
 
-std::string time_label(const loop::Recording& recording, Rows rows) {
+std::string time_label(const record::Recording& recording, Rows rows) {
   const renders::Envelope envelope(rows.count());
   if (envelope.stretch() == 1) return "time [s]";
   const auto& times = recording.times();
@@ -46,7 +46,7 @@ std::string time_label(const loop::Recording& recording, Rows rows) {
 namespace {
 
 /// Every change of a state, and its last instant; of a short run every instant.
-renders::Lane lane_of(const loop::Recording& recording, const scenario::PlotRequest& plot,
+renders::Lane lane_of(const record::Recording& recording, const scenario::PlotRequest& plot,
                       const std::string& name) {
   const auto& values = recording.column(name)->values;
   const auto rows = rows_between(recording, plot.from, plot.until);
@@ -63,9 +63,9 @@ renders::Lane lane_of(const loop::Recording& recording, const scenario::PlotRequ
 }
 
 /// The corners of all that two channels ever were together.
-renders::PixelGrid bounds_of(const loop::Series<double>& x, const loop::Series<double>& y) {
+renders::PixelGrid bounds_of(const record::Series<double>& x, const record::Series<double>& y) {
   renders::PixelGrid bounds;
-  const auto spread = [](const loop::Series<double>& of, double& low, double& high) {
+  const auto spread = [](const record::Series<double>& of, double& low, double& high) {
     if (of.empty()) return;
     low = high = of.front();
     for (const double number : of) {
@@ -80,7 +80,7 @@ renders::PixelGrid bounds_of(const loop::Series<double>& x, const loop::Series<d
 }
 
 /// A path in a plane: one curve, or one for each whole value of the split channel.
-void draw_path(const loop::Recording& recording, const scenario::PlotRequest& wanted, renders::Plot& plot) {
+void draw_path(const record::Recording& recording, const scenario::PlotRequest& wanted, renders::Plot& plot) {
   const auto& request = wanted.panels.front();
   const auto& x = *recording.column(request.x.text);
   const auto& y = *recording.column(request.y.text);
@@ -122,7 +122,7 @@ void draw_path(const loop::Recording& recording, const scenario::PlotRequest& wa
 bool is_flat_zero(const renders::Panel& panel) {
   const auto silent = [](const renders::Curve& curve) {
     return std::all_of(curve.y.begin(), curve.y.end(),
-                       [](double y) { return !(std::abs(loop::without_noise(y)) > 0); });
+                       [](double y) { return !(std::abs(record::without_noise(y)) > 0); });
   };
   return panel.bands.empty() && panel.lanes.empty() && !panel.curves.empty() &&
          std::all_of(panel.curves.begin(), panel.curves.end(), silent);
@@ -143,7 +143,7 @@ void leave_out_flat(renders::Plot& plot) {
   if (!names.empty()) plot.title += fmt::format(" (0 all the time: {})", names);
 }
 
-renders::Panel panel_of(const loop::Recording& recording, const scenario::PlotRequest& plot,
+renders::Panel panel_of(const record::Recording& recording, const scenario::PlotRequest& plot,
                         const scenario::PlotRequest::Panel& request) {
   renders::Panel panel;
   for (const auto& name : request.lanes) panel.lanes.push_back(lane_of(recording, plot, name.text));
@@ -174,7 +174,7 @@ renders::Panel panel_of(const loop::Recording& recording, const scenario::PlotRe
 }
 
 /// What is written at the mark of an event: "cut 3", "power off", "lose_counts = 200".
-std::string mark_label(const loop::RecordedEvent& event, int number) {
+std::string mark_label(const record::RecordedEvent& event, int number) {
   if (event.source != "timeline") {
     return event.values.empty() ? event.event : fmt::format("{} {}", event.event, number);
   }
@@ -197,7 +197,7 @@ void thin(std::vector<renders::Mark>& marks) {
 }
 
 /// The events asked for, or faults and power changes, as marks in the plot's time.
-std::vector<renders::Mark> marks_of(const loop::Recording& recording, const scenario::PlotRequest& plot) {
+std::vector<renders::Mark> marks_of(const record::Recording& recording, const scenario::PlotRequest& plot) {
   static const std::vector<scenario::Text> usual = {{"timeline.fault", {}}, {"timeline.power", {}}};
   std::vector<renders::Mark> marks;
   for (const auto& wanted : plot.marks ? *plot.marks : usual) {
@@ -216,7 +216,7 @@ std::vector<renders::Mark> marks_of(const loop::Recording& recording, const scen
 }
 
 /// A plot of one panel whose x is not time.
-void draw_own_x(const MachineFacts& machine, const loop::Recording& recording,
+void draw_own_x(const MachineFacts& machine, const record::Recording& recording,
                 const scenario::PlotRequest& request, renders::Plot& plot) {
   using Kind = scenario::PlotRequest::Panel::Kind;
   switch (request.panels.front().kind()) {
@@ -232,7 +232,7 @@ void draw_own_x(const MachineFacts& machine, const loop::Recording& recording,
 }
 
 /// Without a request: every recorded channel, channels of one unit together.
-renders::Plot overview(const loop::Recording& recording) {
+renders::Plot overview(const record::Recording& recording) {
   const Rows all{0, recording.times().size()};
   renders::Plot plot{"recorded", "Recorded channels", time_label(recording, all), {}, 1200, 260};
   for (const auto& column : recording.columns()) {
@@ -265,7 +265,7 @@ std::string axis_label(const std::string& title, const std::vector<std::string>&
   return fmt::format("{}{}[{}]", title, title.empty() ? "" : " ", text);
 }
 
-std::vector<renders::Plot> plots_of(const scenario::Scenario& scenario, const loop::Recording& recording,
+std::vector<renders::Plot> plots_of(const scenario::Scenario& scenario, const record::Recording& recording,
                                     const MachineFacts& machine) {
   std::vector<renders::Plot> plots;
   for (const auto& request : scenario.pictures.plots) {

@@ -7,7 +7,7 @@
 #include "plants/plant.hpp"
 #include "renders/plots.hpp"
 #include "sim/loop/drive_judge.hpp"
-#include "sim/loop/recorder.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/loop/statistics.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -15,7 +15,7 @@ namespace drycut::sim::report {
 
 /// What is known of the machine besides what was recorded.
 struct MachineFacts {
-  std::vector<loop::DriveVerdict> drives;
+  std::vector<record::DriveVerdict> drives;
   std::vector<plants::Recurrence> recurrences;  ///< named with their plants: "web.wheel"
 };
 
@@ -26,15 +26,15 @@ struct Rows {
   [[nodiscard]] std::size_t count() const { return end - first; }
 };
 /// Those from one time to another, both included.
-Rows rows_between(const loop::Recording& recording, Time from, const std::optional<Time>& until);
+Rows rows_between(const record::Recording& recording, Time from, const std::optional<Time>& until);
 /// The numbers of an event's value in the window of a plot.
-loop::EventNumbers event_numbers(const loop::EventLog& events, const std::string& event,
+loop::EventNumbers event_numbers(const record::EventLog& events, const std::string& event,
                                  const std::string& value, const scenario::PlotRequest& plot);
 /// A channel over time [s]; of many rows a thinned one (renders/decimate.hpp).
-renders::Curve channel_curve(const loop::Recording& recording, const loop::Recording::Column& column,
+renders::Curve channel_curve(const record::Recording& recording, const record::Recording::Column& column,
                              Rows rows);
 /// "time [s]", with how the curves over it are thinned, if they are.
-std::string time_label(const loop::Recording& recording, Rows rows);
+std::string time_label(const record::Recording& recording, Rows rows);
 
 // Plots whose x is not time, for plots_of.
 
@@ -43,16 +43,16 @@ std::string axis_label(const std::string& title, const std::vector<std::string>&
 
 /// How often each value of the panel's event came, with its limits, mean and capability (Cp and Cpk from the
 /// sample's standard deviation).
-void draw_histogram(const loop::Recording& recording, const scenario::PlotRequest& request,
+void draw_histogram(const record::Recording& recording, const scenario::PlotRequest& request,
                     renders::Plot& plot);
 
 /// Torque over speed of a plant's drive at every record instant, with its ratings.
-void draw_motor(const MachineFacts& machine, const loop::Recording& recording,
+void draw_motor(const MachineFacts& machine, const record::Recording& recording,
                 const scenario::PlotRequest& request, renders::Plot& plot);
 
 /// The amplitudes of the sines in the panel's event values over the way of the web, or over the events where
 /// they have no length; the peaks with their periods and what turns as often.
-void draw_spectrum(const MachineFacts& machine, const loop::Recording& recording,
+void draw_spectrum(const MachineFacts& machine, const record::Recording& recording,
                    const scenario::PlotRequest& request, renders::Plot& plot);
 
 }  // namespace drycut::sim::report

@@ -34,7 +34,7 @@ double mean(const std::vector<double>& numbers) {
   return numbers.empty() ? 0 : sum / static_cast<double>(numbers.size());
 }
 
-ValueSpectrum analysed(const MachineFacts& machine, const loop::Recording& recording,
+ValueSpectrum analysed(const MachineFacts& machine, const record::Recording& recording,
                        const scenario::PlotRequest& request) {
   const auto& panel = request.panels.front();
   ValueSpectrum of;
@@ -122,7 +122,7 @@ std::string about(const ValueSpectrum& of, std::string (*tell)(const ValueSpectr
 
 }  // namespace
 
-void draw_spectrum(const MachineFacts& machine, const loop::Recording& recording,
+void draw_spectrum(const MachineFacts& machine, const record::Recording& recording,
                    const scenario::PlotRequest& request, renders::Plot& plot) {
   const auto of = analysed(machine, recording, request);
   const auto& panel = request.panels.front();
@@ -151,7 +151,7 @@ void draw_spectrum(const MachineFacts& machine, const loop::Recording& recording
                    [](const auto& a, const auto& b) { return a.x < b.x; });
 }
 
-std::vector<std::string> findings_of(const scenario::Scenario& scenario, const loop::Recording& recording,
+std::vector<std::string> findings_of(const scenario::Scenario& scenario, const record::Recording& recording,
                                      const MachineFacts& machine) {
   std::vector<std::string> findings;
   for (const auto& request : scenario.pictures.plots) {

@@ -68,7 +68,7 @@ std::string statistics_text(const loop::EventNumbers& series,
 
 }  // namespace
 
-void draw_histogram(const loop::Recording& recording, const scenario::PlotRequest& request,
+void draw_histogram(const record::Recording& recording, const scenario::PlotRequest& request,
                     renders::Plot& plot) {
   const auto& panel = request.panels.front();
   const auto series = event_numbers(recording.events(), panel.event.text, panel.values.front().text, request);
@@ -98,7 +98,7 @@ void draw_histogram(const loop::Recording& recording, const scenario::PlotReques
   plot.panels.push_back(std::move(shown));
 }
 
-void draw_motor(const MachineFacts& machine, const loop::Recording& recording,
+void draw_motor(const MachineFacts& machine, const record::Recording& recording,
                 const scenario::PlotRequest& request, renders::Plot& plot) {
   const auto& panel = request.panels.front();
   const auto names = loop::motor_channels(panel.motor.text);

@@ -36,19 +36,19 @@ std::string rounded(double number, int decimals) {
 }
 
 /// How far a value is on its way from what is best to what is just allowed: 1 = there.
-double used_of(const loop::Tolerance& tolerance, double number) {
+double used_of(const record::Tolerance& tolerance, double number) {
   if (std::isinf(tolerance.low)) return tolerance.high > 0 ? std::max(0.0, number / tolerance.high) : number;
   if (std::isinf(tolerance.high)) return number > 0 ? std::max(0.0, tolerance.low / number) : -number;
   const double half = (tolerance.high - tolerance.low) / 2;
   return half > 0 ? std::abs(number - tolerance.low - half) / half : 0;
 }
 
-bool is_shareable(const loop::Tolerance& tolerance) {
+bool is_shareable(const record::Tolerance& tolerance) {
   if (std::isinf(tolerance.low)) return tolerance.high > 0;
   return !std::isinf(tolerance.high) || tolerance.low > 0;
 }
 
-renders::ReportKey value_key(const loop::Tolerance& tolerance, const loop::EventNumbers& series) {
+renders::ReportKey value_key(const record::Tolerance& tolerance, const loop::EventNumbers& series) {
   const auto figures = loop::statistics(series.numbers);
   const auto [mean, least, greatest, sd, slope, slope_error] = figures;
   const bool both = std::isfinite(tolerance.low) && std::isfinite(tolerance.high);
@@ -86,7 +86,7 @@ renders::ReportKey value_key(const loop::Tolerance& tolerance, const loop::Event
 }
 
 /// Events that come with a length: pieces.
-void add_pieces(const loop::Recording& recording, const std::vector<loop::KnownEvent>& known_events,
+void add_pieces(const record::Recording& recording, const std::vector<loop::KnownEvent>& known_events,
                 std::vector<renders::ReportKey>& keys) {
   std::vector<std::pair<std::string, loop::EventNumbers>> all;
   for (const auto& known : known_events) {
@@ -111,7 +111,7 @@ void add_pieces(const loop::Recording& recording, const std::vector<loop::KnownE
   }
 }
 
-void add_values(const loop::Recording& recording, const loop::Outcome& outcome,
+void add_values(const record::Recording& recording, const record::Outcome& outcome,
                 std::vector<renders::ReportKey>& keys) {
   std::set<std::pair<std::string, std::string>> told;
   for (const auto& check : outcome.checks) {
@@ -126,7 +126,7 @@ void add_values(const loop::Recording& recording, const loop::Outcome& outcome,
   }
 }
 
-void add_line_speeds(const loop::Recording& recording, const std::vector<std::string>& lines,
+void add_line_speeds(const record::Recording& recording, const std::vector<std::string>& lines,
                      std::vector<renders::ReportKey>& keys) {
   for (const auto& name : lines) {
     const auto* column = recording.column(name + ".speed");
@@ -139,17 +139,17 @@ void add_line_speeds(const loop::Recording& recording, const std::vector<std::st
     }
     const bool even = low == high;
     keys.push_back({(even ? "" : "highest ") + name + " speed",
-                    with_unit(fmt::format("{:.4g}", loop::without_noise(high)), column->unit),
+                    with_unit(fmt::format("{:.4g}", record::without_noise(high)), column->unit),
                     {},
                     {}});
-    if (!even) keys.back().notes.push_back(fmt::format("lowest {:.4g}", loop::without_noise(low)));
+    if (!even) keys.back().notes.push_back(fmt::format("lowest {:.4g}", record::without_noise(low)));
   }
 }
 
 /// Of the drives that are nearest to their ratings.
-void add_drives(const loop::Outcome& outcome, bool all_judged, std::vector<renders::ReportKey>& keys) {
+void add_drives(const record::Outcome& outcome, bool all_judged, std::vector<renders::ReportKey>& keys) {
   constexpr std::size_t most = 3;
-  std::vector<const loop::DriveVerdict*> drives;
+  std::vector<const record::DriveVerdict*> drives;
   drives.reserve(outcome.drives.size());
   for (const auto& drive : outcome.drives) drives.push_back(&drive);
   std::stable_sort(drives.begin(), drives.end(),
@@ -171,11 +171,11 @@ void add_drives(const loop::Outcome& outcome, bool all_judged, std::vector<rende
 
 /// The check that failed by most, or would fail first if all went on a little worse. How long a run took to
 /// be done says nothing of the machine.
-void add_nearest(const loop::Outcome& outcome, std::vector<renders::ReportKey>& keys) {
-  const loop::CheckResult* nearest = nullptr;
+void add_nearest(const record::Outcome& outcome, std::vector<renders::ReportKey>& keys) {
+  const record::CheckResult* nearest = nullptr;
   std::size_t count = 0;
   const bool passed = std::all_of(outcome.checks.begin(), outcome.checks.end(),
-                                  [](const loop::CheckResult& check) { return check.passed; });
+                                  [](const record::CheckResult& check) { return check.passed; });
   for (const auto& check : outcome.checks) {
     if (!check.used || (check.deadline && check.passed) || check.passed != passed) continue;
     ++count;
@@ -190,10 +190,10 @@ void add_nearest(const loop::Outcome& outcome, std::vector<renders::ReportKey>& 
 
 }  // namespace
 
-std::vector<renders::ReportKey> key_figures(const loop::Recording& recording,
+std::vector<renders::ReportKey> key_figures(const record::Recording& recording,
                                             const std::vector<loop::KnownEvent>& known_events,
                                             const std::vector<std::string>& lines,
-                                            const loop::Outcome& outcome, bool drives_judged) {
+                                            const record::Outcome& outcome, bool drives_judged) {
   std::vector<renders::ReportKey> keys;
   add_pieces(recording, known_events, keys);
   add_values(recording, outcome, keys);

@@ -11,9 +11,9 @@ namespace drycut::sim::report {
 /// event value that a check limits (mean and standard deviation, the worst one, Cpk where there are ten or
 /// more), the speeds of `lines` (names of plants), torques of the drives, and the check that is nearest to
 /// its limit.
-std::vector<renders::ReportKey> key_figures(const loop::Recording& recording,
+std::vector<renders::ReportKey> key_figures(const record::Recording& recording,
                                             const std::vector<loop::KnownEvent>& known_events,
                                             const std::vector<std::string>& lines,
-                                            const loop::Outcome& outcome, bool drives_judged);
+                                            const record::Outcome& outcome, bool drives_judged);
 
 }  // namespace drycut::sim::report

@@ -9,7 +9,7 @@
 
 namespace drycut::sim::report {
 
-void add_checks(const std::vector<loop::CheckResult>& checks, renders::Report& report) {
+void add_checks(const std::vector<record::CheckResult>& checks, renders::Report& report) {
   for (const auto& check : checks)
     report.checks.push_back(
         {check.name, check.expectation, check.passed, margin_text(check), check.detail, check.used});

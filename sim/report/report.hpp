@@ -17,7 +17,7 @@ inline constexpr auto* report_file = "report.html";
 inline constexpr auto* plots_folder = "plots";
 
 /// The checks with what is left of their limits.
-void add_checks(const std::vector<loop::CheckResult>& checks, renders::Report& report);
+void add_checks(const std::vector<record::CheckResult>& checks, renders::Report& report);
 
 /// What the command line changed, a fact each.
 void add_overrides(const std::vector<scenario::Override>& overrides, renders::Report& report);

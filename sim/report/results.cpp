@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "base/plain_text.hpp"
 #include "base/text.hpp"
 #include "sim/file.hpp"
+#include "sim/record/json.hpp"
 #include "sim/studies/half_step.hpp"
 
 namespace drycut::sim::report {
@@ -36,7 +36,7 @@ std::string properties_of(const RunResult& result) {
   if (!result.title.empty()) add("scene", result.title);
   add("scenario", result.scenario.string());
   if (result.seed) add("seed", std::to_string(*result.seed));
-  add("duration", fmt::format("{} s", loop::seconds_text(result.outcome.end)));
+  add("duration", fmt::format("{} s", record::seconds_text(result.outcome.end)));
   for (const auto& warning : result.outcome.warnings) add("warning", warning);
   return text + "    </properties>\n";
 }
@@ -85,14 +85,9 @@ std::string suite_of(const RunResult& result) {
   if (!output.empty()) text += "    <system-out>" + output + "</system-out>\n";
   std::string alarms;
   for (const auto& alarm : outcome.alarms)
-    alarms += (alarms.empty() ? "" : "\n") + escaped(loop::text_of(alarm));
+    alarms += (alarms.empty() ? "" : "\n") + escaped(record::text_of(alarm));
   if (!alarms.empty()) text += "    <system-err>" + alarms + "</system-err>\n";
   return text + "  </testsuite>\n";
-}
-
-nlohmann::ordered_json number_or_null(const std::optional<double>& number) {
-  if (!number || !std::isfinite(*number)) return nullptr;
-  return *number;
 }
 
 }  // namespace
@@ -109,24 +104,24 @@ std::string path_from_here(const std::filesystem::path& file) {
   return inside.empty() || *inside.begin() == ".." ? normal.string() : inside.string();
 }
 
-std::string margin_text(const loop::CheckResult& check) {
+std::string margin_text(const record::CheckResult& check) {
   if (!check.margin) return "";
   const auto unit = check.unit.empty() ? "" : " " + check.unit;
-  const double room = loop::without_noise(std::abs(*check.margin));
+  const double room = record::without_noise(std::abs(*check.margin));
   auto text = fmt::format("{:.4g}{} {}", room, unit, *check.margin >= 0 ? "left" : "too far");
   if (check.at) text += fmt::format(", at {:.4f} s", *check.at);
   return text;
 }
 
-loop::CheckResult no_warnings(const loop::Outcome& outcome) {
-  loop::CheckResult check;
+record::CheckResult no_warnings(const record::Outcome& outcome) {
+  record::CheckResult check;
   check.name = "no warning";
   check.expectation = "no warning, with --strict";
   check.detail = fmt::format("{}", fmt::join(outcome.warnings, "; "));
   return check;
 }
 
-std::string verdict_text(const loop::Outcome& outcome) {
+std::string verdict_text(const record::Outcome& outcome) {
   const auto warned = outcome.warnings.empty()
                           ? ""
                           : ", " + counted(static_cast<std::int64_t>(outcome.warnings.size()), "warning");
@@ -142,37 +137,21 @@ std::string verdict_text(const loop::Outcome& outcome) {
          warned;
 }
 
-loop::Outcome outcome_to_come() {
+record::Outcome outcome_to_come() {
   return {0, "the run has not come to its end; it goes on, or it was ended from outside", {}};
 }
 
-void write_checks(const loop::Outcome& outcome, const std::filesystem::path& file) {
-  nlohmann::ordered_json json;
-  json["drycut"] = DRYCUT_VERSION;
-  json["passed"] = outcome.passed();
-  json["end"] = seconds(outcome.end);
-  json["failure"] = outcome.failure;
-  json["cause"] = outcome.cause;
-  json["warnings"] = outcome.warnings;
-  const auto& half = outcome.half_step;
-  if (half) json["half_step"] = {{"step", seconds(half->step)}, {"failure", half->failure}};
-  json["checks"] = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < outcome.checks.size(); ++i) {
-    const auto& check = outcome.checks[i];
-    json["checks"].push_back({{"name", check.name},
-                              {"expectation", check.expectation},
-                              {"passed", check.passed},
-                              {"margin", number_or_null(check.margin)},
-                              {"unit", check.unit},
-                              {"at", number_or_null(check.at)},
-                              {"detail", check.detail}});
-    if (!half || i >= half->checks.size()) continue;
-    const auto& other = half->checks[i];
-    json["checks"].back()["half_step"] = {{"passed", other.passed},
-                                          {"margin", number_or_null(other.margin)},
-                                          {"moved", number_or_null(studies::moved(check, other))}};
-  }
-  write_file(file, json.dump(2) + "\n");
+void write_checks(const record::Outcome& outcome, const std::filesystem::path& file) {
+  record::Json json = {{"drycut", DRYCUT_VERSION}};
+  json.update(record::json_of(outcome));
+  if (const auto& half = outcome.half_step)
+    for (std::size_t i = 0; i < std::min(outcome.checks.size(), half->checks.size()); ++i) {
+      const auto& other = half->checks[i];
+      json["checks"][i]["half_step"] = {{"passed", other.passed},
+                                        {"margin", record::json_of(other.margin)},
+                                        {"moved", record::json_of(studies::moved(outcome.checks[i], other))}};
+    }
+  write_file(file, record::json_text(json, 2) + "\n");
 }
 
 std::string scenario_text(const scenario::Scenario& scenario) {

@@ -24,7 +24,7 @@ struct RunResult {
   std::string name;  ///< the scenario's file name without extension
   std::filesystem::path scenario;
   std::filesystem::path directory;  ///< where its files are
-  loop::Outcome outcome;
+  record::Outcome outcome;
   bool has_report = false;
   std::string title = {};                  ///< of the scene
   std::optional<std::uint64_t> seed = {};  ///< absent: it compares runs
@@ -48,9 +48,9 @@ std::vector<FilePlace> places_of_checks(const Scene& scene) {
   return places;
 }
 
-/// checks.json: the version, and name, expectation, passed, margin, unit, at, detail of every check; with
-/// --verify-step also what it came to at half the step.
-void write_checks(const loop::Outcome& outcome, const std::filesystem::path& file);
+/// checks.json: the version and the outcome as it is visited; with --verify-step also, beside each check,
+/// what it came to at half the step.
+void write_checks(const record::Outcome& outcome, const std::filesystem::path& file);
 
 /// The files of a run that a comparison reads.
 inline constexpr auto* trace_file = "trace.csv";
@@ -60,7 +60,7 @@ inline constexpr auto* checks_file = "checks.json";
 inline constexpr auto* scenario_file = "scenario.yaml";
 
 /// What an outcome says as long as its run has not come to its end.
-loop::Outcome outcome_to_come();
+record::Outcome outcome_to_come();
 
 /// scenario.yaml: the scenario as it ran, with every default and override in force, to be compared with other
 /// runs' and kept. Paths in it are relative to the scenario's own file.
@@ -74,12 +74,12 @@ void write_scenario(const scenario::Scenario& scenario, const std::filesystem::p
 void write_junit(const std::vector<RunResult>& results, const std::filesystem::path& file);
 
 /// "0.0530 mm left, at 7.2040 s"; "" where there is no margin to tell.
-std::string margin_text(const loop::CheckResult& check);
+std::string margin_text(const record::CheckResult& check);
 
 /// The check of a run with --strict that has warnings: it fails.
-loop::CheckResult no_warnings(const loop::Outcome& outcome);
+record::CheckResult no_warnings(const record::Outcome& outcome);
 
 /// "all 5 checks passed", "2 of 5 checks failed, 1 warning", "the simulation stopped: ...".
-std::string verdict_text(const loop::Outcome& outcome);
+std::string verdict_text(const record::Outcome& outcome);
 
 }  // namespace drycut::sim::report

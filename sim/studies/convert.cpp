@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "sim/loop/trace_files.hpp"
-#include "sim/records/csv_files.hpp"
-#include "sim/records/hdf5_file.hpp"
-#include "sim/records/mcap_file.hpp"
+#include "sim/record/csv_files.hpp"
+#include "sim/record/hdf5_file.hpp"
+#include "sim/record/json.hpp"
+#include "sim/record/mcap_file.hpp"
+#include "sim/record/trace_files.hpp"
 
 namespace drycut::sim::studies {
 
@@ -20,16 +21,16 @@ namespace {
 
 /// Channels that are told again, a row after the other.
 struct Channels {
-  explicit Channels(const loop::Recording& of) : numbers(of.columns().size()) {
+  explicit Channels(const record::Recording& of) : numbers(of.columns().size()) {
     for (std::size_t i = 0; i < numbers.size(); ++i)
       recording.add(of.columns()[i].name, of.columns()[i].unit).slot = &numbers[i];
   }
-  loop::Recording recording;
+  record::Recording recording;
   std::vector<double> numbers;
 };
 
 /// Rows and events in the order of their times.
-void tell(const loop::Recording& recording, std::vector<double>& numbers, loop::Observer& to) {
+void tell(const record::Recording& recording, std::vector<double>& numbers, record::Observer& to) {
   std::size_t event = 0;
   const auto& events = recording.events();
   for (std::size_t row = 0; row < recording.times().size(); ++row) {
@@ -66,30 +67,34 @@ class Part {
 
 }  // namespace
 
-void write_record(const records::Record& record, RecordFormat format, const fs::path& file) {
+void write_record(const record::Record& record, RecordFormat format, const fs::path& file) {
   const auto& recording = record.recording;
   Channels channels(recording);
   const Part part(file);
-  const auto told = [&](loop::Observer&& to) { tell(recording, channels.numbers, to); };
+  const auto told = [&](record::Observer&& to) { tell(recording, channels.numbers, to); };
   switch (format) {
     case RecordFormat::csv: {
-      const Part events(records::events_beside(file));
-      told(loop::TraceFiles(channels.recording, part.path(), events.path()));
+      const Part events(record::events_beside(file));
+      told(record::TraceFiles(channels.recording, part.path(), events.path()));
       events.finish();
       break;
     }
     case RecordFormat::hdf5:
-      told(records::Hdf5File(channels.recording, part.path(), record.about));
-      if (!record.checks.empty()) records::add_checks(part.path(), record.checks);
+      told(record::Hdf5File(channels.recording, part.path(), record.about));
+      if (!record.outcome.checks.empty()) record::add_outcome(part.path(), record.outcome);
       break;
-    case RecordFormat::mcap:
-      told(records::McapFile(channels.recording, part.path(), record.about));
+    case RecordFormat::mcap: {
+      auto about = record.about;
+      if (!record.outcome.checks.empty())
+        about.emplace_back("outcome", record::json_text(record::json_of(record.outcome)));
+      told(record::McapFile(channels.recording, part.path(), about));
       break;
+    }
   }
   part.finish();
 }
 
-void check_names(const records::Record& record, const fs::path& run, Problems& problems) {
+void check_names(const record::Record& record, const fs::path& run, Problems& problems) {
   for (const auto& column : record.recording.columns())
     if (column.name == "." || column.name.find('/') != std::string::npos)
       problems.push_back({run.string(), 1, 1,

@@ -15,7 +15,7 @@ std::string number(double value, const std::string& unit) {
   return fmt::format("{:.4g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
-std::string cell(const loop::CheckResult& check) {
+std::string cell(const record::CheckResult& check) {
   return fmt::format("{}{}", check.passed ? "PASS" : "FAIL",
                      check.margin ? " " + number(*check.margin, check.unit) : "");
 }
@@ -33,7 +33,7 @@ std::optional<scenario::Override> halved_step(const scenario::Scenario& scenario
   return {};
 }
 
-loop::HalfStep run_half_step(scenario::Scenario scenario, const std::function<void(Time)>& progress) {
+record::HalfStep run_half_step(scenario::Scenario scenario, const std::function<void(Time)>& progress) {
   scenario.pictures = {};
   scenario.record.channels.clear();
   Problems problems;
@@ -44,12 +44,12 @@ loop::HalfStep run_half_step(scenario::Scenario scenario, const std::function<vo
   return {scenario.scene.step, std::move(outcome.failure), std::move(outcome.checks)};
 }
 
-std::optional<double> moved(const loop::CheckResult& check, const loop::CheckResult& at_half) {
+std::optional<double> moved(const record::CheckResult& check, const record::CheckResult& at_half) {
   if (!check.margin || !at_half.margin) return {};
   return *at_half.margin - *check.margin;
 }
 
-renders::ReportTable margin_table(const loop::Outcome& outcome, Time step) {
+renders::ReportTable margin_table(const record::Outcome& outcome, Time step) {
   const auto& half = outcome.half_step.value();
   renders::ReportTable table{"Margins at half the step",
                              {"check", "margin at " + scenario::format_time(step),

@@ -15,11 +15,11 @@ std::optional<scenario::Override> halved_step(const scenario::Scenario& scenario
 
 /// Runs a scenario that was read with that override; nothing is recorded or drawn. Throws std::runtime_error
 /// if it cannot be put together.
-loop::HalfStep run_half_step(scenario::Scenario scenario, const std::function<void(Time)>& progress);
+record::HalfStep run_half_step(scenario::Scenario scenario, const std::function<void(Time)>& progress);
 
 /// Check by check the margins at both steps and how far they moved. `step` is the scenario's own.
-renders::ReportTable margin_table(const loop::Outcome& outcome, Time step);
+renders::ReportTable margin_table(const record::Outcome& outcome, Time step);
 /// Margin at half the step less margin at the step; nullopt where one has none.
-std::optional<double> moved(const loop::CheckResult& check, const loop::CheckResult& at_half);
+std::optional<double> moved(const record::CheckResult& check, const record::CheckResult& at_half);
 
 }  // namespace drycut::sim::studies

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "sim/records/hdf5_file.hpp"
+#include "sim/record/hdf5_file.hpp"
 
 namespace drycut::bench {
 
@@ -50,7 +50,7 @@ double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_P
 
 double write_hdf5() {
   std::vector<double> numbers(channels);
-  sim::loop::Recording recording;
+  sim::record::Recording recording;
   for (std::size_t i = 0; i < channels; ++i)
     recording.add(fmt::format("line.channel{}", i), "mm").slot = &numbers[i];
   const auto begin = processor_seconds();
@@ -58,7 +58,7 @@ double write_hdf5() {
   const auto made = processor_seconds();
   const auto file = std::filesystem::temp_directory_path() / fmt::format("drycut_bench_{}.h5", getpid());
   {
-    sim::records::Hdf5File out(recording, file, {});
+    sim::record::Hdf5File out(recording, file, {});
     for (int row = 0; row < rows; ++row) {
       set_row(row, numbers);
       out.sample(sim::Time{row} * 100 * sim::microsecond);

@@ -7,14 +7,13 @@ from pathlib import Path
 HOUSE = Path(__file__).resolve().parents[2]
 
 # A room, and what its files may include besides its own. Of sim/ its loose files are a room, too: "sim".
-LOOP = ["sim/controllers", "sim/loop", "sim/scenario", "sim"]
+LOOP = ["sim/controllers", "sim/loop", "sim/record", "sim/scenario", "sim"]
 MAY = {
     "base": [],
     "devices": ["base"],
     "plants": ["base"],
     "renders": ["base"],
     **{room: ["base", "devices", "plants", *LOOP] for room in LOOP},
-    "sim/records": ["base", "devices", "plants", *LOOP, "sim/report"],
 }
 
 

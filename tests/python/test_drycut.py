@@ -5,6 +5,7 @@ import inspect
 import math
 import os
 import pathlib
+import pickle
 import pydoc
 import shutil
 import signal
@@ -97,6 +98,30 @@ class RunTest(unittest.TestCase):
                 drycut.run(KNIFE, set=brief, out=out)
             self.assertEqual([problem.file for problem in caught.exception.problems], ["out"])
 
+    def test_heeds_the_format_of_the_record_and_keeps_retentive_values(self):
+        with tempfile.TemporaryDirectory() as folder:
+            kept = {name: pathlib.Path(folder, f"{name}.txt") for name in ("ours", "theirs")}
+            brief = {"scene.duration": "1 s", "record.format": "hdf5"}
+            ours, theirs = ({**brief, "controller.qmove.retentive": str(file)} for file in kept.values())
+            drycut.run(KNIFE, set=ours, out=os.path.join(folder, "ours"), pictures=False)
+            subprocess.run([PROGRAM, "run", KNIFE, "--no-pictures", "--out", os.path.join(folder, "theirs"),
+                            *(f"--set={path}={value}" for path, value in theirs.items())], check=False, capture_output=True)
+            self.assertEqual(sorted(os.listdir(os.path.join(folder, "ours"))),
+                             sorted(os.listdir(os.path.join(folder, "theirs", "rotary_knife"))))
+            self.assertIn("trace.h5", os.listdir(os.path.join(folder, "ours")))
+            self.assertGreater(len(kept["ours"].read_text()), 1000)
+            self.assertEqual(kept["ours"].read_text(), kept["theirs"].read_text())
+
+    def test_a_check_is_a_tuple_of_seven_with_more_attributes(self):
+        check = self.run_.checks[0]
+        name, expectation, passed, margin, unit, at, detail = check
+        self.assertEqual((name, expectation, passed, margin, unit, at, detail), check)
+        self.assertLess(check.used, 1)
+        self.assertIsNone(check.failed_at)
+        again = pickle.loads(pickle.dumps(check))
+        self.assertEqual((again, again.used), (check, check.used))
+        self.assertGreater(self.run_.outcome["drives"][0]["figures"][0]["share"], 0)
+
     def test_gives_a_frame(self):
         try:
             import pandas  # noqa: F401
@@ -154,8 +179,8 @@ class SimulationTest(unittest.TestCase):
         line.advance(5.0)
         self.assertEqual(line.take_events(), run.events)
         self.assertEqual(line.take_events(), [])
-        self.assertEqual([(c.name, c.passed, c.margin) for c in line.checks()],
-                         [(c.name, c.passed, c.margin) for c in run.checks])
+        self.assertEqual(line.checks(), run.checks)
+        self.assertTrue(all(check.expectation for check in line.checks()))
 
     def test_refuses_what_does_not_fit(self):
         for call in (lambda: self.line.read("web.sped"), lambda: self.line.write("knife.angle", 1),

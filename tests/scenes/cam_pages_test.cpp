@@ -28,7 +28,7 @@ struct Played {
   Problems problems;
   scenario::Scenario scenario;
   std::unique_ptr<loop::Simulation> simulation;
-  loop::Outcome outcome;
+  record::Outcome outcome;
   /// `more` goes into its timeline.
   explicit Played(const std::string& name, const std::vector<scenario::Override>& overrides = {},
                   const std::string& more = "")

@@ -43,7 +43,7 @@ struct Ran {
   Problems problems;
   scenario::Scenario scenario;
   std::unique_ptr<loop::Simulation> simulation;
-  loop::Outcome outcome;
+  record::Outcome outcome;
   explicit Ran(const fs::path& file, const std::vector<scenario::Override>& overrides = {})
       : scenario(scenario::read_scenario(file, overrides, problems)) {
     scenario.pictures.frames = false;

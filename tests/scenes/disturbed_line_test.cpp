@@ -21,7 +21,7 @@ struct LineRun {
   Problems problems;
   scenario::Scenario scenario;
   std::unique_ptr<loop::Simulation> simulation;
-  loop::Outcome outcome;
+  record::Outcome outcome;
 
   explicit LineRun(const std::string& scene, const std::vector<scenario::Override>& overrides)
       : scenario(read_scenario(source_root / "scenes" / scene, overrides, problems)) {

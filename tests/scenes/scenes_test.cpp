@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "sim/cli/run_command.hpp"
-#include "sim/loop/recorder.hpp"
 #include "sim/loop/simulation.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/studies/compare/scene.hpp"
 #include "tests/test_folder.hpp"
 
@@ -35,7 +35,7 @@ struct Played {
   Problems problems;
   scenario::Scenario scenario;
   std::unique_ptr<loop::Simulation> simulation;
-  loop::Outcome outcome;
+  record::Outcome outcome;
   explicit Played(const fs::path& file, const fs::path& out = "")
       : scenario(scenario::read_scenario(file, {}, problems)) {
     scenario.pictures.frames = false;

@@ -8,13 +8,13 @@
 namespace drycut::sim::loop {
 namespace {
 
-RecordedEvent told(double at, const std::string& source, const std::string& event, const std::string& text,
-                   std::vector<RecordedEvent::Value> values = {}) {
+record::RecordedEvent told(double at, const std::string& source, const std::string& event,
+                           const std::string& text, std::vector<record::RecordedEvent::Value> values = {}) {
   return {static_cast<Time>(at * 1e9), 0, source, event, std::move(values), text, severity_of(event)};
 }
 
-CheckResult failed(std::optional<double> at) {
-  CheckResult result{"cut length", "each cut: length > 0", false, {}, "", {}, ""};
+record::CheckResult failed(std::optional<double> at) {
+  record::CheckResult result{"cut length", "each cut: length > 0", false, {}, "", {}, ""};
   result.failed_at = at;
   return result;
 }

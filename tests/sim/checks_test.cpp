@@ -40,7 +40,7 @@ struct ChecksTest : testing::Test {
     watch.update();
     checks->happened({now, 0, "knife", "cut", {{"length", length, "mm"}, {"force", 130, "N"}}, ""});
   }
-  CheckResult result() { return checks->results(10 * second).front(); }
+  record::CheckResult result() { return checks->results(10 * second).front(); }
 
   scenario::Scenario scenario;
   fakes::FakeController controller;
@@ -242,9 +242,9 @@ TEST_F(ChecksTest, RoundingNoiseIsPrintedAsZero) {
   start();
   cut(2 * second, -1.8e-12);
   EXPECT_EQ(result().detail, "1 cut event, worst: length=0 mm; force=130 N");
-  EXPECT_EQ(values_text({0, 0, "a", "b", {{"slant", -1.8e-12, "mm"}, {"gap", 2e-9, "mm"}}, ""}),
+  EXPECT_EQ(record::values_text({0, 0, "a", "b", {{"slant", -1.8e-12, "mm"}, {"gap", 2e-9, "mm"}}, ""}),
             "slant=0 mm; gap=2e-09 mm");
-  CheckResult noise;
+  record::CheckResult noise;
   noise.margin = 1e-13;
   noise.unit = "mm";
   EXPECT_EQ(report::margin_text(noise), "0 mm left");

@@ -29,8 +29,8 @@ checks:
 const std::string sine = "5 * sin(_pi * bench.counter1.count / 500)";
 
 struct Ran {
-  loop::CheckResult check;
-  loop::Recording recording;
+  record::CheckResult check;
+  record::Recording recording;
   double metric = NAN;
 };
 

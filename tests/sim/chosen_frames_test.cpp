@@ -17,14 +17,14 @@ std::vector<double> times(std::size_t count) {
   return all;
 }
 
-loop::RecordedEvent event(double at, const char* source, const char* name, double length = 0) {
-  loop::RecordedEvent made{static_cast<Time>(at * 1e9), 0, source, name, {}, ""};
+record::RecordedEvent event(double at, const char* source, const char* name, double length = 0) {
+  record::RecordedEvent made{static_cast<Time>(at * 1e9), 0, source, name, {}, ""};
   if (length > 0) made.values = {{"length", length, "mm"}};
   return made;
 }
 
-loop::CheckResult check(const char* name, bool passed, double at) {
-  loop::CheckResult made;
+record::CheckResult check(const char* name, bool passed, double at) {
+  record::CheckResult made;
   made.name = name;
   made.passed = passed;
   made.at = at;
@@ -42,8 +42,8 @@ std::vector<std::string> told(const std::vector<ChosenFrame>& frames) {
   return all;
 }
 
-loop::EventLog line() {
-  loop::EventLog log;
+record::EventLog line() {
+  record::EventLog log;
   log.push_back(event(0.5, "timeline", "set"));
   log.push_back(event(1, "knife", "cut", 800));
   log.push_back(event(2, "knife", "cut", 800.5));

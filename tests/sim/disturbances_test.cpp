@@ -158,7 +158,7 @@ struct DisturbancesTest : testing::Test {
   DisturbedPlant plant;
   loop::Panel panel;
   Problems problems;
-  loop::Recording recording;
+  record::Recording recording;
 };
 
 TEST_F(DisturbancesTest, ASineFadesInAndLeavesNothingBehind) {

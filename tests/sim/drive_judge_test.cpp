@@ -39,15 +39,15 @@ struct Line {
     if (!problems.empty()) throw std::runtime_error(to_string(problems.front()));
     if (!keeps_events) simulation->keep_nothing();
   }
-  [[nodiscard]] std::vector<CheckResult> ratings() const {
-    std::vector<CheckResult> found;
+  [[nodiscard]] std::vector<record::CheckResult> ratings() const {
+    std::vector<record::CheckResult> found;
     for (auto& check : simulation->outcome().checks)
       if (check.name == "drive within its ratings") found.push_back(check);
     return found;
   }
 };
 
-const DriveFigure& figure(const DriveVerdict& verdict, const std::string& name) {
+const record::DriveFigure& figure(const record::DriveVerdict& verdict, const std::string& name) {
   for (const auto& one : verdict.figures)
     if (one.name == name) return one;
   throw std::out_of_range(name);
@@ -289,7 +289,7 @@ struct ByHand {
       axis.stage.account({torque, 0, asked, true}, axis.rotor, seconds(step));
       now += step;
       for (const auto& event : axis.stage.take_events()) {
-        RecordedEvent told{now, 0, "axis", std::string(event.name), {}, ""};
+        record::RecordedEvent told{now, 0, "axis", std::string(event.name), {}, ""};
         for (const auto& value : event.values)
           told.values.push_back({std::string(value.name), value.number, std::string(value.unit)});
         judge->happened(told);
@@ -306,8 +306,8 @@ struct ByHand {
   }
   static double rms_of_move() { return std::sqrt((144 * 0.2 + 4 * 0.3 + 64 * 0.2 + 1 * 0.5) / 1.2); }
   void cut() { judge->happened({now, 0, "axis", "cut", {}, ""}); }
-  [[nodiscard]] DriveVerdict verdict() const { return judge->verdicts().at(0); }
-  [[nodiscard]] CheckResult check() const { return judge->results(judge->verdicts()).at(0); }
+  [[nodiscard]] record::DriveVerdict verdict() const { return judge->verdicts().at(0); }
+  [[nodiscard]] record::CheckResult check() const { return judge->results(judge->verdicts()).at(0); }
 };
 
 // However many moves a run has, whether home was searched before them, and how long it stands before and

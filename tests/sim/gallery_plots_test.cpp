@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/loop/watch.hpp"
 #include "sim/report/drives.hpp"
 #include "sim/report/gallery.hpp"
 #include "tests/sim/fakes.hpp"
@@ -23,8 +24,8 @@ using ::testing::Not;
 struct GalleryPlots : ::testing::Test {
   GalleryPlots() {
     panel.lamps["busy"];
-    recording.add(watch, "panel.busy");
-    recording.add(watch, "web.speed");
+    watch.record("panel.busy", recording);
+    watch.record("web.speed", recording);
     for (int i = 0; i < 10; ++i) {
       panel.lamps["busy"].level = i % 4 >= 2;
       watch.update();
@@ -55,13 +56,13 @@ struct GalleryPlots : ::testing::Test {
   loop::Panel panel;
   loop::Names names{{{"web", &web}}, nullptr, panel};
   loop::Watch watch{names};
-  loop::Recording recording;
+  record::Recording recording;
 };
 
 TEST_F(GalleryPlots, APanelThatIsZeroAllTheTimeIsLeftOutAndNamed) {
-  loop::Recording still;
-  still.add(watch, "panel.busy");
-  still.add(watch, "web.speed");
+  record::Recording still;
+  watch.record("panel.busy", still);
+  watch.record("web.speed", still);
   still.append(0, {0, 0});
   still.append(second, {1, 0});
   const auto made = [&](const std::string& panels) {
@@ -207,7 +208,7 @@ TEST_F(Histogram, ABeyondTheLimitIsANegativeCpk) {
 }
 
 TEST(SpectrumPlot, NamesWhatTurnsAsOftenAndWhatPiecesOfOneLengthShowAlike) {
-  loop::Recording recording;
+  record::Recording recording;
   const double pi = std::numbers::pi;
   for (int i = 1; i <= 40; ++i) {
     const double length = 800 + 0.5 * (std::sin(2 * pi * 1.6 * i) - std::sin(2 * pi * 1.6 * (i - 1)));
@@ -231,12 +232,12 @@ TEST(SpectrumPlot, NamesWhatTurnsAsOftenAndWhatPiecesOfOneLengthShowAlike) {
       ElementsAre("length of cut: 0.951 mm at 500 mm: once a turn of web.wheel, as an error of its place by "
                   "0.5 mm makes it; pieces of this length show 2000 mm, 1333 mm, 571.4 mm alike, others "
                   "would tell"));
-  const auto none = findings_of(scenario, loop::Recording(), machine);
+  const auto none = findings_of(scenario, record::Recording(), machine);
   EXPECT_THAT(none, ElementsAre("length of cut: 0 values are too few"));
 }
 
 TEST(SpectrumPlot, AValueWithoutALengthGoesByTheEvents) {
-  loop::Recording recording;
+  record::Recording recording;
   for (int i = 0; i < 60; ++i)
     recording.happened({(i + 1) * 800 * millisecond,
                         0,

@@ -22,8 +22,8 @@ using ::testing::IsEmpty;
 constexpr double open = std::numeric_limits<double>::infinity();
 
 /// Cuts every half second from 1 s on, with these lengths.
-loop::Recording cuts_of(const std::vector<double>& lengths) {
-  loop::Recording recording;
+record::Recording cuts_of(const std::vector<double>& lengths) {
+  record::Recording recording;
   for (std::size_t i = 0; i < lengths.size(); ++i)
     recording.happened({second + static_cast<Time>(i) * 500 * millisecond,
                         0,
@@ -36,8 +36,8 @@ loop::Recording cuts_of(const std::vector<double>& lengths) {
 const std::vector<loop::KnownEvent> known = {{"knife", "cut", {{"length", "mm"}, {"mismatch", "mm/s"}}},
                                              {"web", "tear", {}}};
 
-loop::Outcome limited(const std::vector<loop::Tolerance>& tolerances) {
-  loop::Outcome outcome;
+record::Outcome limited(const std::vector<record::Tolerance>& tolerances) {
+  record::Outcome outcome;
   outcome.checks.push_back({"cut length", "", true, {}, "", {}, ""});
   outcome.checks.back().tolerances = tolerances;
   return outcome;
@@ -97,12 +97,12 @@ TEST(KeyFigures, OneSidedLimitsAndNoSpread) {
 }
 
 TEST(KeyFigures, SpeedsDrivesAndTheNearestCheck) {
-  loop::Recording recording;
+  record::Recording recording;
   recording.add("web.speed", "m/min");
   recording.append(0, {0});
   recording.append(second, {60});
-  loop::Outcome outcome;
-  loop::DriveVerdict drive;
+  record::Outcome outcome;
+  record::DriveVerdict drive;
   drive.drive = "knife.servo";
   drive.cycles = "10 cycles from cut to cut";
   drive.figures = {{"rms torque", 2.041, 9.5, "N m", 0.2148},
@@ -134,7 +134,7 @@ TEST(KeyFigures, SpeedsDrivesAndTheNearestCheck) {
             "nearest to its limit: b [90]");
   EXPECT_THAT(told(key_figures(recording, {}, {}, outcome, false))[0],
               testing::StartsWith("rms torque of knife.servo: 2.04 N m; limit 9.5 N m; not judged"));
-  EXPECT_THAT(key_figures(loop::Recording(), {}, {}, {}, true), IsEmpty());
+  EXPECT_THAT(key_figures(record::Recording(), {}, {}, {}, true), IsEmpty());
 }
 
 // ---- where the scenario comes from ----

@@ -223,7 +223,7 @@ TEST(PicturesFilm, PiecesTellTheLengthOfTheirCutAndTheBladeItsForce) {
   KnifeLine line(second_cut);
   const auto film = line.film();
   const auto& events = line.simulation->recording().events();
-  std::vector<loop::RecordedEvent> cuts;
+  std::vector<record::RecordedEvent> cuts;
   for (const auto& event : events)
     if (event.event == "cut") cuts.push_back(event);
   ASSERT_GE(cuts.size(), 2U);

@@ -1,4 +1,4 @@
-#include "sim/loop/recorder.hpp"
+#include "sim/record/recording.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,8 @@
 #include <sstream>
 
 #include "sim/file.hpp"
-#include "sim/loop/trace_files.hpp"
+#include "sim/loop/watch.hpp"
+#include "sim/record/trace_files.hpp"
 #include "sim/report/results.hpp"
 #include "tests/sim/fakes.hpp"
 #include "tests/test_folder.hpp"
@@ -38,17 +39,17 @@ struct RecorderTest : testing::Test {
   Panel panel;
   Names names{{{"web", &plant}}, &controller, panel};
   Watch watch{names};
-  Recording recording;
+  record::Recording recording;
 };
 
 TEST_F(RecorderTest, TraceHasTimeThenChannelsWithUnits) {
   panel.switches["start"];
-  ASSERT_TRUE(recording.add(watch, "web.speed"));
-  ASSERT_TRUE(recording.add(watch, "error"));
-  ASSERT_TRUE(recording.add(watch, "panel.start"));
-  ASSERT_TRUE(recording.add(watch, "web.speed")) << "twice is once";
-  EXPECT_FALSE(recording.add(watch, "web.sped"));
-  TraceFiles files(recording, folder / "trace.csv", folder / "events.csv");
+  ASSERT_TRUE(watch.record("web.speed", recording));
+  ASSERT_TRUE(watch.record("error", recording));
+  ASSERT_TRUE(watch.record("panel.start", recording));
+  ASSERT_TRUE(watch.record("web.speed", recording)) << "twice is once";
+  EXPECT_FALSE(watch.record("web.sped", recording));
+  record::TraceFiles files(recording, folder / "trace.csv", folder / "events.csv");
   watch.update();
   files.sample(0);
   plant.speed = 1.0 / 3;
@@ -65,7 +66,7 @@ TEST_F(RecorderTest, EventsCarryTheirTimeInsideTheStep) {
   recording.happened({100'000, 0.00005, "knife", "cut", {{"length", 800.0125, "mm"}, {"number", 3, ""}}, ""});
   recording.happened({200'000, 0, "AxisX", "refused", {}, "START: st_still is 0, must be 1"});
   recording.happened({300'000, 0, "task", "error", {}, "say \"no\", twice"});
-  TraceFiles files(recording, folder / "trace.csv", folder / "events.csv");
+  record::TraceFiles files(recording, folder / "trace.csv", folder / "events.csv");
   for (const auto& event : recording.events()) files.happened(event);
   files.finish();
   EXPECT_EQ(contents(folder / "events.csv"),
@@ -76,8 +77,8 @@ TEST_F(RecorderTest, EventsCarryTheirTimeInsideTheStep) {
 }
 
 TEST_F(RecorderTest, FilesGrowByWholeLinesASecondAtATime) {
-  ASSERT_TRUE(recording.add(watch, "web.speed"));
-  TraceFiles files(recording, folder / "trace.csv", folder / "events.csv");
+  ASSERT_TRUE(watch.record("web.speed", recording));
+  record::TraceFiles files(recording, folder / "trace.csv", folder / "events.csv");
   std::size_t lines = 0;
   for (Time now = 0; now <= 20 * second; now += 2 * millisecond) {
     files.sample(now);
@@ -95,8 +96,8 @@ TEST_F(RecorderTest, FilesGrowByWholeLinesASecondAtATime) {
 }
 
 TEST_F(RecorderTest, AFullDiskIsTold) {
-  ASSERT_TRUE(recording.add(watch, "web.speed"));
-  TraceFiles files(recording, folder / "trace.csv", "/dev/full");
+  ASSERT_TRUE(watch.record("web.speed", recording));
+  record::TraceFiles files(recording, folder / "trace.csv", "/dev/full");
   try {
     files.happened({0, 0, "task", "note", {}, "first"});
     files.finish();
@@ -108,11 +109,11 @@ TEST_F(RecorderTest, AFullDiskIsTold) {
 
 TEST(Series, ReadsBackWhatWentToTheFile) {
   const TestFolder folder;
-  const auto spool = std::make_shared<Spool>();
+  const auto spool = std::make_shared<record::Spool>();
   spool->lies_in(folder.path);
-  Series<double> half(spool);
-  Series<Time> whole(spool);
-  constexpr std::size_t count = 3 * Series<double>::block + 7;
+  record::Series<double> half(spool);
+  record::Series<Time> whole(spool);
+  constexpr std::size_t count = 3 * record::Series<double>::block + 7;
   for (std::size_t i = 0; i < count; ++i) {
     half.push_back(0.5 * static_cast<double>(i));
     whole.push_back(static_cast<Time>(i) << 40U);
@@ -122,12 +123,12 @@ TEST(Series, ReadsBackWhatWentToTheFile) {
   for (const std::size_t i : {count - 1, std::size_t{3}, count / 2})
     EXPECT_EQ(whole[i], static_cast<Time>(i) << 40U);
   EXPECT_EQ(std::lower_bound(half.begin(), half.end(), 40000.0) - half.begin(), 80000);
-  EXPECT_TRUE(half == Series<double>(half));
+  EXPECT_TRUE(half == record::Series<double>(half));
   EXPECT_TRUE(std::filesystem::is_empty(folder.path)) << "the file has no name";
 }
 
 TEST(EventLog, GivesBackWhatItTook) {
-  EventLog log;
+  record::EventLog log;
   for (int i = 0; i < 1000; ++i)
     log.push_back(
         {i * second, 0.25, "knife", "cut", {{"length", 800.0 + i, "mm"}, {"number", 1.0 * i, ""}}, ""});
@@ -145,9 +146,9 @@ TEST(EventLog, GivesBackWhatItTook) {
 }
 
 TEST(SecondsText, IsExact) {
-  EXPECT_EQ(seconds_text(0), "0.0");
-  EXPECT_EQ(seconds_text(12 * second + 400'000), "12.0004");
-  EXPECT_EQ(seconds_text(1), "0.000000001");
+  EXPECT_EQ(record::seconds_text(0), "0.0");
+  EXPECT_EQ(record::seconds_text(12 * second + 400'000), "12.0004");
+  EXPECT_EQ(record::seconds_text(1), "0.000000001");
 }
 
 TEST_F(RecorderTest, AFileThatIsNotFinishedIsNeverThere) {
@@ -172,7 +173,7 @@ TEST_F(RecorderTest, ReadFileSaysWhatIsWrong) {
 }
 
 TEST_F(RecorderTest, JunitAndChecksJsonTellTheSame) {
-  Outcome outcome;
+  record::Outcome outcome;
   outcome.end = 10 * second;
   outcome.checks = {{"good", "always x < 1", true, 0.25, "mm", 3.5, "9 instants"},
                     {"bad & worse", "always y < 1", false, -2, "N", 4.5, "9 instants, 1 failed"}};
@@ -180,7 +181,7 @@ TEST_F(RecorderTest, JunitAndChecksJsonTellTheSame) {
   EXPECT_THAT(contents(folder / "checks.json"),
               testing::AllOf(testing::HasSubstr("\"passed\": false"), testing::HasSubstr("\"margin\": 0.25"),
                              testing::HasSubstr("\"bad & worse\"")));
-  Outcome stopped = outcome;
+  record::Outcome stopped = outcome;
   stopped.failure = "it <diverged>";
   report::write_junit(
       {{"line", "line.yaml", folder, outcome, false}, {"other", "other.yaml", folder, stopped, false}},
@@ -195,7 +196,7 @@ TEST_F(RecorderTest, JunitAndChecksJsonTellTheSame) {
 }
 
 TEST(Verdict, SaysHowItEnded) {
-  Outcome outcome;
+  record::Outcome outcome;
   EXPECT_EQ(report::verdict_text(outcome), "the scenario states no checks");
   outcome.checks = {{"a", "", true, {}, "", {}, ""}, {"b", "", false, {}, "", {}, ""}};
   EXPECT_EQ(report::verdict_text(outcome), "1 of 2 checks failed");

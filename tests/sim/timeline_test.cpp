@@ -36,7 +36,7 @@ struct TimelineTest : testing::Test {
   Panel panel;
   Names names{{{"web", &plant}}, &controller, panel};
   Problems problems;
-  Recording recording;
+  record::Recording recording;
 };
 
 TEST_F(TimelineTest, SetsAtItsTimeAndNotBefore) {

@@ -8,7 +8,7 @@ namespace {
 
 const std::vector<KnownEvent> events = {{"tube", "held_back", {}, Severity::error}, {"saw", "cut", {}}};
 
-RecordedEvent held(double at) {
+record::RecordedEvent held(double at) {
   return {static_cast<Time>(at * 1e9), 0, "tube", "held_back", {{"force", 1500, "N"}}, ""};
 }
 

@@ -30,7 +30,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-Outcome outcome_of(const std::filesystem::path& file, const std::vector<scenario::Override>& set = {}) {
+record::Outcome outcome_of(const std::filesystem::path& file,
+                           const std::vector<scenario::Override>& set = {}) {
   Problems problems;
   const auto scenario = scenario::read_scenario(file, set, problems);
   if (problems.empty()) {
@@ -133,7 +134,7 @@ TEST(WhyItFailed, ForwardAndBackwardSwappedAreTold) {
                     HasSubstr(": its forward output 2.OUT01 is wired to press.drive.backward")));
 }
 
-Outcome outcome_of_line(const std::string& name, const std::vector<scenario::Override>& set) {
+record::Outcome outcome_of_line(const std::string& name, const std::vector<scenario::Override>& set) {
   return outcome_of(lines / name, set);
 }
 

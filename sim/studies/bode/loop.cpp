@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "plants/power_stage.hpp"
-#include "sim/loop/recorder.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/scenario/units.hpp"
 
 namespace drycut::sim::studies {
@@ -225,7 +225,7 @@ std::vector<std::string> loop_doubts(const LoopResult& result) {
         fmt::format("{} does not answer to {} V at {} s: either the loop is open there (let the program do "
                     "REGON before, or choose another --at), or the axis sits in play or stiction (a larger "
                     "--amplitude would answer, but it hides the play: see drycut bode --limit-cycle)",
-                    result.terminal, result.plan.amplitude, loop::seconds_text(result.plan.at)));
+                    result.terminal, result.plan.amplitude, record::seconds_text(result.plan.at)));
   if (result.sweep.loop == Sweep::Loop::restless)
     doubts.push_back(
         fmt::format("the loop has not come to rest within {} s after the push: wait longer (--settle) or "

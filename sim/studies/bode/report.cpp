@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "renders/report.hpp"
-#include "sim/loop/recorder.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/report/report.hpp"
 
 namespace drycut::sim::studies {
@@ -159,7 +159,7 @@ std::string subject(const LoopResult& result) {
   const auto& plan = result.plan;
   return fmt::format("{}: {} from {}, sampled every {} ms; a sine of {:.3g} V added from {} s on",
                      result.scenario, result.wire, result.terminal, seconds(plan.sampling) * 1000,
-                     plan.amplitude, loop::seconds_text(plan.at));
+                     plan.amplitude, record::seconds_text(plan.at));
 }
 
 /// What the sines say of it.
@@ -223,7 +223,7 @@ std::string faded_text(const LoopResult& result) {
 }
 
 /// "phase margin >= 30 deg: 65.20 deg at 4.1 Hz".
-std::string limits_text(const std::vector<loop::CheckResult>& checks) {
+std::string limits_text(const std::vector<record::CheckResult>& checks) {
   std::string text;
   for (const auto& check : checks)
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", check.expectation, check.detail);
@@ -258,7 +258,7 @@ std::string limit_cycle_text(const LimitCycle& cycle) {
 }
 
 void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
-                       const std::vector<std::string>& faults, const std::vector<loop::CheckResult>& checks,
+                       const std::vector<std::string>& faults, const std::vector<record::CheckResult>& checks,
                        const std::string& expanded, OutputFolder& folder) {
   std::vector<renders::Plot> plots;
   renders::Report report;

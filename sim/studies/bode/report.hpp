@@ -22,7 +22,7 @@ inline const std::vector<std::string> bode_files = {"bode.csv", "report.html", "
 /// judged by, `expanded` is the scenario with every default; `cycle` may be null. Throws std::runtime_error
 /// if something cannot be written.
 void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
-                       const std::vector<std::string>& faults, const std::vector<loop::CheckResult>& checks,
+                       const std::vector<std::string>& faults, const std::vector<record::CheckResult>& checks,
                        const std::string& expanded, OutputFolder& folder);
 inline constexpr std::string_view bode_csv_header =
     "frequency [Hz],open_loop.gain [dB],open_loop.phase [deg],closed_loop.gain [dB],closed_loop.phase "

@@ -14,9 +14,9 @@ namespace drycut::sim::studies {
 namespace {
 
 /// A recording of the same channels, but those that are `left`, with rows and events of its own.
-loop::Recording empty_like(const loop::Recording& recording,
-                           const std::function<bool(const std::string&)>& left) {
-  loop::Recording made;
+record::Recording empty_like(const record::Recording& recording,
+                             const std::function<bool(const std::string&)>& left) {
+  record::Recording made;
   for (const auto& column : recording.columns())
     if (!left(column.name)) made.add(column.name, column.unit);
   return made;
@@ -25,7 +25,7 @@ loop::Recording empty_like(const loop::Recording& recording,
 /// Copies rows into a recording of the same channels, or of some of them.
 class RowCopy {
  public:
-  RowCopy(const loop::Recording& from, loop::Recording& to) : to_(to), numbers_(to.columns().size()) {
+  RowCopy(const record::Recording& from, record::Recording& to) : to_(to), numbers_(to.columns().size()) {
     for (const auto& column : to.columns()) sources_.push_back(from.column(column.name));
   }
   void add(std::size_t row, Time at) {
@@ -34,8 +34,8 @@ class RowCopy {
   }
 
  private:
-  loop::Recording& to_;
-  std::vector<const loop::Recording::Column*> sources_;
+  record::Recording& to_;
+  std::vector<const record::Recording::Column*> sources_;
   std::vector<double> numbers_;
 };
 
@@ -45,7 +45,7 @@ bool is_named(const std::string& wanted, const std::string& channel) {
 }
 
 /// When the stretches of a run begin; the first at 0.
-std::vector<Time> stretches_of(const RunFolder& run, const std::string& mark) {
+std::vector<Time> stretches_of(const ComparedRun& run, const std::string& mark) {
   const auto& recording = run.recording;
   std::vector<Time> begins = {0};
   for (const auto& event : recording.events())
@@ -63,7 +63,7 @@ std::size_t stretch_at(const std::vector<Time>& begins, Time at) {
 }
 
 /// The row nearest to a time, of those that begin with `first` and end before `end`.
-std::size_t nearest_row(const loop::Series<Time>& times, Time at, Time first, Time end) {
+std::size_t nearest_row(const record::Series<Time>& times, Time at, Time first, Time end) {
   const auto from = std::lower_bound(times.begin(), times.end(), first) - times.begin();
   const auto until = std::lower_bound(times.begin(), times.end(), end) - times.begin();
   auto row = std::lower_bound(times.begin(), times.end(), at) - times.begin();
@@ -71,8 +71,8 @@ std::size_t nearest_row(const loop::Series<Time>& times, Time at, Time first, Ti
   return static_cast<std::size_t>(std::clamp(row, from, std::max(from, until - 1)));
 }
 
-loop::Recording laid_over(const RunFolder& first, const std::vector<Time>& first_begins, const RunFolder& run,
-                          const std::vector<Time>& begins) {
+record::Recording laid_over(const ComparedRun& first, const std::vector<Time>& first_begins,
+                            const ComparedRun& run, const std::vector<Time>& begins) {
   const auto& old = run.recording;
   auto laid = empty_like(old, [](const std::string&) { return false; });
   RowCopy copy(old, laid);
@@ -93,7 +93,7 @@ loop::Recording laid_over(const RunFolder& first, const std::vector<Time>& first
 
 }  // namespace
 
-void leave_out(std::vector<RunFolder>& runs, const std::vector<std::string>& names, Problems& problems) {
+void leave_out(std::vector<ComparedRun>& runs, const std::vector<std::string>& names, Problems& problems) {
   std::vector<std::string> known;
   for (const auto& run : runs)
     for (const auto& column : run.recording.columns()) known.push_back(column.name);
@@ -115,7 +115,7 @@ void leave_out(std::vector<RunFolder>& runs, const std::vector<std::string>& nam
   }
 }
 
-void align(std::vector<RunFolder>& runs, const std::string& mark, Problems& problems) {
+void align(std::vector<ComparedRun>& runs, const std::string& mark, Problems& problems) {
   if (mark.empty() || !problems.empty()) return;
   std::vector<std::vector<Time>> begins;
   for (const auto& run : runs) {

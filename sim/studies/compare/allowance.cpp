@@ -56,7 +56,7 @@ struct Quantity {
   }
 };
 
-std::set<Quantity> quantities_of(const RunFolder& run) {
+std::set<Quantity> quantities_of(const ComparedRun& run) {
   std::set<Quantity> all;
   for (const auto& column : run.recording.columns()) all.insert({column.name, column.unit});
   for (const auto& event : run.recording.events()) {
@@ -70,7 +70,7 @@ std::set<Quantity> quantities_of(const RunFolder& run) {
 }
 
 /// Its largest absolute number in the run, in that unit.
-double largest_of(const RunFolder& run, const std::string& name, const std::string& unit) {
+double largest_of(const ComparedRun& run, const std::string& name, const std::string& unit) {
   double largest = 0;
   if (const auto* column = run.recording.column(name); column != nullptr && column->unit == unit)
     for (const double number : column->values) largest = std::max(largest, std::abs(number));
@@ -122,7 +122,7 @@ double Allowances::of_value(const std::string& source, const std::string& event,
 
 double Allowances::of_time(double end) const { return of_channel(time_name, "s", end); }
 
-double Allowances::of_margin(const loop::CheckResult& check, const RunFolder& first) const {
+double Allowances::of_margin(const record::CheckResult& check, const ComparedRun& first) const {
   const double margin = std::abs(check.margin.value_or(0));
   if (const auto* own = find(check.name))
     if (const auto allowed = in_unit(*own, check.unit, margin)) return *allowed;
@@ -168,12 +168,12 @@ Allowances read_allowances(const std::vector<std::string>& texts, Problems& prob
   return allowances;
 }
 
-void check_allowances(const Allowances& allowances, const std::vector<RunFolder>& runs,
+void check_allowances(const Allowances& allowances, const std::vector<ComparedRun>& runs,
                       const std::vector<std::pair<std::string, std::string>>& figures, Problems& problems) {
   std::set<Quantity> known = {{time_name, "s"}};
   for (const auto& run : runs) {
     known.merge(quantities_of(run));
-    for (const auto& check : run.checks) known.insert({check.name, check.unit});
+    for (const auto& check : run.outcome.checks) known.insert({check.name, check.unit});
   }
   for (const auto& [name, unit] : figures) known.insert({name, unit});
   std::vector<std::string> names;

@@ -35,14 +35,14 @@ struct Allowances {
   [[nodiscard]] double of_time(double end) const;  ///< [s]
   /// Of a check's margin, as the first run has it: that of the check's name, else the widest of what its
   /// expectation speaks of, else the usual one.
-  [[nodiscard]] double of_margin(const loop::CheckResult& check, const RunFolder& first) const;
+  [[nodiscard]] double of_margin(const record::CheckResult& check, const ComparedRun& first) const;
 };
 
 /// Reads NAME=0.01mm, NAME=0.1%, NAME=1e-6 (both of the largest value) and the same without NAME. What is
 /// wrong goes to `problems` by option and column.
 Allowances read_allowances(const std::vector<std::string>& texts, Problems& problems);
 /// Tells names that nothing in the runs has, and units that do not fit.
-void check_allowances(const Allowances& allowances, const std::vector<RunFolder>& runs,
+void check_allowances(const Allowances& allowances, const std::vector<ComparedRun>& runs,
                       const std::vector<std::pair<std::string, std::string>>& figures, Problems& problems);
 
 }  // namespace drycut::sim::studies

@@ -25,8 +25,8 @@ std::ptrdiff_t changed_channels(const Comparison& comparison) {
 
 bool end_alike(const Comparison& comparison) {
   const auto& first = comparison.runs.front();
-  return std::all_of(comparison.runs.begin(), comparison.runs.end(), [&](const RunFolder& run) {
-    return run.end == first.end && run.failure == first.failure &&
+  return std::all_of(comparison.runs.begin(), comparison.runs.end(), [&](const ComparedRun& run) {
+    return run.outcome.end == first.outcome.end && run.outcome.failure == first.outcome.failure &&
            run.recording.times() == first.recording.times();
   });
 }
@@ -51,7 +51,7 @@ class CsvText {
                const std::vector<double>& numbers) {
     std::vector<std::string> cells;
     for (const double number : numbers)
-      cells.push_back(std::isnan(number) ? "" : fmt::format("{:.9g}", loop::without_noise(number)));
+      cells.push_back(std::isnan(number) ? "" : fmt::format("{:.9g}", record::without_noise(number)));
     row(what, name, unit, cells);
   }
   [[nodiscard]] std::string text() && { return std::move(text_); }
@@ -69,7 +69,7 @@ std::vector<std::string> of_runs(const Comparison& comparison, Text text) {
 
 }  // namespace
 
-Comparison compare(std::vector<RunFolder> runs, std::optional<double> from, const Allowances& allowances) {
+Comparison compare(std::vector<ComparedRun> runs, std::optional<double> from, const Allowances& allowances) {
   Comparison comparison;
   comparison.runs = std::move(runs);
   comparison.from = from;
@@ -92,11 +92,11 @@ bool kept(const Comparison& comparison) {
 
 bool same(const Comparison& comparison) { return kept(comparison) && comparison.parameters.empty(); }
 
-std::vector<loop::CheckResult> judgement(const Comparison& comparison, bool parameters) {
-  std::vector<loop::CheckResult> rows;
+std::vector<record::CheckResult> judgement(const Comparison& comparison, bool parameters) {
+  std::vector<record::CheckResult> rows;
   const auto judge = [&](const char* name, const char* expectation, std::size_t beyond, std::size_t all,
                          std::string detail) {
-    loop::CheckResult row{name, expectation, beyond == 0, {}, "", {}, {}};
+    record::CheckResult row{name, expectation, beyond == 0, {}, "", {}, {}};
     row.detail = all == 0 ? "none differs"
                  : beyond == 0
                      ? fmt::format("{} of {} kept", all, all)
@@ -154,7 +154,7 @@ std::string apart_text(const ChannelRow& channel, const Comparison& comparison) 
                      unit, channel.at, comparison.runs[channel.in].label, channel.allowed, unit);
 }
 
-std::string result_text(const std::optional<loop::CheckResult>& result) {
+std::string result_text(const std::optional<record::CheckResult>& result) {
   if (!result) return "-";
   const auto margin = report::margin_text(*result);
   return fmt::format("{}{}{}", result->passed ? "passed" : "FAILED", margin.empty() ? "" : ", ", margin);
@@ -165,9 +165,10 @@ std::string comparison_csv(const Comparison& comparison, const std::vector<Figur
   const auto& runs = comparison.runs;
   csv.row("what", "name", "unit", of_runs(comparison, [&](auto i) { return runs[i].label; }));
   csv.row("run", "drycut", "", of_runs(comparison, [&](auto i) { return runs[i].version; }));
-  csv.row("run", "passed", "", of_runs(comparison, [&](auto i) { return runs[i].passed ? "yes" : "no"; }));
+  csv.row("run", "passed", "",
+          of_runs(comparison, [&](auto i) { return runs[i].outcome.passed() ? "yes" : "no"; }));
   csv.row("run", "simulated", "s",
-          of_runs(comparison, [&](auto i) { return fmt::format("{}", runs[i].end); }));
+          of_runs(comparison, [&](auto i) { return fmt::format("{}", seconds(runs[i].outcome.end)); }));
   for (const auto& figure : figures) csv.numbers("figure", figure.name, figure.unit, figure.numbers);
   for (const auto& row : comparison.checks) {
     const auto& results = row.results;

@@ -9,8 +9,8 @@ namespace drycut::sim::studies {
 
 /// Several runs beside each other.
 struct Comparison {
-  std::vector<RunFolder> runs;  ///< two at least
-  std::optional<double> from;   ///< [s] figures look from here on; absent: see compare_events
+  std::vector<ComparedRun> runs;  ///< two at least
+  std::optional<double> from;     ///< [s] figures look from here on; absent: see compare_events
   std::vector<CheckRow> checks;
   std::vector<Figure> events;
   std::vector<PieceRows> pieces;
@@ -22,7 +22,7 @@ struct Comparison {
   std::vector<FigureFault> figures_beyond;  ///< of `events`, those that have an allowance of their own
 };
 
-Comparison compare(std::vector<RunFolder> runs, std::optional<double> from,
+Comparison compare(std::vector<ComparedRun> runs, std::optional<double> from,
                    const Allowances& allowances = {});
 
 /// True if the runs ended alike, with the same checks, events, channels and figures, as far as is allowed.
@@ -33,7 +33,7 @@ bool same(const Comparison& comparison);
 
 /// What is kept and what is not, a row each: verdicts, events, channels, figures, and with `parameters`
 /// these.
-std::vector<loop::CheckResult> judgement(const Comparison& comparison, bool parameters);
+std::vector<record::CheckResult> judgement(const Comparison& comparison, bool parameters);
 
 /// "no difference", or what differs: "1 of 9 checks, 2 parameters, 10 of 12 channels".
 std::string difference_text(const Comparison& comparison);
@@ -42,7 +42,7 @@ std::string difference_text(const Comparison& comparison);
 std::string apart_text(const ChannelRow& channel, const Comparison& comparison);
 
 /// "passed, 0.053 mm left, at 7.204 s", "FAILED", "-" where a run has no such check.
-std::string result_text(const std::optional<loop::CheckResult>& result);
+std::string result_text(const std::optional<record::CheckResult>& result);
 
 /// One row a fact: what, name, unit, a column a run. Numbers with nine digits.
 std::string comparison_csv(const Comparison& comparison, const std::vector<Figure>& figures);

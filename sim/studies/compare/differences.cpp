@@ -33,21 +33,22 @@ bool all_same(const std::vector<std::optional<T>>& items, Same same) {
   });
 }
 
-std::string change_of(const CheckRow& row, const std::vector<RunFolder>& runs, const Allowances& allowances) {
+std::string change_of(const CheckRow& row, const std::vector<ComparedRun>& runs,
+                      const Allowances& allowances) {
   std::vector<std::string> having;
   for (std::size_t i = 0; i < runs.size(); ++i)
     if (row.results[i]) having.push_back(runs[i].label);
   if (having.size() < runs.size()) return fmt::format("only in {}", fmt::join(having, ", "));
   const auto same = [&](auto field) {
-    return all_same(row.results, [&](const loop::CheckResult& a, const loop::CheckResult& b) {
+    return all_same(row.results, [&](const record::CheckResult& a, const record::CheckResult& b) {
       return field(a) == field(b);
     });
   };
-  if (!same([](const loop::CheckResult& c) { return c.passed; })) return "verdict";
-  if (!same([](const loop::CheckResult& c) { return c.expectation; })) return "expectation";
+  if (!same([](const record::CheckResult& c) { return c.passed; })) return "verdict";
+  if (!same([](const record::CheckResult& c) { return c.expectation; })) return "expectation";
   const auto& first = *row.results[0];
   const double allowed = allowances.of_margin(first, runs[0]);
-  const auto same_margin = [&](const loop::CheckResult& a, const loop::CheckResult& b) {
+  const auto same_margin = [&](const record::CheckResult& a, const record::CheckResult& b) {
     if (!a.margin || !b.margin) return a.margin.has_value() == b.margin.has_value();
     return *a.margin == *b.margin || std::abs(*a.margin - *b.margin) <= allowed;
   };
@@ -58,13 +59,13 @@ std::string change_of(const CheckRow& row, const std::vector<RunFolder>& runs, c
                      first.unit);
 }
 
-std::string event_text(const loop::RecordedEvent& event) {
-  const auto values = loop::values_text(event);
+std::string event_text(const record::RecordedEvent& event) {
+  const auto values = record::values_text(event);
   return fmt::format("{:.6f} s{}{}", event.at_seconds(), values.empty() ? "" : ": ", values);
 }
 
 /// The largest number of each value of a run's events, by "knife.cut.length".
-std::map<std::string, double> largest_values(const RunFolder& run) {
+std::map<std::string, double> largest_values(const ComparedRun& run) {
   std::map<std::string, double> largest;
   for (const auto& event : run.recording.events())
     for (const auto& value : event.values) {
@@ -77,10 +78,12 @@ std::map<std::string, double> largest_values(const RunFolder& run) {
 /// The same event of two runs, as far as tolerances go.
 class EventJudge {
  public:
-  EventJudge(const RunFolder& first, const Allowances& allowances)
-      : allowances_(allowances), largest_(largest_values(first)), time_(allowances.of_time(first.end)) {}
+  EventJudge(const ComparedRun& first, const Allowances& allowances)
+      : allowances_(allowances),
+        largest_(largest_values(first)),
+        time_(allowances.of_time(seconds(first.outcome.end))) {}
 
-  [[nodiscard]] bool keeps(const loop::RecordedEvent& first, const loop::RecordedEvent& other) const {
+  [[nodiscard]] bool keeps(const record::RecordedEvent& first, const record::RecordedEvent& other) const {
     if (std::abs(first.at_seconds() - other.at_seconds()) > time_) return false;
     if (first.values.size() != other.values.size()) return false;
     if (first.values.empty()) return first.text == other.text;
@@ -104,17 +107,17 @@ class EventJudge {
 
 }  // namespace
 
-std::vector<CheckRow> compare_checks(const std::vector<RunFolder>& runs, const Allowances& allowances) {
+std::vector<CheckRow> compare_checks(const std::vector<ComparedRun>& runs, const Allowances& allowances) {
   Order order;
   for (const auto& run : runs)
-    for (const auto& check : run.checks) order.add(check.name);
+    for (const auto& check : run.outcome.checks) order.add(check.name);
   std::vector<CheckRow> rows;
   for (const auto& name : order.names()) {
     CheckRow row{name, {}, ""};
     for (const auto& run : runs) {
-      const auto found = std::find_if(run.checks.begin(), run.checks.end(),
-                                      [&](const loop::CheckResult& check) { return check.name == name; });
-      row.results.push_back(found == run.checks.end() ? std::nullopt : std::optional(*found));
+      const auto found = std::find_if(run.outcome.checks.begin(), run.outcome.checks.end(),
+                                      [&](const record::CheckResult& check) { return check.name == name; });
+      row.results.push_back(found == run.outcome.checks.end() ? std::nullopt : std::optional(*found));
     }
     row.change = change_of(row, runs, allowances);
     rows.push_back(std::move(row));
@@ -122,12 +125,12 @@ std::vector<CheckRow> compare_checks(const std::vector<RunFolder>& runs, const A
   return rows;
 }
 
-std::vector<EventRow> differing_events(const std::vector<RunFolder>& runs, const Allowances& allowances,
+std::vector<EventRow> differing_events(const std::vector<ComparedRun>& runs, const Allowances& allowances,
                                        std::size_t& all) {
   struct Seen {
     EventRow row;
-    loop::RecordedEvent first;  ///< of the runs, as the first that has it
-    std::size_t runs = 0;       ///< that have it
+    record::RecordedEvent first;  ///< of the runs, as the first that has it
+    std::size_t runs = 0;         ///< that have it
     bool kept = true;
   };
   const EventJudge judge(runs.front(), allowances);
@@ -153,7 +156,7 @@ std::vector<EventRow> differing_events(const std::vector<RunFolder>& runs, const
   return rows;
 }
 
-std::vector<ParameterRow> differing_parameters(const std::vector<RunFolder>& runs) {
+std::vector<ParameterRow> differing_parameters(const std::vector<ComparedRun>& runs) {
   Order order;
   std::vector<std::map<std::string, std::string>> values;
   for (const auto& run : runs) {

@@ -33,19 +33,19 @@ std::vector<FigureFault> figures_beyond(const std::vector<Figure>& figures, cons
 /// A check, matched by its name.
 struct CheckRow {
   std::string name;
-  std::vector<std::optional<loop::CheckResult>> results;
+  std::vector<std::optional<record::CheckResult>> results;
   /// "" = the same everywhere, margins within what is allowed; else "only in A", "verdict", "expectation",
   /// "margin" and, of two runs, by how much.
   std::string change;
 };
-std::vector<CheckRow> compare_checks(const std::vector<RunFolder>& runs, const Allowances& allowances);
+std::vector<CheckRow> compare_checks(const std::vector<ComparedRun>& runs, const Allowances& allowances);
 
 /// Events with values that any run has: number, mean, standard deviation (of a sample), least, greatest,
 /// slope from one to the next; where a plot of a run states limits: the limits, the value nearest to a limit
 /// or farthest beyond it, Cpk. All of them behind the start-up (window_of). Where pieces come in lots of
 /// several lengths, the statistics are those of each lot. What happens once a run has its value alone, and
 /// stands last.
-std::vector<Figure> compare_events(const std::vector<RunFolder>& runs, std::optional<double> from);
+std::vector<Figure> compare_events(const std::vector<ComparedRun>& runs, std::optional<double> from);
 
 /// The lengths of pieces by their order behind the start-up: the first of each run, the second, ...
 struct PieceRows {
@@ -53,7 +53,7 @@ struct PieceRows {
   std::string unit;
   std::vector<std::vector<double>> runs;  ///< lengths of each
 };
-std::vector<PieceRows> compare_pieces(const std::vector<RunFolder>& runs, std::optional<double> from);
+std::vector<PieceRows> compare_pieces(const std::vector<ComparedRun>& runs, std::optional<double> from);
 
 /// A channel that two runs at least have in the same unit.
 struct ChannelRow {
@@ -69,10 +69,10 @@ struct ChannelRow {
   [[nodiscard]] bool is_kept() const { return difference <= allowed; }
 };
 /// Differences are looked for from `from` [s] on, else over the whole run.
-std::vector<ChannelRow> compare_channels(const std::vector<RunFolder>& runs, std::optional<double> from,
+std::vector<ChannelRow> compare_channels(const std::vector<ComparedRun>& runs, std::optional<double> from,
                                          const Allowances& allowances);
 /// Channels that only one run has, or that have another unit there: "LX3VP: DD1025 [-]".
-std::vector<std::string> unmatched_channels(const std::vector<RunFolder>& runs);
+std::vector<std::string> unmatched_channels(const std::vector<ComparedRun>& runs);
 
 /// The same event of each run: the n-th of its source.
 struct EventRow {
@@ -81,7 +81,7 @@ struct EventRow {
 };
 /// Events that not all runs have, or that are further from the first run's than is allowed, in time or a
 /// value; `all` is how many were looked at.
-std::vector<EventRow> differing_events(const std::vector<RunFolder>& runs, const Allowances& allowances,
+std::vector<EventRow> differing_events(const std::vector<ComparedRun>& runs, const Allowances& allowances,
                                        std::size_t& all);
 
 /// A parameter in force, by its path in the scenario.
@@ -90,6 +90,6 @@ struct ParameterRow {
   std::vector<std::optional<std::string>> values;
 };
 /// Parameters that have not the same value in all runs.
-std::vector<ParameterRow> differing_parameters(const std::vector<RunFolder>& runs);
+std::vector<ParameterRow> differing_parameters(const std::vector<ComparedRun>& runs);
 
 }  // namespace drycut::sim::studies

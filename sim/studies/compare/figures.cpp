@@ -27,7 +27,7 @@ struct ValueName {
   std::string unit;
 };
 
-std::vector<ValueName> event_values(const std::vector<RunFolder>& runs) {
+std::vector<ValueName> event_values(const std::vector<ComparedRun>& runs) {
   std::vector<ValueName> names;
   std::set<std::string> seen;
   for (const auto& run : runs)
@@ -38,7 +38,7 @@ std::vector<ValueName> event_values(const std::vector<RunFolder>& runs) {
   return names;
 }
 
-std::vector<double> numbers_of(const RunFolder& run, const ValueName& name, std::optional<double> from) {
+std::vector<double> numbers_of(const ComparedRun& run, const ValueName& name, std::optional<double> from) {
   const auto event = name.source + "." + name.event;
   const auto window = window_of(run, event, name.value, from);
   return loop::event_numbers(run.recording.events(), event, name.value, window.from, window.until).numbers;
@@ -129,7 +129,7 @@ bool add_lots(const ValueName& name, const Series& series, const std::vector<std
 }
 
 /// The lots of every run that the lengths of this event make.
-std::vector<std::vector<Lot>> lots_of_runs(const std::vector<RunFolder>& runs, ValueName name,
+std::vector<std::vector<Lot>> lots_of_runs(const std::vector<ComparedRun>& runs, ValueName name,
                                            std::optional<double> from) {
   name.value = length_value;
   std::vector<std::vector<Lot>> lots;
@@ -138,12 +138,12 @@ std::vector<std::vector<Lot>> lots_of_runs(const std::vector<RunFolder>& runs, V
   return lots;
 }
 
-bool has(const RunFolder& run, const ChannelRow& row) {
+bool has(const ComparedRun& run, const ChannelRow& row) {
   const auto* column = run.recording.column(row.name);
   return column != nullptr && column->unit == row.unit;
 }
 
-void measure(const RunFolder& run, ChannelRow& row, double from) {
+void measure(const ComparedRun& run, ChannelRow& row, double from) {
   if (!has(run, row)) {
     row.rms.push_back(nothing);
     row.peak.push_back(nothing);
@@ -165,7 +165,7 @@ void measure(const RunFolder& run, ChannelRow& row, double from) {
 }
 
 /// How far a channel counts before it begins again; 0 where it does not, or not alike in both runs.
-double turn_of(const RunFolder& first, const RunFolder& other, const std::string& name) {
+double turn_of(const ComparedRun& first, const ComparedRun& other, const std::string& name) {
   const auto own = first.turns.find(name);
   const auto others = other.turns.find(name);
   const bool alike = own != first.turns.end() && others != other.turns.end() && own->second == others->second;
@@ -174,7 +174,8 @@ double turn_of(const RunFolder& first, const RunFolder& other, const std::string
 
 /// Notes the largest difference of run `in` to `first`. What begins again lies on a circle: 359.9 deg and
 /// 0.1 deg are 0.2 deg apart.
-void subtract(const RunFolder& first, const RunFolder& other, std::size_t in, double from, ChannelRow& row) {
+void subtract(const ComparedRun& first, const ComparedRun& other, std::size_t in, double from,
+              ChannelRow& row) {
   const auto& times = first.recording.times();
   const auto& other_times = other.recording.times();
   const auto& values = first.recording.column(row.name)->values;
@@ -199,7 +200,7 @@ void subtract(const RunFolder& first, const RunFolder& other, std::size_t in, do
   }
 }
 
-std::vector<ChannelRow> all_channels(const std::vector<RunFolder>& runs) {
+std::vector<ChannelRow> all_channels(const std::vector<ComparedRun>& runs) {
   std::vector<ChannelRow> rows;
   std::set<std::pair<std::string, std::string>> seen;
   for (const auto& run : runs)
@@ -208,9 +209,9 @@ std::vector<ChannelRow> all_channels(const std::vector<RunFolder>& runs) {
   return rows;
 }
 
-std::size_t runs_with(const std::vector<RunFolder>& runs, const ChannelRow& row) {
+std::size_t runs_with(const std::vector<ComparedRun>& runs, const ChannelRow& row) {
   return static_cast<std::size_t>(
-      std::count_if(runs.begin(), runs.end(), [&](const RunFolder& run) { return has(run, row); }));
+      std::count_if(runs.begin(), runs.end(), [&](const ComparedRun& run) { return has(run, row); }));
 }
 
 }  // namespace
@@ -222,7 +223,7 @@ bool differs(const Figure& figure) {
   });
 }
 
-std::vector<Figure> compare_events(const std::vector<RunFolder>& runs, std::optional<double> from) {
+std::vector<Figure> compare_events(const std::vector<ComparedRun>& runs, std::optional<double> from) {
   std::vector<Figure> figures;
   std::vector<Figure> alone;  // of what happens once
   for (const auto& name : event_values(runs)) {
@@ -267,7 +268,7 @@ std::vector<FigureFault> figures_beyond(const std::vector<Figure>& figures, cons
   return faults;
 }
 
-std::vector<PieceRows> compare_pieces(const std::vector<RunFolder>& runs, std::optional<double> from) {
+std::vector<PieceRows> compare_pieces(const std::vector<ComparedRun>& runs, std::optional<double> from) {
   std::vector<PieceRows> pieces;
   for (const auto& name : event_values(runs)) {
     if (name.value != length_value) continue;
@@ -282,12 +283,12 @@ std::vector<PieceRows> compare_pieces(const std::vector<RunFolder>& runs, std::o
   return pieces;
 }
 
-std::vector<ChannelRow> compare_channels(const std::vector<RunFolder>& runs, std::optional<double> from,
+std::vector<ChannelRow> compare_channels(const std::vector<ComparedRun>& runs, std::optional<double> from,
                                          const Allowances& allowances) {
   auto rows = all_channels(runs);
   std::erase_if(rows, [&](const ChannelRow& row) { return runs_with(runs, row) < 2; });
   for (auto& row : rows) {
-    const RunFolder* first = nullptr;
+    const ComparedRun* first = nullptr;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       measure(runs[i], row, from.value_or(settled(runs[i])));
       if (!has(runs[i], row)) continue;
@@ -305,12 +306,12 @@ std::vector<ChannelRow> compare_channels(const std::vector<RunFolder>& runs, std
   return rows;
 }
 
-std::vector<std::string> unmatched_channels(const std::vector<RunFolder>& runs) {
+std::vector<std::string> unmatched_channels(const std::vector<ComparedRun>& runs) {
   std::vector<std::string> names;
   for (const auto& row : all_channels(runs)) {
     if (runs_with(runs, row) > 1) continue;
     const auto owner =
-        std::find_if(runs.begin(), runs.end(), [&](const RunFolder& run) { return has(run, row); });
+        std::find_if(runs.begin(), runs.end(), [&](const ComparedRun& run) { return has(run, row); });
     names.push_back(fmt::format("{}: {} [{}]", owner->label, row.name, row.unit.empty() ? "-" : row.unit));
   }
   return names;

@@ -16,7 +16,7 @@ namespace drycut::sim::studies {
 namespace {
 
 /// When the event of that number happened [s].
-std::optional<double> time_of(const RunFolder& run, const scenario::PicturesSection::Around& around) {
+std::optional<double> time_of(const ComparedRun& run, const scenario::PicturesSection::Around& around) {
   int number = 0;
   for (const auto& event : run.recording.events())
     if (loop::names_event(around.event.text, event.source, event.event) && ++number == around.number)
@@ -27,7 +27,7 @@ std::optional<double> time_of(const RunFolder& run, const scenario::PicturesSect
 Time to_time(double seconds_) { return std::max<Time>(0, static_cast<Time>(seconds_ * second)); }
 
 /// The request as this run can show it: without the channels that it has not.
-scenario::PlotRequest request_for(const RunFolder& run, const OverlayRequest& request,
+scenario::PlotRequest request_for(const ComparedRun& run, const OverlayRequest& request,
                                   std::optional<double> origin) {
   auto plot = request.plot;
   for (auto& panel : plot.panels) {
@@ -60,7 +60,7 @@ void count_from_first(renders::Plot& plot) {
       for (auto& x : curve.x) x -= first - 1;
 }
 
-renders::Plot plot_of(const RunFolder& run, const OverlayRequest& request) {
+renders::Plot plot_of(const ComparedRun& run, const OverlayRequest& request) {
   const auto origin = request.around ? time_of(run, *request.around) : std::nullopt;
   scenario::Scenario view;
   view.pictures.plots.push_back(request_for(run, request, origin));
@@ -97,7 +97,7 @@ void add_marks(renders::Plot& to, const renders::Plot& from, const std::string& 
   std::stable_sort(to.marks.begin(), to.marks.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
 }
 
-renders::Plot overlay(const std::vector<RunFolder>& runs, const OverlayRequest& request) {
+renders::Plot overlay(const std::vector<ComparedRun>& runs, const OverlayRequest& request) {
   renders::Plot whole;
   for (const auto& run : runs) {
     auto plot = plot_of(run, request);
@@ -145,7 +145,7 @@ OverlayRequest& request_of(std::vector<OverlayRequest>& requests, const std::str
 }
 
 /// The limits if all runs state the same ones.
-const Tolerance* common_tolerance(const std::vector<RunFolder>& runs, const loop::RecordedEvent& event,
+const Tolerance* common_tolerance(const std::vector<ComparedRun>& runs, const record::RecordedEvent& event,
                                   const std::string& value) {
   const Tolerance* common = nullptr;
   for (const auto& run : runs) {
@@ -158,7 +158,7 @@ const Tolerance* common_tolerance(const std::vector<RunFolder>& runs, const loop
 }
 
 void add_event(std::vector<OverlayRequest>& requests, const Comparison& comparison,
-               const loop::RecordedEvent& event) {
+               const record::RecordedEvent& event) {
   const auto name = event.source + "." + event.event;
   auto& request = request_of(requests, "events_" + file_name(name),
                              fmt::format("Every {} of {}, side by side", event.event, event.source));
@@ -181,7 +181,7 @@ void add_event(std::vector<OverlayRequest>& requests, const Comparison& comparis
 
 }  // namespace
 
-std::vector<renders::Plot> overlay(const std::vector<RunFolder>& runs,
+std::vector<renders::Plot> overlay(const std::vector<ComparedRun>& runs,
                                    const std::vector<OverlayRequest>& requests) {
   std::vector<renders::Plot> plots;
   plots.reserve(requests.size());

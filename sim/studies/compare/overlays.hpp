@@ -18,7 +18,7 @@ struct OverlayRequest {
 };
 
 /// The plots with the curves of every run that has what they show, named by the run.
-std::vector<renders::Plot> overlay(const std::vector<RunFolder>& runs,
+std::vector<renders::Plot> overlay(const std::vector<ComparedRun>& runs,
                                    const std::vector<OverlayRequest>& requests);
 
 /// What is overlaid without a request: channels that runs share, a plot for each part of the machine; the

@@ -17,7 +17,7 @@ bool names(const std::string& wanted, const std::string& event) {
 
 }  // namespace
 
-Window window_of(const RunFolder& run, const std::string& event, const std::string& value,
+Window window_of(const ComparedRun& run, const std::string& event, const std::string& value,
                  std::optional<double> from) {
   Window window;
   if (from) {
@@ -41,7 +41,7 @@ Window window_of(const RunFolder& run, const std::string& event, const std::stri
   return window;
 }
 
-double settled(const RunFolder& run) {
+double settled(const ComparedRun& run) {
   double from = 0;
   for (const auto& tolerance : run.tolerances) from = std::max(from, tolerance.from);
   for (const auto& [event, begin] : run.starts) from = std::max(from, begin);

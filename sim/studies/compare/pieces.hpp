@@ -19,11 +19,11 @@ struct Window {
 /// For a value of an event, "knife.cut": from `from` on if it is given; else in the window of the plot that
 /// states its limits, or those of another value of the event, but not before the first check begins that
 /// looks at the event later than from the start.
-Window window_of(const RunFolder& run, const std::string& event, const std::string& value,
+Window window_of(const ComparedRun& run, const std::string& event, const std::string& value,
                  std::optional<double> from);
 
 /// When the start-up of a run is over [s]: the last of its events to count begins to. For channels.
-double settled(const RunFolder& run);
+double settled(const ComparedRun& run);
 
 /// Pieces of one length made one after the other, by their place in a list.
 struct Lot {

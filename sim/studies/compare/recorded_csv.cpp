@@ -97,7 +97,7 @@ bool has_width(const CsvRow& row, std::size_t width, cams::TableProblems& proble
 }
 
 /// "knife.angle [deg]"
-void add_column(const CsvRow::Cell& cell, loop::Recording& recording, cams::TableProblems& problems) {
+void add_column(const CsvRow::Cell& cell, record::Recording& recording, cams::TableProblems& problems) {
   const auto open = cell.text.rfind(" [");
   if (open == std::string::npos || open == 0 || !cell.text.ends_with(']')) {
     problems.add(1, cell.column, fmt::format("{} is no channel with its unit", in_quotes(cell.text)),
@@ -122,7 +122,7 @@ std::string_view take_piece(std::string_view& rest) {
 }
 
 /// "length=800.012 mm"; nothing if the piece is the event's text.
-std::optional<loop::RecordedEvent::Value> value_of(std::string_view piece) {
+std::optional<record::RecordedEvent::Value> value_of(std::string_view piece) {
   const auto equals = piece.find('=');
   const auto name = piece.substr(0, equals);
   if (equals == std::string_view::npos || name.empty() || name.find(' ') != std::string_view::npos) return {};
@@ -130,12 +130,12 @@ std::optional<loop::RecordedEvent::Value> value_of(std::string_view piece) {
   const auto blank = std::min(rest.find(' '), rest.size());
   const auto number = number_of(rest.substr(0, blank));
   if (!number) return {};
-  return loop::RecordedEvent::Value{std::string(name), *number,
-                                    std::string(rest.substr(std::min(rest.size(), blank + 1)))};
+  return record::RecordedEvent::Value{std::string(name), *number,
+                                      std::string(rest.substr(std::min(rest.size(), blank + 1)))};
 }
 
 /// What follows the first piece that is no value is the event's text.
-void take_values(std::string_view rest, loop::RecordedEvent& event) {
+void take_values(std::string_view rest, record::RecordedEvent& event) {
   while (!rest.empty()) {
     const auto before = rest;
     auto value = value_of(take_piece(rest));
@@ -155,12 +155,12 @@ bool read_header(CsvRows& rows, CsvRow& row, std::string_view wanted, cams::Tabl
 
 }  // namespace
 
-loop::Recording read_trace(std::string_view text, const std::string& file, Problems& problems) {
+record::Recording read_trace(std::string_view text, const std::string& file, Problems& problems) {
   cams::TableProblems found(file, problems);
   CsvRows rows(text, found);
   CsvRow row;
   if (!read_header(rows, row, "time [s],channel [unit],...", found)) return {};
-  loop::Recording recording;
+  record::Recording recording;
   for (std::size_t i = 1; i < row.cells.size(); ++i) add_column(row.cells[i], recording, found);
   const auto width = row.cells.size();
   std::vector<double> numbers(width - 1);
@@ -177,7 +177,7 @@ loop::Recording read_trace(std::string_view text, const std::string& file, Probl
   return recording;
 }
 
-void read_events(std::string_view text, const std::string& file, loop::Recording& recording,
+void read_events(std::string_view text, const std::string& file, record::Recording& recording,
                  Problems& problems) {
   cams::TableProblems found(file, problems);
   CsvRows rows(text, found);
@@ -188,13 +188,13 @@ void read_events(std::string_view text, const std::string& file, loop::Recording
   while (!found.full() && rows.next(row)) {
     if (!has_width(row, width, found)) continue;
     const auto time = time_of(row.cells[0], row.line, found);
-    loop::RecordedEvent event{time.value_or(0),
-                              0,
-                              row.cells[1].text,
-                              row.cells[2].text,
-                              {},
-                              "",
-                              loop::severity_of(row.cells[2].text)};
+    record::RecordedEvent event{time.value_or(0),
+                                0,
+                                row.cells[1].text,
+                                row.cells[2].text,
+                                {},
+                                "",
+                                loop::severity_of(row.cells[2].text)};
     take_values(row.cells[3].text, event);
     recording.happened(std::move(event));
   }

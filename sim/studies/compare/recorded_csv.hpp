@@ -6,7 +6,7 @@
 
 #include "base/problem.hpp"
 #include "sim/cams/csv.hpp"
-#include "sim/loop/recorder.hpp"
+#include "sim/record/recording.hpp"
 
 namespace drycut::sim::studies {
 
@@ -52,9 +52,9 @@ std::optional<double> number_of(std::string_view text);
 // what is wrong goes to `problems`, and then the result is not to be used.
 
 /// The channels of a run: first column `time [s]`, ascending, then `channel [unit]`.
-loop::Recording read_trace(std::string_view text, const std::string& file, Problems& problems);
+record::Recording read_trace(std::string_view text, const std::string& file, Problems& problems);
 /// Adds the events of a run to its recording. Times have nine digits behind the point, values nine in all.
-void read_events(std::string_view text, const std::string& file, loop::Recording& recording,
+void read_events(std::string_view text, const std::string& file, record::Recording& recording,
                  Problems& problems);
 
 }  // namespace drycut::sim::studies

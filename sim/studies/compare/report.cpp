@@ -25,7 +25,7 @@ constexpr std::size_t most_rows = 200;  ///< of events that differ; a page must 
 std::string number_text(double number) {
   if (std::isnan(number)) return "";
   const double shown = std::abs(number) < 0.1 ? number : std::round(number * 1e4) / 1e4;
-  return fmt::format("{:.{}g}", loop::without_noise(shown), std::abs(number) < 0.1 ? 3 : 7);
+  return fmt::format("{:.{}g}", record::without_noise(shown), std::abs(number) < 0.1 ? 3 : 7);
 }
 
 std::vector<std::string> headings(const Comparison& comparison, std::vector<std::string> first) {
@@ -35,9 +35,9 @@ std::vector<std::string> headings(const Comparison& comparison, std::vector<std:
 
 std::string difference_cell(double first, double second) {
   const double difference = second - first;
-  return std::isnan(difference)                 ? ""
-         : loop::without_noise(difference) == 0 ? "0"
-                                                : fmt::format("{:+.4g}", difference);
+  return std::isnan(difference)                   ? ""
+         : record::without_noise(difference) == 0 ? "0"
+                                                  : fmt::format("{:+.4g}", difference);
 }
 
 /// Of two runs also by how much the second has more.
@@ -55,16 +55,16 @@ ReportTable figure_table(const Comparison& comparison, const std::string& title,
   return table;
 }
 
-std::string run_cell(const RunFolder& run) {
-  const auto failed =
-      std::count_if(run.checks.begin(), run.checks.end(), [](const auto& c) { return !c.passed; });
-  const auto what = !run.failure.empty() ? "stopped: " + run.failure
-                    : failed > 0         ? fmt::format("{} of {} checks failed", failed, run.checks.size())
-                                         : fmt::format("{} checks", run.checks.size());
-  return fmt::format("{} {}", run.passed ? "PASS" : "FAIL", what);
+std::string run_cell(const ComparedRun& run) {
+  const auto failed = std::count_if(run.outcome.checks.begin(), run.outcome.checks.end(),
+                                    [](const auto& c) { return !c.passed; });
+  const auto what = !run.outcome.failure.empty() ? "stopped: " + run.outcome.failure
+                    : failed > 0 ? fmt::format("{} of {} checks failed", failed, run.outcome.checks.size())
+                                 : fmt::format("{} checks", run.outcome.checks.size());
+  return fmt::format("{} {}", run.outcome.passed() ? "PASS" : "FAIL", what);
 }
 
-std::string check_cell(const std::optional<loop::CheckResult>& result) {
+std::string check_cell(const std::optional<record::CheckResult>& result) {
   if (!result) return "-";
   return fmt::format("{} {}\n{}; {}", result->passed ? "PASS" : "FAIL", report::margin_text(*result),
                      result->expectation, result->detail);
@@ -76,8 +76,9 @@ ReportTable verdict_table(const Comparison& comparison) {
   renders::ReportRow whole{{"the run"}};
   for (const auto& run : comparison.runs) whole.cells.push_back(run_cell(run));
   const auto& first = comparison.runs.front();
-  const bool alike = std::all_of(comparison.runs.begin(), comparison.runs.end(),
-                                 [&](const RunFolder& run) { return run.passed == first.passed; });
+  const bool alike = std::all_of(comparison.runs.begin(), comparison.runs.end(), [&](const ComparedRun& run) {
+    return run.outcome.passed() == first.outcome.passed();
+  });
   whole.cells.emplace_back(alike ? "" : "verdict");
   table.rows.push_back(std::move(whole));
   for (const auto& check : comparison.checks) {
@@ -198,7 +199,7 @@ std::vector<renders::Plot> drawn_plots(const Comparison& comparison, const Compa
 }
 
 /// What the statistics of its channels are taken of.
-std::string rate_text(const RunFolder& run) {
+std::string rate_text(const ComparedRun& run) {
   const auto& times = run.recording.times();
   if (times.size() < 2) return "";
   return fmt::format(", recorded every {}", scenario::format_time(times[1] - times[0]));
@@ -214,8 +215,9 @@ renders::Report report_of(const Comparison& comparison, const ComparisonPage& pa
   for (const auto& run : comparison.runs) {
     const double start = comparison.from.value_or(settled(run));
     report.facts.push_back(
-        {{run.label, fmt::format("{:g} s simulated{}, drycut {}{}", run.end, rate_text(run), run.version,
-                                 start > 0 ? fmt::format("; start-up until {:g} s", start) : "")}});
+        {{run.label,
+          fmt::format("{:g} s simulated{}, drycut {}{}", seconds(run.outcome.end), rate_text(run),
+                      run.version, start > 0 ? fmt::format("; start-up until {:g} s", start) : "")}});
   }
   if (comparison.from) report.facts.push_back({{"figures from", fmt::format("{:g} s", *comparison.from)}});
   for (const auto& tolerance : page.tolerances) report.facts.push_back({{"--tolerance", tolerance}});

@@ -12,10 +12,10 @@ namespace drycut::sim::studies {
 /// What a comparison's page tells besides the comparison itself.
 struct ComparisonPage {
   std::string title;
-  std::string source;                     ///< what was compared: a scene's file, folders
-  std::vector<Figure> figures;            ///< asked for by name, shown first
-  std::vector<loop::CheckResult> checks;  ///< over the figures of the runs
-  std::optional<bool> passed;             ///< absent: nothing is judged, only compared
+  std::string source;                       ///< what was compared: a scene's file, folders
+  std::vector<Figure> figures;              ///< asked for by name, shown first
+  std::vector<record::CheckResult> checks;  ///< over the figures of the runs
+  std::optional<bool> passed;               ///< absent: nothing is judged, only compared
   std::string verdict;
   std::vector<OverlayRequest> overlays;      ///< before the usual ones
   std::vector<std::string> tolerances = {};  ///< that were given: "length=0.01mm"

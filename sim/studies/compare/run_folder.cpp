@@ -6,14 +6,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "devices/plcopen/axis_values.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/known_events.hpp"
-#include "sim/records/csv_files.hpp"
-#include "sim/records/hdf5_reader.hpp"
+#include "sim/record/csv_files.hpp"
+#include "sim/record/hdf5_reader.hpp"
+#include "sim/record/json.hpp"
 #include "sim/report/results.hpp"
 #include "sim/scenario/units.hpp"
 #include "sim/scenario/yaml_node.hpp"
@@ -101,26 +101,14 @@ void place_of(const std::string& text, std::size_t byte, int& line, int& column)
   column = static_cast<int>(before.size() - (before.rfind('\n') + 1)) + 1;
 }
 
-loop::CheckResult check_of(const nlohmann::json& json) {
-  loop::CheckResult check;
-  check.name = json.at("name").get<std::string>();
-  check.expectation = json.at("expectation").get<std::string>();
-  check.passed = json.at("passed").get<bool>();
-  check.unit = json.at("unit").get<std::string>();
-  check.detail = json.at("detail").get<std::string>();
-  if (const auto& margin = json.at("margin"); !margin.is_null()) check.margin = margin.get<double>();
-  if (const auto& at = json.at("at"); !at.is_null()) check.at = at.get<double>();
-  return check;
-}
-
-void read_checks_json(const std::string& text, const std::string& file, RunFolder& run, Problems& problems) {
+void read_checks_json(const std::string& text, const std::string& file, ComparedRun& run,
+                      Problems& problems) {
   try {
-    const auto json = nlohmann::json::parse(text);
+    const auto json = record::Json::parse(text);
     run.version = json.at("drycut").get<std::string>();
-    run.passed = json.at("passed").get<bool>();
-    run.end = json.at("end").get<double>();
-    run.failure = json.at("failure").get<std::string>();
-    for (const auto& check : json.at("checks")) run.checks.push_back(check_of(check));
+    static_cast<void>(json.at("passed"));
+    static_cast<void>(json.at("checks"));
+    record::take_json(json, run.outcome);
   } catch (const nlohmann::json::parse_error& error) {
     int line = 1;
     int column = 1;
@@ -197,7 +185,7 @@ std::vector<std::pair<std::string, double>> starts_of(const scenario::YamlNode& 
 }
 
 /// The positions of modulo axes: their axis has a turn, in the unit of its positions.
-std::map<std::string, double> turns_of(const RunFolder& run) {
+std::map<std::string, double> turns_of(const ComparedRun& run) {
   constexpr std::string_view axes = "controller.plcopen.axes.";
   constexpr std::string_view modulo = ".modulo";
   std::map<std::string, double> turns;
@@ -217,7 +205,7 @@ std::map<std::string, double> turns_of(const RunFolder& run) {
   return turns;
 }
 
-void read_scenario_yaml(const std::string& text, const std::string& file, RunFolder& run,
+void read_scenario_yaml(const std::string& text, const std::string& file, ComparedRun& run,
                         Problems& problems) {
   scenario::Findings findings({file});
   auto root = scenario::parse_yaml(text, 0, findings);
@@ -238,21 +226,20 @@ void read_scenario_yaml(const std::string& text, const std::string& file, RunFol
 }
 
 /// What checks.json of a folder says, if there is one.
-RunFolder judged_run(const fs::path& folder, Problems& problems) {
+ComparedRun judged_run(const fs::path& folder, Problems& problems) {
   std::error_code ignored;
-  RunFolder run;
+  ComparedRun run;
   if (const auto file = folder / report::checks_file; fs::exists(file, ignored))
     if (const auto text = whole_file(file, problems)) read_checks_json(*text, file.string(), run, problems);
   return run;
 }
 
 /// What the folder of a run says beside its record, as far as the run has come.
-void add_about(const fs::path& folder, records::Record& record, Problems& problems) {
+void add_about(const fs::path& folder, record::Record& record, Problems& problems) {
   std::error_code ignored;
   auto run = judged_run(folder, problems);
   if (!run.version.empty()) record.about.emplace_back("drycut", run.version);
-  record.checks = std::move(run.checks);
-  record.failure = std::move(run.failure);
+  record.outcome = std::move(run.outcome);
   const auto file = folder / report::scenario_file;
   if (!fs::exists(file, ignored)) return;
   if (const auto text = whole_file(file, problems)) {
@@ -264,31 +251,31 @@ void add_about(const fs::path& folder, records::Record& record, Problems& proble
 
 }  // namespace
 
-const Tolerance* RunFolder::tolerance(const std::string& source, const std::string& event,
-                                      const std::string& value) const {
+const Tolerance* ComparedRun::tolerance(const std::string& source, const std::string& event,
+                                        const std::string& value) const {
   const auto found = std::find_if(tolerances.begin(), tolerances.end(), [&](const Tolerance& stated) {
     return stated.value == value && loop::names_event(stated.event, source, event);
   });
   return found == tolerances.end() ? nullptr : &*found;
 }
 
-const std::string* RunFolder::parameter(const std::string& path) const {
+const std::string* ComparedRun::parameter(const std::string& path) const {
   const auto found = std::find_if(parameters.begin(), parameters.end(),
                                   [&](const auto& parameter) { return parameter.first == path; });
   return found == parameters.end() ? nullptr : &found->second;
 }
 
-records::Record read_record(const fs::path& run, Problems& problems) {
+record::Record read_record(const fs::path& run, Problems& problems) {
   std::error_code ignored;
   const bool is_folder = fs::is_directory(run, ignored);
   if (const auto hdf5 = is_folder ? run / report::hdf5_file : run;
-      is_folder ? fs::exists(hdf5, ignored) : records::is_hdf5(hdf5)) {
-    auto record = records::read_hdf5(hdf5, problems);
-    if (is_folder) record.failure = judged_run(run, problems).failure;
+      is_folder ? fs::exists(hdf5, ignored) : record::is_hdf5(hdf5)) {
+    auto record = record::read_hdf5(hdf5, problems, loop::severity_of);
+    if (is_folder) record.outcome.failure = judged_run(run, problems).outcome.failure;
     return record;
   }
   const auto file = is_folder ? run / report::trace_file : run;
-  records::Record record;
+  record::Record record;
   if (is_folder && !fs::exists(file, ignored)) {
     problems.push_back({run.string(), 1, 1,
                         fmt::format("it is not the folder of a run: there is no {}, no {}",
@@ -301,15 +288,15 @@ records::Record read_record(const fs::path& run, Problems& problems) {
     refuse_file(file, problems);
   else
     record.recording = read_trace(trace.text(), file.string(), problems);
-  const auto events = records::events_beside(file);
+  const auto events = record::events_beside(file);
   if (const auto text = whole_file(events, problems))
     read_events(*text, events.string(), record.recording, problems);
   if (is_folder) add_about(run, record, problems);
   return record;
 }
 
-RunFolder read_run(const fs::path& folder, Problems& problems) {
-  RunFolder run;
+ComparedRun read_run(const fs::path& folder, Problems& problems) {
+  ComparedRun run;
   run.folder = folder;
   run.label = folder.string();
   if (!is_run(folder, problems)) return run;

@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "sim/loop/checks.hpp"
-#include "sim/loop/recorder.hpp"
-#include "sim/records/record.hpp"
+#include "sim/record/record.hpp"
+#include "sim/record/recording.hpp"
 
 namespace drycut::sim::studies {
 
@@ -24,15 +23,12 @@ struct Tolerance {
 };
 
 /// A run as its folder tells it.
-struct RunFolder {
+struct ComparedRun {
   std::string label;  ///< what the comparison calls it
   std::filesystem::path folder;
   std::string version;  ///< of the drycut that made it
-  bool passed = false;
-  double end = 0;       ///< [s] simulated until
-  std::string failure;  ///< why the simulation stopped, "" if it did not
-  std::vector<loop::CheckResult> checks;
-  loop::Recording recording;
+  record::Outcome outcome;
+  record::Recording recording;
   std::map<std::string, double> turns;  ///< of channels that begin again: how far they count, in their unit
   /// The scenario with every default in force, path and value: "plants.web.speed", "60 m/min". Entries of a
   /// list go by their name, "checks[cut length].expect", else by index. Pictures are left out.
@@ -49,11 +45,11 @@ struct RunFolder {
 
 /// Reads what a run recorded, from its folder or from a file of it: trace.csv, with its events beside it, or
 /// trace.h5. Whatever is missing or broken is told in `problems`; then the result is not to be used.
-records::Record read_record(const std::filesystem::path& run, Problems& problems);
+record::Record read_record(const std::filesystem::path& run, Problems& problems);
 
 /// Reads the folder that `drycut run` made of one scenario. Whatever is missing or broken in it is told in
 /// `problems` with file, line and column; then the result is not to be used.
-RunFolder read_run(const std::filesystem::path& folder, Problems& problems);
+ComparedRun read_run(const std::filesystem::path& folder, Problems& problems);
 
 /// What the runs are called: their paths without what all of these begin and end with, "a" and "b" for
 /// a/rotary_knife and b/rotary_knife. A folder that is given twice is a problem.

@@ -59,8 +59,8 @@ class Formula {
                                                 scenario::Expression::Kind::number);
   }
 
-  void over(const loop::Recording& recording, loop::Series<double>& numbers) {
-    std::vector<const loop::Recording::Column*> columns;
+  void over(const record::Recording& recording, record::Series<double>& numbers) {
+    std::vector<const record::Recording::Column*> columns;
     columns.reserve(slots_.size());
     for (const auto& slot : slots_) columns.push_back(recording.column(slot.name));
     for (std::size_t row = 0; row < recording.times().size(); ++row) {
@@ -206,16 +206,16 @@ std::optional<scenario::Expression> compile_check(const ComparisonScene::Check& 
 
 std::string operand_text(const CheckOperand& operand) {
   if (std::isnan(operand.number)) return fmt::format("{} has no value in the time looked at", operand.name);
-  return fmt::format("{}={:.6g}{}{}", operand.name, loop::without_noise(operand.number),
+  return fmt::format("{}={:.6g}{}{}", operand.name, record::without_noise(operand.number),
                      operand.unit.empty() ? "" : " ", operand.unit);
 }
 
-loop::CheckResult result_of(const ComparisonScene::Check& check, const std::deque<CheckOperand>& operands) {
+record::CheckResult result_of(const ComparisonScene::Check& check, const std::deque<CheckOperand>& operands) {
   std::vector<const CheckOperand*> used;
   std::vector<scenario::ExpressionFault> faults;
   const auto expression = compile_check(check, operands, used, faults);
   const auto evaluation = expression ? expression->evaluate() : scenario::Evaluation{};
-  loop::CheckResult result{
+  record::CheckResult result{
       check.name.text, check.expect.text, evaluation.holds, evaluation.margin, "", {}, ""};
   for (const auto* operand : used) {
     result.detail += (result.detail.empty() ? "" : "; ") + operand_text(*operand);
@@ -229,7 +229,7 @@ loop::CheckResult result_of(const ComparisonScene::Check& check, const std::dequ
 // ---- runs ----
 
 /// The run with the channels that the scene makes of what it recorded.
-void add_channels(const ComparisonScene::Member& member, const MemberNames& names, RunFolder& run) {
+void add_channels(const ComparisonScene::Member& member, const MemberNames& names, ComparedRun& run) {
   for (const auto& channel : member.channels) {
     std::vector<scenario::ExpressionFault> faults;
     Formula formula(channel.of.text, names.channels, faults);
@@ -238,18 +238,18 @@ void add_channels(const ComparisonScene::Member& member, const MemberNames& name
 }
 
 double number_of(const ComparisonScene::FigureRequest& figure, const ComparisonScene& scene,
-                 const Names& channels, const MemberNames& names, const RunFolder& run) {
+                 const Names& channels, const MemberNames& names, const ComparedRun& run) {
   std::vector<scenario::ExpressionFault> faults;
   auto metric = compile_figure(figure, channels, names, faults);
   return metric ? metric->value(run.recording, scene.from.value_or(0))
                 : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::string verdict_of(const Comparison& comparison, const std::vector<loop::CheckResult>& checks) {
+std::string verdict_of(const Comparison& comparison, const std::vector<record::CheckResult>& checks) {
   const auto runs = std::count_if(comparison.runs.begin(), comparison.runs.end(),
-                                  [](const RunFolder& run) { return !run.passed; });
+                                  [](const ComparedRun& run) { return !run.outcome.passed(); });
   const auto failed = std::count_if(checks.begin(), checks.end(),
-                                    [](const loop::CheckResult& check) { return !check.passed; });
+                                    [](const record::CheckResult& check) { return !check.passed; });
   const auto of_runs = runs == 0 ? std::string("every run passed")
                                  : fmt::format("{} of {} runs failed", runs, comparison.runs.size());
   if (checks.empty()) return of_runs;
@@ -287,7 +287,7 @@ void check_comparison(const ComparisonScene& scene, const std::vector<MemberName
 }
 
 ComparedScene compare_members(const ComparisonScene& scene, const std::vector<MemberNames>& names,
-                              std::vector<RunFolder> runs) {
+                              std::vector<ComparedRun> runs) {
   for (std::size_t i = 0; i < runs.size(); ++i) add_channels(scene.members[i], names[i], runs[i]);
   ComparedScene result;
   std::optional<double> from;
@@ -303,7 +303,7 @@ ComparedScene compare_members(const ComparisonScene& scene, const std::vector<Me
   for (std::size_t i = 0; i < scene.members.size(); ++i) {
     const auto& run = result.comparison.runs[i];
     const auto channels = channels_of(scene.members[i], names[i]);
-    (operand++)->number = run.passed ? 1 : 0;
+    (operand++)->number = run.outcome.passed() ? 1 : 0;
     for (std::size_t k = 0; k < scene.figures.size(); ++k) {
       const double number = number_of(scene.figures[k], scene, channels, names[i], run);
       page.figures[k].numbers.push_back(number);
@@ -311,9 +311,10 @@ ComparedScene compare_members(const ComparisonScene& scene, const std::vector<Me
     }
   }
   for (const auto& check : scene.checks) page.checks.push_back(result_of(check, operands));
-  const auto good = [](const auto& one) { return one.passed; };
-  page.passed = std::all_of(page.checks.begin(), page.checks.end(), good) &&
-                std::all_of(result.comparison.runs.begin(), result.comparison.runs.end(), good);
+  const auto& ran = result.comparison.runs;
+  page.passed =
+      std::all_of(page.checks.begin(), page.checks.end(), [](const auto& check) { return check.passed; }) &&
+      std::all_of(ran.begin(), ran.end(), [](const auto& run) { return run.outcome.passed(); });
   page.verdict = verdict_of(result.comparison, page.checks);
   return result;
 }

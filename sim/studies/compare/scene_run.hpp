@@ -30,6 +30,6 @@ struct ComparedScene {
   ComparisonPage page;
 };
 ComparedScene compare_members(const ComparisonScene& scene, const std::vector<MemberNames>& names,
-                              std::vector<RunFolder> runs);
+                              std::vector<ComparedRun> runs);
 
 }  // namespace drycut::sim::studies

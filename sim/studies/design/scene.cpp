@@ -14,7 +14,7 @@
 #include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/ecam_table.hpp"
 #include "sim/cams/study.hpp"
-#include "sim/records/own_file.hpp"
+#include "sim/record/own_file.hpp"
 #include "sim/scenario/format.hpp"
 
 namespace drycut::sim::studies {
@@ -120,7 +120,7 @@ class SceneMaker {
       text += fmt::format("D{}{},{} ; {}\n", block + offset, kind, value, meaning);
     };
     text = fmt::format("# {} design: the block of DECAM at D{} with the cam of {}.\naddress,value\n",
-                       records::own_mark, block, table_.filename().string());
+                       record::own_mark, block, table_.filename().string());
     if (!section.registers.text.empty())
       text += controllers::read_named_table(section.registers, scene_, problems_).value_or("") + '\n';
     const auto answers = found_in(program, fmt::format(R"(^\s*ECAMTBX\s+\S+\s+\S+\s+D{}\s+D(\d+)\b)", block));
@@ -171,7 +171,7 @@ class SceneMaker {
   [[nodiscard]] std::string text() const {
     const auto folder = fs::absolute(table_).lexically_normal().parent_path();
     const auto scene = fs::absolute(scene_.file).lexically_normal().lexically_relative(folder);
-    auto text = fmt::format("# {} design: the cam of {} in {}, {}.\nextends: {}\n", records::own_mark,
+    auto text = fmt::format("# {} design: the cam of {} in {}, {}.\nextends: {}\n", record::own_mark,
                             table_.filename().string(), scene_.file.filename().string(), sheet_.device_name,
                             scenario::yaml_text(scene.string()));
     const auto has_length = std::any_of(scene_.variables.begin(), scene_.variables.end(),

@@ -7,7 +7,7 @@
 #include "base/units.hpp"
 #include "sim/cams/motion_plot.hpp"
 #include "sim/cams/report.hpp"
-#include "sim/records/own_file.hpp"
+#include "sim/record/own_file.hpp"
 
 namespace drycut::sim::studies {
 
@@ -227,7 +227,7 @@ renders::Panel panel_of(const DesignSheet& sheet, const char* title, const std::
 
 std::string remarks_text(const DesignSheet& sheet) {
   const auto& job = sheet.cam.job;
-  return fmt::format("## {} design: {}.\n## {}.\n", records::own_mark, job_text(job),
+  return fmt::format("## {} design: {}.\n## {}.\n", record::own_mark, job_text(job),
                      job.is_steady() ? "at the web's speed all the time" : aim_text(job));
 }
 

@@ -57,7 +57,7 @@ std::optional<Fraction> product(Fraction a, Fraction b) {
 /// The plant and the machine of a scenario with these overrides.
 struct MachineProbe {
   Problems problems;
-  std::optional<loop::DriveVerdict> drive = {};
+  std::optional<record::DriveVerdict> drive = {};
   std::optional<double> ratio = {};
 };
 MachineProbe probe_machine(const PointQuestion& question, const SizedDrive& drive,

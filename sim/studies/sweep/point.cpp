@@ -97,7 +97,7 @@ std::vector<PointQuestion::Piece> pieces_of(const std::vector<loop::KnownEvent>&
     if (event.name != plants::cut_event) continue;
     PointQuestion::Piece piece{event.source, 0, false, "", ""};
     if (const auto limits = length_limits(scenario.pictures, event.source))
-      piece.tolerance = loop::without_noise((limits->second - limits->first) / 2);
+      piece.tolerance = record::without_noise((limits->second - limits->first) / 2);
     for (const auto& [value, unit] : event.values) {
       if (value == "length") piece.length_unit = unit;
       piece.has_mismatch = piece.has_mismatch || value == "mismatch";
@@ -116,7 +116,7 @@ std::vector<PointQuestion::Piece> pieces_of(const std::vector<loop::KnownEvent>&
 }
 
 std::vector<std::string> columns_of(const PointQuestion& question,
-                                    const std::vector<loop::CheckResult>& checks,
+                                    const std::vector<record::CheckResult>& checks,
                                     const scenario::Scenario& scenario) {
   std::vector<std::string> columns;
   for (const auto& piece : question.pieces) {
@@ -146,7 +146,7 @@ std::vector<std::string> columns_of(const PointQuestion& question,
 
 /// Number of pieces, mean length, the largest distance of a length from the wanted one (from the mean where
 /// none is said), the largest mismatch.
-void add_pieces(const PointQuestion::Piece& piece, double wanted, const loop::Recording& recording,
+void add_pieces(const PointQuestion::Piece& piece, double wanted, const record::EventLog& events,
                 std::vector<double>& numbers) {
   const auto values_of = [&](const char* value) {
     return loop::event_numbers(recording.events(), piece.source + ".cut", value, piece.from).numbers;
@@ -158,17 +158,18 @@ void add_pieces(const PointQuestion::Piece& piece, double wanted, const loop::Re
     accuracy = std::max(accuracy, std::abs(length - (std::isnan(wanted) ? mean : wanted)));
   numbers.push_back(static_cast<double>(lengths.size()));
   numbers.push_back(lengths.empty() ? no_number : mean);
-  numbers.push_back(lengths.empty() ? no_number : loop::without_noise(accuracy));
+  numbers.push_back(lengths.empty() ? no_number : record::without_noise(accuracy));
   if (!piece.has_mismatch) return;
   double worst = lengths.empty() ? no_number : 0;
   for (const double mismatch : values_of("mismatch")) worst = std::max(worst, std::abs(mismatch));
   numbers.push_back(worst);
 }
 
-void add_drive(const std::string& drive, const std::vector<loop::DriveVerdict>& judged,
+void add_drive(const std::string& drive, const std::vector<record::DriveVerdict>& judged,
                std::vector<double>& numbers) {
-  const auto found = std::find_if(judged.begin(), judged.end(),
-                                  [&](const loop::DriveVerdict& verdict) { return verdict.drive == drive; });
+  const auto found = std::find_if(judged.begin(), judged.end(), [&](const record::DriveVerdict& verdict) {
+    return verdict.drive == drive;
+  });
   const auto figure = [&](std::string_view name) {
     if (found != judged.end())
       for (const auto& one : found->figures)
@@ -181,8 +182,8 @@ void add_drive(const std::string& drive, const std::vector<loop::DriveVerdict>& 
 }
 
 /// The check that gave way first; those that are judged at the end come last, in the scenario's order.
-const loop::CheckResult* first_failed(const std::vector<loop::CheckResult>& checks) {
-  const loop::CheckResult* first = nullptr;
+const record::CheckResult* first_failed(const std::vector<record::CheckResult>& checks) {
+  const record::CheckResult* first = nullptr;
   constexpr double end = std::numeric_limits<double>::infinity();
   for (const auto& check : checks)
     if (!check.passed && (first == nullptr || check.failed_at.value_or(end) < first->failed_at.value_or(end)))
@@ -268,6 +269,31 @@ PointScenario read_point(const PointQuestion& question, const std::vector<scenar
   return point;
 }
 
+PointRow row_of(const PointQuestion& question, const std::vector<double>& lengths,
+                const record::Outcome& outcome, const record::EventLog& events,
+                const std::vector<double>& figures) {
+  using Verdict = PointRow::Verdict;
+  if (!outcome.failure.empty()) return row_without_run(Verdict::diverged, outcome.failure, question);
+  PointRow row;
+  for (std::size_t i = 0; i < question.pieces.size(); ++i)
+    add_pieces(question.pieces[i], lengths[i], events, row.numbers);
+  for (const auto& drive : question.drives) add_drive(drive, outcome.drives, row.numbers);
+  // A name may have a variable in it: then the place in the list tells which check it is.
+  for (std::size_t i = 0; i < question.checks.size(); ++i)
+    row.numbers.push_back(i < outcome.checks.size() ? outcome.checks[i].margin.value_or(no_number)
+                                                    : no_number);
+  row.numbers.insert(row.numbers.end(), figures.begin(), figures.end());
+  for (const auto& drive : outcome.drives)
+    if (drive.drive == question.rated)
+      for (const double number : rated_numbers(drive)) row.numbers.push_back(number);
+  if (const auto* failed = first_failed(outcome.checks)) {
+    row.verdict = Verdict::failed;
+    row.limit = failed->name;
+    if (failed->name == ratings_check) row.rating = failed_rating(outcome.drives);
+  }
+  return row;
+}
+
 PointRow run_point(const PointQuestion& question, const PointScenario& point) {
   using Verdict = PointRow::Verdict;
   const auto refused = [&](const Problems& problems) {
@@ -286,27 +312,10 @@ PointRow run_point(const PointQuestion& question, const PointScenario& point) {
   for (auto& metric : metrics) followed.push_back(&metric);
   MetricSteps steps(simulation, followed, 0);
   const auto outcome = simulation.run();
-  if (!outcome.failure.empty()) return row_without_run(Verdict::diverged, outcome.failure, question);
-
-  PointRow row;
-  const auto& recording = simulation.recording();
-  for (std::size_t i = 0; i < question.pieces.size(); ++i)
-    add_pieces(question.pieces[i], point.lengths[i], recording, row.numbers);
-  for (const auto& drive : question.drives) add_drive(drive, outcome.drives, row.numbers);
-  // A name may have a variable in it: then the place in the list tells which check it is.
-  for (std::size_t i = 0; i < question.checks.size(); ++i)
-    row.numbers.push_back(i < outcome.checks.size() ? outcome.checks[i].margin.value_or(no_number)
-                                                    : no_number);
-  for (auto& metric : metrics) row.numbers.push_back(metric.value(recording, 0));
-  for (const auto& drive : outcome.drives)
-    if (drive.drive == question.rated)
-      for (const double number : rated_numbers(drive)) row.numbers.push_back(number);
-  if (const auto* failed = first_failed(outcome.checks)) {
-    row.verdict = Verdict::failed;
-    row.limit = failed->name;
-    if (failed->name == ratings_check) row.rating = failed_rating(outcome.drives);
-  }
-  return row;
+  std::vector<double> figures;
+  if (outcome.failure.empty())
+    for (auto& metric : metrics) figures.push_back(metric.value(simulation.recording(), 0));
+  return row_of(question, point.lengths, outcome, simulation.recording().events(), figures);
 }
 
 std::string with_check_names(const PointQuestion& question, const std::string& text) {

@@ -80,6 +80,11 @@ struct PointScenario {
   std::uint64_t fingerprint = 0;  ///< of all that its row depends on
 };
 PointScenario read_point(const PointQuestion& question, const std::vector<scenario::Override>& overrides);
+/// The row of a run, from what came of it and its events; `lengths` are those of the point, `figures` the
+/// numbers of the question's.
+PointRow row_of(const PointQuestion& question, const std::vector<double>& lengths,
+                const record::Outcome& outcome, const record::EventLog& events,
+                const std::vector<double>& figures);
 PointRow run_point(const PointQuestion& question, const PointScenario& point);
 
 /// "checks[cut length].from" in place of "checks.0.from".

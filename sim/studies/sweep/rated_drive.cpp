@@ -63,8 +63,8 @@ std::size_t rating_index(std::string_view name) {
   return static_cast<std::size_t>(found - ratings.begin());
 }
 
-std::string failed_rating(const std::vector<loop::DriveVerdict>& drives) {
-  const loop::DriveVerdict* worst = nullptr;
+std::string failed_rating(const std::vector<record::DriveVerdict>& drives) {
+  const record::DriveVerdict* worst = nullptr;
   for (const auto& drive : drives)
     if (!drive.holds() && (worst == nullptr || drive.tightest().share > worst->tightest().share))
       worst = &drive;
@@ -92,7 +92,7 @@ std::vector<std::string> rated_columns(const std::string& drive) {
   return columns;
 }
 
-std::vector<double> rated_numbers(const loop::DriveVerdict& verdict) {
+std::vector<double> rated_numbers(const record::DriveVerdict& verdict) {
   RatedDrive drive;
   drive.figures.fill({no_point, no_point});
   for (const auto& figure : verdict.figures) {

@@ -33,7 +33,7 @@ std::size_t rating_index(std::string_view name);
 inline constexpr std::string_view ratings_check = "drive within its ratings";
 /// What of the drives fails it most: "brake resistor: 110 of 100 W", "trip: overload at 3.2 s"; of several
 /// drives with the name of the one in front. "" if all hold.
-std::string failed_rating(const std::vector<loop::DriveVerdict>& drives);
+std::string failed_rating(const std::vector<record::DriveVerdict>& drives);
 
 struct RatedDrive {
   struct Figure {
@@ -56,7 +56,7 @@ struct RatedDrive {
 /// Headings of a row's numbers.
 std::vector<std::string> rated_columns(const std::string& drive);
 /// The numbers, and read back from the last of a row.
-std::vector<double> rated_numbers(const loop::DriveVerdict& verdict);
+std::vector<double> rated_numbers(const record::DriveVerdict& verdict);
 RatedDrive rated_drive(const std::vector<double>& row);
 
 }  // namespace drycut::sim::studies

@@ -155,7 +155,7 @@ std::vector<MetricName> Metric::names() const {
   return all;
 }
 
-void Metric::take(std::size_t term, const loop::Recording& recording, Time from) {
+void Metric::take(std::size_t term, const record::Recording& recording, Time from) {
   const auto& slots = terms_[term];
   if (!slots[0]->name.event.empty()) {
     std::vector<loop::EventNumbers> values;
@@ -170,7 +170,7 @@ void Metric::take(std::size_t term, const loop::Recording& recording, Time from)
     }
     return;
   }
-  std::vector<const loop::Series<double>*> columns;
+  std::vector<const record::Series<double>*> columns;
   columns.reserve(slots.size());
   for (const auto* slot : slots) {
     const auto* column = recording.column(slot->name.text);
@@ -222,7 +222,7 @@ std::string Metric::unit() const {
 
 bool Metric::needs_loop() const { return !figures_.empty(); }
 
-double Metric::value(const loop::Recording& recording, Time from, const LoopFigures& loop) {
+double Metric::value(const record::Recording& recording, Time from, const LoopFigures& loop) {
   for (auto& figure : figures_) {
     figure.number = loop.*figure.figure;
     if (std::isnan(figure.number)) return nothing;

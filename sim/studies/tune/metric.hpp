@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "sim/loop/checks.hpp"
-#include "sim/loop/recorder.hpp"
 #include "sim/loop/simulation.hpp"
+#include "sim/loop/watch.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/scenario/expression.hpp"
 
 namespace drycut::sim::studies {
@@ -59,7 +60,7 @@ class Metric {
   /// A number: its value. A limit: the room left, negative beyond it. Over instants and events from `from`
   /// on. Channels are those that were followed; else they must have been recorded. NaN where a term has
   /// nothing to look at.
-  [[nodiscard]] double value(const loop::Recording& recording, Time from, const LoopFigures& loop = {});
+  [[nodiscard]] double value(const record::Recording& recording, Time from, const LoopFigures& loop = {});
   /// True if a figure of the loop is in it.
   [[nodiscard]] bool needs_loop() const;
   /// Every name, once.
@@ -80,7 +81,7 @@ class Metric {
   };
   class Compiler;
 
-  void take(std::size_t term, const loop::Recording& recording, Time from);
+  void take(std::size_t term, const record::Recording& recording, Time from);
   [[nodiscard]] bool follows(std::size_t term) const { return terms_[term][0]->followed != nullptr; }
 
   std::string text_;
@@ -94,7 +95,7 @@ class Metric {
 
 /// Takes what metrics look at every step of a run, as checks do: whatever is recorded. It lives until the
 /// run's end.
-class MetricSteps : public loop::Observer {
+class MetricSteps : public record::Observer {
  public:
   MetricSteps(loop::Simulation& simulation, const std::vector<Metric*>& metrics, Time from);
   void stepped(Time now) override;

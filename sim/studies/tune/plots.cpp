@@ -17,7 +17,7 @@ std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
 }
 
-renders::Curve curve_of(const loop::Recording& recording, const MetricName& name, Time from,
+renders::Curve curve_of(const record::Recording& recording, const MetricName& name, Time from,
                         std::string label, std::string& unit) {
   renders::Curve curve;
   curve.label = std::move(label);

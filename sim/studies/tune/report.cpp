@@ -331,7 +331,7 @@ void write_tuning_report(const Tuning& tuning, OutputFolder& folder) {
   report.verdict = first + change + (after.feasible() ? "; all limits kept" : "");
   report.facts = {{{"sets of values tried", fmt::format("{}", tuning.trials.trials().size())}},
                   {{"simulated runs", runs_text(tuning)}},
-                  {{"measured from", fmt::format("{} s", loop::seconds_text(tuning.study.from))}},
+                  {{"measured from", fmt::format("{} s", record::seconds_text(tuning.study.from))}},
                   {{"drycut", DRYCUT_VERSION}}};
   if (const auto pushes = pushes_text(tuning); !pushes.empty()) report.facts.push_back({{"pushes", pushes}});
   if (const auto ends = at_the_ends(tuning); !ends.empty()) report.facts.push_back({{"ranges", ends}});

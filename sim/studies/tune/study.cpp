@@ -75,7 +75,7 @@ void stop(Verdict& verdict, std::string why) {
   if (verdict.note.empty()) verdict.note = std::move(why);
 }
 
-void judge_checks(const loop::Outcome& outcome, Verdict& verdict) {
+void judge_checks(const record::Outcome& outcome, Verdict& verdict) {
   for (const auto& check : outcome.checks) {
     if (check.passed) continue;
     ++verdict.failed_checks;
@@ -123,7 +123,7 @@ bool is_hopeless(const LoopResult& result) {
 
 /// Measures the loop and judges the constraints on it.
 void judge_loop(const Study& study, const scenario::Scenario& scenario, std::vector<Gauge>& all,
-                const loop::Recording& recording, Verdict& verdict) {
+                const record::Recording& recording, Verdict& verdict) {
   Problems problems;
   const auto loop = measure_loop(scenario, study.loop, problems);
   if (!loop) return stop(verdict, to_string(problems.front()));

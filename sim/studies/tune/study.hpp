@@ -63,8 +63,8 @@ struct Verdict {
 
 /// One run of one scenario, kept to be looked at.
 struct KeptRun {
-  loop::Recording recording;
-  loop::Outcome outcome;
+  record::Recording recording;
+  record::Outcome outcome;
   std::string expanded;  ///< the scenario with every value in force
 };
 

@@ -8,7 +8,7 @@
 #include "sim/cli/design_command.hpp"
 #include "sim/cli/live_command.hpp"
 #include "sim/cli/run_command.hpp"
-#include "sim/records/own_file.hpp"
+#include "sim/record/own_file.hpp"
 #include "tests/sim/studies/tune/bench.hpp"
 
 namespace drycut::sim::cli {
@@ -163,7 +163,7 @@ TEST_F(NamedFiles, OfASessionAndASummary) {
 }
 
 TEST_F(NamedFiles, KnowThemselves) {
-  const auto own = [&](const std::string& text) { return records::is_own_file(folder.file("x", text)); };
+  const auto own = [&](const std::string& text) { return record::is_own_file(folder.file("x", text)); };
   EXPECT_TRUE(own("# Written by drycut design: a cam\n"));
   EXPECT_TRUE(own("## Written by drycut cam.\nmaster,slave\n"));
   EXPECT_FALSE(own("Written by drycut, or so they say\n")) << "no comment";
@@ -172,7 +172,7 @@ TEST_F(NamedFiles, KnowThemselves) {
   EXPECT_FALSE(own("\x89PNG\r\n\x1a\n and no more"));
   EXPECT_FALSE(own("\x89HDF\r\n\x1a\n and no more"));
   EXPECT_TRUE(own(renders::png_bytes(renders::Image(4, 4))));
-  EXPECT_FALSE(records::is_own_file(folder / "nothing"));
+  EXPECT_FALSE(record::is_own_file(folder / "nothing"));
 }
 
 }  // namespace

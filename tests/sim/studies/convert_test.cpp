@@ -6,7 +6,7 @@
 #include "sim/cli/compare_command.hpp"
 #include "sim/cli/convert_command.hpp"
 #include "sim/cli/run_command.hpp"
-#include "sim/records/hdf5_reader.hpp"
+#include "sim/record/hdf5_reader.hpp"
 #include "sim/studies/compare/run_folder.hpp"
 #include "tests/sim/command_bench.hpp"
 
@@ -59,10 +59,10 @@ TEST_F(ConvertCommand, BothFormatsHoldTheSame) {
   EXPECT_EQ(content(folder / "events.csv"), content(csv / "events.csv"));
   EXPECT_THAT(out, HasSubstr("5001 rows of 2 channels, 2 events: "));
   Problems problems;
-  const auto record = records::read_hdf5(hdf5 / "trace.h5", problems);
+  const auto record = record::read_hdf5(hdf5 / "trace.h5", problems);
   ASSERT_EQ(lines_of(problems), "");
-  ASSERT_FALSE(record.checks.empty());
-  EXPECT_EQ(record.checks[0].name, "slow enough");
+  ASSERT_FALSE(record.outcome.checks.empty());
+  EXPECT_EQ(record.outcome.checks[0].name, "slow enough");
   EXPECT_EQ(record.about[1], (std::pair<std::string, std::string>("step", "1 ms")));
   EXPECT_EQ(record.about[2].second, "record.format=hdf5\nscene.seed=1\n");
   EXPECT_EQ(record.about[3].second, content(hdf5 / "scenario.yaml"));
@@ -95,10 +95,10 @@ TEST_F(ConvertCommand, GoesRoundToTheSameBytes) {
   EXPECT_EQ(content(folder / "a.events.csv"), content(csv / "events.csv"));
   ASSERT_EQ(convert(folder / "a.csv", "hdf5", folder / "b.h5"), all_passed) << err;
   Problems problems;
-  const auto a = records::read_hdf5(folder / "a.h5", problems);
-  EXPECT_FALSE(a.checks.empty());
+  const auto a = record::read_hdf5(folder / "a.h5", problems);
+  EXPECT_FALSE(a.outcome.checks.empty());
   EXPECT_EQ(a.about.size(), 3U) << "version, step, scenario";
-  EXPECT_TRUE(records::read_hdf5(folder / "b.h5", problems).about.empty()) << "a file alone knows them not";
+  EXPECT_TRUE(record::read_hdf5(folder / "b.h5", problems).about.empty()) << "a file alone knows them not";
   ASSERT_EQ(convert(folder / "a.h5", "hdf5", folder / "c.h5"), all_passed) << err;
   EXPECT_TRUE(content(folder / "a.h5") == content(folder / "c.h5"));
 }
@@ -181,7 +181,7 @@ TEST_F(ConvertCommand, WhatWasKilledIsAPrefix) {
   const auto file = folder / "killed/web/trace.h5";
   const auto rows = [&] {
     Problems ignored;
-    return records::is_hdf5(file) ? records::read_hdf5(file, ignored).recording.times().size() : 0;
+    return record::is_hdf5(file) ? record::read_hdf5(file, ignored).recording.times().size() : 0;
   };
   int status = 0;
   bool ended = false;
@@ -192,10 +192,10 @@ TEST_F(ConvertCommand, WhatWasKilledIsAPrefix) {
   }
   ASSERT_TRUE(WIFSIGNALED(status)) << "it was to be killed before its end";
   Problems problems;
-  const auto killed = records::read_hdf5(file, problems);
+  const auto killed = record::read_hdf5(file, problems);
   ASSERT_EQ(lines_of(problems), "");
   EXPECT_EQ(killed.recording.times().size() % 4096, 0U);
-  EXPECT_TRUE(killed.checks.empty()) << "they are not known yet";
+  EXPECT_TRUE(killed.outcome.checks.empty()) << "they are not known yet";
   EXPECT_EQ(killed.recording.events().size(), 2U);
   ASSERT_EQ(convert(folder / "killed/web", "csv", folder / "killed.csv"), all_passed) << err;
   EXPECT_THAT(out, HasSubstr("note: the run did not come to its end: the run has not come to its end; "));

@@ -70,7 +70,7 @@ struct CompareScene : CommandTest {
     EXPECT_THAT(err, HasSubstr(told));
     EXPECT_FALSE(fs::exists(folder / "out"));
   }
-  RunFolder read(const std::string& member) const {
+  ComparedRun read(const std::string& member) const {
     Problems problems;
     auto made = read_run(folder / "out/two" / member, problems);
     EXPECT_TRUE(problems.empty());
@@ -201,8 +201,8 @@ TEST_F(CompareScene, SameBytesAtAnyNumberOfJobs) {
 TEST_F(CompareScene, SettingsOfTheCommandLineReachEveryMember) {
   options.set = {"scene.duration=500 ms"};
   ASSERT_EQ(run(two), cli::all_passed) << err;
-  EXPECT_EQ(read("good").end, 0.5);
-  EXPECT_EQ(read("bad").end, 0.5);
+  EXPECT_EQ(read("good").outcome.end, 500 * millisecond);
+  EXPECT_EQ(read("bad").outcome.end, 500 * millisecond);
   options.set = {"scene.durations=500 ms"};
   EXPECT_EQ(run(two), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("--set scene.durations:1:1: unknown key 'durations'"));

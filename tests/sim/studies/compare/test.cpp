@@ -15,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 struct Compare : Bench {
-  RunFolder read(const std::string& label, const RunTexts& texts) {
+  ComparedRun read(const std::string& label, const RunTexts& texts) {
     Problems problems;
     auto run = read_run(write(label, texts), problems);
     EXPECT_EQ(problems.size(), 0U) << (problems.empty() ? "" : to_string(problems[0]));
@@ -23,7 +23,7 @@ struct Compare : Bench {
     return run;
   }
   Comparison compared(const RunTexts& a, const RunTexts& b, std::optional<double> from = {}) {
-    std::vector<RunFolder> runs;
+    std::vector<ComparedRun> runs;
     runs.push_back(read("a", a));
     runs.push_back(read("b", b));
     return compare(std::move(runs), from);

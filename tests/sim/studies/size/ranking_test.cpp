@@ -75,7 +75,7 @@ TEST(SizeRanking, IsTheOrderThatIsStated) {
 
 // A row has every figure that the judge judges, and gives it back.
 TEST(RatedDrive, GoesThereAndBack) {
-  loop::DriveVerdict verdict;
+  record::DriveVerdict verdict;
   for (const auto& [name, unit] : ratings)
     verdict.figures.push_back({std::string(name), 2, 4, std::string(unit), 0.5});
   verdict.figures[0].judged = false;

@@ -111,7 +111,7 @@ TEST_F(SweepCommand, TheRatingThatFailsIsNamed) {
 }
 
 TEST(FailedRating, IsTheWorstOfTheDriveThatNeedsMost) {
-  loop::DriveVerdict knife;
+  record::DriveVerdict knife;
   knife.drive = "knife.servo";
   knife.figures = {{.name = "rms torque", .value = 9, .rating = 9.5, .unit = "N m", .share = 0.947},
                    {.name = "brake resistor", .value = 110, .rating = 100, .unit = "W", .share = 1.1},

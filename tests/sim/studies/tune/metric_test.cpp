@@ -20,8 +20,8 @@ struct TuneMetric : testing::Test {
   TuneMetric() : names({}, &controller, panel), watch(names) {
     controller.values["AxisX.follerr"] = 0;
     controller.values["AxisX.posit"] = 0;
-    recording.add(watch, "AxisX.follerr");
-    recording.add(watch, "AxisX.posit");
+    watch.record("AxisX.follerr", recording);
+    watch.record("AxisX.posit", recording);
     for (int t = 0; t <= 5; ++t) {
       controller.values["AxisX.follerr"] = 5 - t;
       controller.values["AxisX.posit"] = -t;
@@ -50,7 +50,7 @@ struct TuneMetric : testing::Test {
   loop::Panel panel;
   loop::Names names;
   loop::Watch watch;
-  loop::Recording recording;
+  record::Recording recording;
 };
 
 TEST_F(TuneMetric, TermsAreWhatTheirNamesSay) {

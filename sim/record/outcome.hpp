@@ -1,0 +1,165 @@
+#pragma once
+#include <drycut/check.hpp>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "plants/power_stage.hpp"
+#include "sim/time.hpp"
+
+namespace drycut::sim::record {
+
+// What came of a run. Each type names its members once, to any archive (visit.hpp).
+
+using CheckResult = Check;
+using Tolerance = Check::Tolerance;
+
+/// One number of a drive beside what it may be.
+struct DriveFigure {
+  std::string name;   ///< "rms torque"
+  double value = 0;   ///< in `unit`
+  double rating = 0;  ///< in `unit`
+  std::string unit;
+  double share = 0;  ///< of what it may be, 1 = all; fails above, warns above 0.9
+  /// How it goes with the machine's speed.
+  enum class Goes { not_with_it, as_the_speed, as_the_torque, as_its_square, as_the_braking };
+  Goes goes = Goes::as_the_speed;
+  bool judged = true;       ///< else it is only told
+  std::string window = {};  ///< when that was: "steady cycle", "from the first cut on"
+
+  bool operator==(const DriveFigure&) const = default;
+  template <typename Archive, typename Self>
+  static void visit(Archive& archive, Self& self) {
+    archive("name", self.name);
+    archive("value", self.value);
+    archive("rating", self.rating);
+    archive("unit", self.unit);
+    archive("share", self.share);
+    archive("goes", self.goes);
+    archive("judged", self.judged);
+    archive("window", self.window);
+  }
+};
+
+inline constexpr std::array<std::string_view, 5> words_of(DriveFigure::Goes) {
+  return {"not_with_it", "as_the_speed", "as_the_torque", "as_its_square", "as_the_braking"};
+}
+
+/// What came of a drive over its machine cycles.
+struct DriveVerdict {
+  std::string drive;   ///< "knife.servo"
+  std::string cycles;  ///< "24 cycles from cut to cut"
+  plants::DriveRatings ratings;
+  std::vector<DriveFigure> figures;
+  double inertia_ratio = 0;        ///< load over rotor
+  int alike = 1;                   ///< drives that do the same: all figures are those of one
+  double energy = 0;               ///< from the mains, mean of a cycle [J]
+  bool steady = false;             ///< a steady cycle was found: what the drive bears for ever is known
+  std::vector<std::string> trips;  ///< "tripped by overload at 3.2 s", "pulled out at 3.2 s"
+  /// When the torque limit acted outside of what is judged: "twice, 0.12 s in all, first at 0.8 s"; "" =
+  /// never.
+  std::string limit_elsewhere;
+  std::vector<std::string> notes;     ///< heat that is not judged, no steady cycle
+  std::vector<std::string> warnings;  ///< of heat that is not judged and would be over its rating
+  /// At this share of the machine's speed all would be within 90 % of their ratings, by a cautious estimate
+  /// from one run: friction and load stay, the rest of the torque goes with the speed. 1 where all are; 0
+  /// where friction and load alone are too much.
+  double advised = 1;
+  // What pictures are drawn of, which is not visited.
+  std::vector<std::pair<double, double>> cycle_points;  ///< mean size of speed [rad/s], rms torque [N m]
+  std::vector<std::pair<double, double>> points;        ///< speed [rad/s] and torque [N m] at record instants
+
+  [[nodiscard]] bool holds() const;
+  /// The figure with the largest share.
+  [[nodiscard]] const DriveFigure& tightest() const;
+
+  bool operator==(const DriveVerdict&) const = default;
+  template <typename Archive, typename Self>
+  static void visit(Archive& archive, Self& self) {
+    archive("name", self.drive);
+    archive("holds", self.holds());
+    archive("cycles", self.cycles);
+    archive("figures", self.figures);
+    archive("inertia_ratio", self.inertia_ratio);
+    archive("alike", self.alike);
+    archive("energy", self.energy);
+    archive("steady", self.steady);
+    archive("trips", self.trips);
+    archive("limit_elsewhere", self.limit_elsewhere);
+    archive("notes", self.notes);
+    archive("warnings", self.warnings);
+    archive("advised", self.advised);
+    archive("ratings", self.ratings);
+  }
+};
+
+/// "knife.servo, each of 2: rms torque 6.1 of 9.5 N m (64 %, steady cycle)".
+std::string text_of(const DriveVerdict& verdict);
+
+/// What a controller or a machine told of that is not as it should be.
+struct Alarm {
+  double at = 0;  ///< [s]
+  std::string source;
+  std::string text;
+
+  bool operator==(const Alarm&) const = default;
+  template <typename Archive, typename Self>
+  static void visit(Archive& archive, Self& self) {
+    archive("at", self.at);
+    archive("source", self.source);
+    archive("text", self.text);
+  }
+};
+
+/// "Axis at 6.49 s: warning 12"
+std::string text_of(const Alarm& alarm);
+
+/// What the checks came to at half the step.
+struct HalfStep {
+  Time step = 0;
+  std::string failure;
+  std::vector<CheckResult> checks;  ///< the run's own, in its order
+
+  bool operator==(const HalfStep&) const = default;
+  template <typename Archive, typename Self>
+  static void visit(Archive& archive, Self& self) {
+    archive("step", self.step);
+    archive("failure", self.failure);
+    archive("checks", self.checks);
+  }
+};
+
+/// How a run ended.
+struct Outcome {
+  Time end = 0;         ///< simulated until
+  std::string failure;  ///< why the simulation itself stopped before its time, "" if it did not
+  std::vector<CheckResult> checks;
+  std::optional<HalfStep> half_step = {};  ///< where it was asked for
+  std::vector<DriveVerdict> drives = {};   ///< what the drives came to beside their ratings
+  /// Why checks failed, as far as the run tells, as the end of a sentence: "because ..."; "" = it does not.
+  std::string cause = {};
+  /// What may be a slip though the checks cannot tell: wires, heat that nobody judged, a phrase each.
+  std::vector<std::string> warnings = {};
+  std::vector<Alarm> alarms = {};  ///< of controller and machine, the first of each kind
+  [[nodiscard]] bool passed() const;
+
+  bool operator==(const Outcome&) const = default;
+  template <typename Archive, typename Self>
+  static void visit(Archive& archive, Self& self) {
+    archive("passed", self.passed());
+    archive("end", self.end);
+    archive("failure", self.failure);
+    archive("cause", self.cause);
+    archive("warnings", self.warnings);
+    archive("half_step", self.half_step);
+    archive("checks", self.checks);
+    archive("alarms", self.alarms);
+    archive("drives", self.drives);
+  }
+};
+
+}  // namespace drycut::sim::record

@@ -1,0 +1,112 @@
+#include "sim/record/trace_files.hpp"
+
+#include <fcntl.h>
+#include <fmt/compile.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <iterator>
+#include <stdexcept>
+
+#include "base/text.hpp"
+
+namespace drycut::sim::record {
+
+namespace {
+
+constexpr std::size_t enough = 1U << 16U;  // [bytes] held back at most
+
+[[noreturn]] void fail(const std::filesystem::path& file, int error) {
+  throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), std::strerror(error)));
+}
+
+}  // namespace
+
+GrowingFile::GrowingFile(std::filesystem::path file)
+    : file_(std::move(file)),
+      descriptor_(open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) fail(file_, errno);
+}
+
+GrowingFile::~GrowingFile() {
+  try {
+    flush();
+  } catch (const std::exception&) {  // flush() before has told it
+  }
+  close(descriptor_);
+}
+
+void GrowingFile::write(std::string_view lines) {
+  lines_ += lines;
+  if (lines_.size() >= enough) flush();
+}
+
+void GrowingFile::flush() {
+  // On a full disk nothing more is tried, and what is there ends with a line.
+  const auto lines = std::exchange(lines_, {});
+  std::size_t done = 0;
+  while (done < lines.size()) {
+    const auto written = ::write(descriptor_, lines.data() + done, lines.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written > 0) {
+      done += static_cast<std::size_t>(written);
+      continue;
+    }
+    const int error = errno;
+    const auto whole = lines.rfind('\n', done == 0 ? 0 : done - 1);
+    const auto kept = done == 0 || whole == std::string::npos ? 0 : whole + 1;
+    const auto end = lseek(descriptor_, 0, SEEK_CUR) - static_cast<off_t>(done - kept);
+    if (ftruncate(descriptor_, end) == 0) lseek(descriptor_, end, SEEK_SET);
+    fail(file_, error);
+  }
+}
+
+TraceFiles::TraceFiles(const Recording& recording, const std::filesystem::path& trace,
+                       const std::filesystem::path& events)
+    : recording_(recording), trace_(trace), events_(events), cells_(recording.columns().size()) {
+  row_ = "time [s]";
+  for (const auto& column : recording.columns())
+    row_ += ',' + csv_cell(fmt::format("{} [{}]", column.name, column.unit.empty() ? "-" : column.unit));
+  trace_.write(row_ += '\n');
+  events_.write("time [s],source,event,values\n");
+}
+
+void TraceFiles::sample(Time time) {
+  row_ = seconds_text(time);
+  auto cell = cells_.begin();
+  for (const auto& column : recording_.columns()) {
+    auto& [bits, text] = *cell++;
+    // Most values of a row are those of the row before.
+    if (const auto now = std::bit_cast<std::uint64_t>(*column.slot); now != bits || text.empty()) {
+      bits = now;
+      text.clear();
+      fmt::format_to(std::back_inserter(text), FMT_COMPILE(",{}"), *column.slot);
+    }
+    row_ += text;
+  }
+  trace_.write(row_ += '\n');
+  flush_at(time);
+}
+
+void TraceFiles::happened(const RecordedEvent& event) {
+  events_.write(fmt::format("{:.9f},{},{},{}\n", event.at_seconds(), csv_cell(event.source),
+                            csv_cell(event.event), csv_cell(values_text(event))));
+  flush_at(event.time);
+}
+
+void TraceFiles::flush_at(Time time) {
+  if (time < next_flush_) return;
+  finish();
+  next_flush_ = time + second;
+}
+
+void TraceFiles::finish() {
+  trace_.flush();
+  events_.flush();
+}
+
+}  // namespace drycut::sim::record

@@ -1,0 +1,59 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sim/record/observer.hpp"
+#include "sim/record/recording.hpp"
+
+namespace drycut::sim::record {
+
+/// A text file that has its own name from its first line on and can be read while it grows. Lines go out
+/// whole, many at a time. Throws std::runtime_error when something cannot be written; what was written before
+/// stays whole lines.
+class GrowingFile {
+ public:
+  /// Makes the file anew.
+  explicit GrowingFile(std::filesystem::path file);
+  ~GrowingFile();
+  GrowingFile(const GrowingFile&) = delete;
+  GrowingFile& operator=(const GrowingFile&) = delete;
+  /// One or more whole lines.
+  void write(std::string_view lines);
+  void flush();
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_;
+  std::string lines_;  ///< not written yet
+};
+
+/// trace.csv and events.csv (design §6), written while the run goes on: after a second of machine time at the
+/// latest a row or an event is in its file.
+class TraceFiles : public Observer {
+ public:
+  /// `recording` has all its channels and outlives this.
+  TraceFiles(const Recording& recording, const std::filesystem::path& trace,
+             const std::filesystem::path& events);
+  /// The present values of the recording's channels.
+  void sample(Time time) override;
+  void happened(const RecordedEvent& event) override;
+  /// Everything is in the files.
+  void finish() override;
+
+ private:
+  void flush_at(Time time);
+
+  const Recording& recording_;
+  GrowingFile trace_;
+  GrowingFile events_;
+  std::string row_;
+  std::vector<std::pair<std::uint64_t, std::string>>
+      cells_;  ///< of the last row: the bits of a value, its text
+  Time next_flush_ = 0;
+};
+
+}  // namespace drycut::sim::record

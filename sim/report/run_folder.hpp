@@ -1,0 +1,54 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "base/problem.hpp"
+#include "sim/loop/simulation.hpp"
+#include "sim/output_folder.hpp"
+#include "sim/report/part_meshes.hpp"
+#include "sim/report/results.hpp"
+
+namespace drycut::sim::report {
+
+/// How a run is asked for.
+struct RunRequest {
+  bool pictures = true;                ///< frames, film, plots and report
+  bool gltf = false;                   ///< the run as an animated scene
+  bool strict = false;                 ///< warnings fail it
+  bool in_memory = false;              ///< rows and events are read behind it, whatever is drawn
+  scenario::Scenario* half = nullptr;  ///< the same at half its step, to be run too; it is used up
+  int threads = 1;                     ///< that draw
+  std::function<void(const char* doing, double done)> progress = [](const char*, double) {};
+  std::function<bool()> is_interrupted = [] { return false; };
+};
+
+/// What a run left besides its files and its outcome.
+struct RunLeft {
+  std::string left_out = {};         ///< because a helper program is missing, and what to install
+  std::filesystem::path scene = {};  ///< the glTF file, "" = none
+  double simulating = 0;             ///< [s] of the clock, the run alone
+};
+
+/// What a run leaves, whoever runs it: scenario.yaml, trace and events as record.format says, checks.json,
+/// pictures and the report, and the controller's retentive values where the scenario keeps them.
+class RunFolder {
+ public:
+  /// Takes the folder, as OutputFolder does.
+  RunFolder(const std::filesystem::path& folder, Problems& problems);
+  /// Before anything runs: an old verdict goes, and a new one says that there is none yet. Throws
+  /// std::runtime_error.
+  void begin();
+  /// Runs `simulation`, which was put together of `scenario`, and writes all that it leaves. `result` has its
+  /// outcome as soon as there is one. Throws std::runtime_error when something cannot be written.
+  RunLeft run(const scenario::Scenario& scenario, loop::Simulation& simulation, const PartMeshes& meshes,
+              const RunRequest& request, RunResult& result);
+
+  [[nodiscard]] OutputFolder& files() { return files_; }
+
+ private:
+  std::string scene_file_;
+  OutputFolder files_;
+};
+
+}  // namespace drycut::sim::report
