@@ -73,7 +73,7 @@ bool found_nothing(const std::vector<record::CheckResult>& checks) {
                      [](const record::CheckResult& check) { return !check.passed && check.idle; });
 }
 
-std::string text_of_fault(const Alarm& fault) {
+std::string text_of_fault(const record::Alarm& fault) {
   return fmt::format("the timeline had at {:.6g} s: {} {}", fault.at, fault.source, fault.text);
 }
 

@@ -206,11 +206,11 @@ record::DriveVerdict DriveJudge::verdict(Drive drive) const {
   if (whole) means = "from the first motion on";
   const std::string peaks_from =
       cycle_ == 0 && drive.cycles.running() ? "from the first cut on" : "whole run";
-  verdict.cycles = whole ? cycle_ > 0 ? "the whole run: it is shorter than drives.cycle"
-                                      : "the whole run: no cycle is known (drives.cycle)"
-                   : cycle_ > 0
-                       ? fmt::format("{} of {} s", counted(drive.counted, "cycle"), seconds_text(cycle_))
-                       : fmt::format("{} from cut to cut", counted(drive.counted, "cycle"));
+  verdict.cycles =
+      whole        ? cycle_ > 0 ? "the whole run: it is shorter than drives.cycle"
+                                : "the whole run: no cycle is known (drives.cycle)"
+      : cycle_ > 0 ? fmt::format("{} of {} s", counted(drive.counted, "cycle"), record::seconds_text(cycle_))
+                   : fmt::format("{} from cut to cut", counted(drive.counted, "cycle"));
   verdict.alike = drive.alike;
   if (drive.alike > 1) verdict.cycles += fmt::format(", each of {} drives", drive.alike);
   const auto& worst = drive.worst;

@@ -31,7 +31,7 @@ class Thinned {
 /// came since; where there is none, over all. Without any cycle, means from the first motion on are told and
 /// not judged: who knows whether it goes on like that. Homing, the start and a change of order are not the
 /// machine's work: of machines that cut only the peaks from the first cut on are judged, and trips.
-class DriveJudge : public Observer {
+class DriveJudge : public record::Observer {
  public:
   DriveJudge(const scenario::Scenario& scenario, const std::vector<NamedPlant>& plants);
 

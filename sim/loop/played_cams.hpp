@@ -28,7 +28,7 @@ struct PlayedCam {
 };
 
 /// Follows the cams of a controller through a run.
-class CamRecorder : public Observer {
+class CamRecorder : public record::Observer {
  public:
   /// How far the drive behind a pulse output is behind its pulses, or nothing if none tells.
   using Deviation = std::function<std::function<double()>(const devices::Address& pulses)>;

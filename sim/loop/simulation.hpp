@@ -19,9 +19,7 @@
 #include "sim/loop/drive_judge.hpp"
 #include "sim/loop/hunting.hpp"
 #include "sim/loop/names.hpp"
-#include "sim/record/observer.hpp"
 #include "sim/loop/played_cams.hpp"
-#include "sim/record/recording.hpp"
 #include "sim/loop/remarks.hpp"
 #include "sim/loop/shutter.hpp"
 #include "sim/loop/standing.hpp"
@@ -36,28 +34,6 @@
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
-
-/// What the checks came to at half the step.
-struct HalfStep {
-  Time step = 0;
-  std::string failure;
-  std::vector<CheckResult> checks;  ///< the run's own, in its order
-};
-
-/// How a run ended.
-struct Outcome {
-  Time end = 0;         ///< simulated until
-  std::string failure;  ///< why the simulation itself stopped before its time, "" if it did not
-  std::vector<CheckResult> checks;
-  std::optional<HalfStep> half_step = {};  ///< where it was asked for
-  std::vector<DriveVerdict> drives = {};   ///< verdicts of the drives against their ratings
-  /// Why checks failed, as far as the run tells, as the end of a sentence: "because ..."; "" = it does not.
-  std::string cause = {};
-  /// What may be a slip though the checks cannot tell: wires, heat that nobody judged, a phrase each.
-  std::vector<std::string> warnings = {};
-  std::vector<Alarm> alarms = {};  ///< of controller and machine, the first of each kind
-  [[nodiscard]] bool passed() const;
-};
 
 /// A scenario put together: controller, plants, wires, stimuli, checks; then run. One object is one run,
 /// always from time zero in a fresh world.
@@ -103,7 +79,7 @@ class Simulation {
     return failure_.empty();
   }
   /// Adds an observer, which must outlive the simulation. It hears of what happens from now on.
-  void add(Observer& observer) { observers_.push_back(&observer); }
+  void add(record::Observer& observer) { observers_.push_back(&observer); }
   /// Tells one more every step, which costs time in each; before the first one. It outlives the simulation.
   void tell_steps(record::Observer& observer) { steppers_.push_back(&observer); }
   /// Takes an entry of the timeline more, before the step at which it is due: at() in the future, or now. The
@@ -200,8 +176,8 @@ class Simulation {
   std::unique_ptr<Checks> checks_;
   std::unique_ptr<DriveJudge> drives_;
   std::unique_ptr<Unasked> unasked_;
-  Recording recording_;
-  std::unique_ptr<Observer> files_;
+  record::Recording recording_;
+  std::unique_ptr<record::Observer> files_;
   std::unique_ptr<CamRecorder> cams_;
   std::size_t events_seen_ = 0;
   Time next_record_ = 0;

@@ -7,7 +7,7 @@
 
 namespace drycut::sim::loop {
 
-EventNumbers event_numbers(const EventLog& events, const std::string& event, const std::string& value,
+EventNumbers event_numbers(const record::EventLog& events, const std::string& event, const std::string& value,
                            double from, double until) {
   EventNumbers found;
   double order = 0;

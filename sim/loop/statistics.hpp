@@ -17,7 +17,7 @@ struct EventNumbers {
   std::string unit;
 };
 /// Of "cut" or "knife.cut", from one time to another [s], both included.
-EventNumbers event_numbers(const EventLog& events, const std::string& event, const std::string& value,
+EventNumbers event_numbers(const record::EventLog& events, const std::string& event, const std::string& value,
                            double from = 0, double until = std::numeric_limits<double>::infinity());
 
 /// Statistics of a series of event values, as an `all` check names them: mean_length, sd_length ...

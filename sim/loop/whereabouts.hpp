@@ -14,7 +14,7 @@ namespace drycut::sim::loop {
 /// Compares where axes believe to be with where their machine is: another scale, another place at the first
 /// command, where no program homes them; another zero, where one does. Only of axes that count a machine with
 /// a position.
-class Whereabouts : public Observer {
+class Whereabouts : public record::Observer {
  public:
   Whereabouts(const scenario::Scenario& scenario, devices::Controller& controller, Names& names);
 

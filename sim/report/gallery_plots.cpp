@@ -13,8 +13,8 @@ namespace drycut::sim::report {
 
 loop::EventNumbers event_numbers(const record::EventLog& events, const std::string& event,
                                  const std::string& value, const scenario::PlotRequest& plot) {
-  return plot.until ? event_numbers(events, event, value, seconds(plot.from), seconds(*plot.until))
-                    : event_numbers(events, event, value, seconds(plot.from));
+  return plot.until ? loop::event_numbers(events, event, value, seconds(plot.from), seconds(*plot.until))
+                    : loop::event_numbers(events, event, value, seconds(plot.from));
 }
 
 Rows rows_between(const record::Recording& recording, Time from, const std::optional<Time>& until) {

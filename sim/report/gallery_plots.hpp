@@ -7,8 +7,8 @@
 #include "plants/plant.hpp"
 #include "renders/plots.hpp"
 #include "sim/loop/drive_judge.hpp"
-#include "sim/record/recording.hpp"
 #include "sim/loop/statistics.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::report {

@@ -149,7 +149,7 @@ std::vector<std::string> columns_of(const PointQuestion& question,
 void add_pieces(const PointQuestion::Piece& piece, double wanted, const record::EventLog& events,
                 std::vector<double>& numbers) {
   const auto values_of = [&](const char* value) {
-    return loop::event_numbers(recording.events(), piece.source + ".cut", value, piece.from).numbers;
+    return loop::event_numbers(events, piece.source + ".cut", value, piece.from).numbers;
   };
   const auto lengths = values_of("length");
   const double mean = loop::statistics(lengths)[0];
