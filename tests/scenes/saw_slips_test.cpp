@@ -34,7 +34,7 @@ const Slip slips[] = {
     {"WheelStands", "line.yaml", starts,
      "  - {when: M11 == 1, after: 100 ms, set: {panel.start: 1}}\n"
      "  - {at: 9 s, fault: {tube.wheel: {stuck: 1}}}\n",
-     "because the timeline had at 9 s: fault tube.wheel.stuck = 1"},
+     "(because|after) the timeline had at 9 s: fault tube.wheel.stuck = 1"},
 };
 
 struct SawSlips : CommandTest, testing::WithParamInterface<std::tuple<Slip, int>> {
