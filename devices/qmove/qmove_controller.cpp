@@ -15,15 +15,15 @@ namespace {
 constexpr std::int64_t ns_per_ms = 1'000'000;
 constexpr std::int64_t long_turn_ns = 1'000'000'000;
 
-std::string_view event_of(Diagnostic::Kind kind) {
-  switch (kind) {
+std::string_view event_of(const Diagnostic& diagnostic) {
+  switch (diagnostic.kind) {
     case Diagnostic::Kind::command_refused:
     case Diagnostic::Kind::write_refused:
       return "refused";
     case Diagnostic::Kind::out_of_range:
       return "out_of_range";
     case Diagnostic::Kind::note:
-      return "warning";
+      return diagnostic.subject == "st_foller" ? "note" : "warning";  // what comes of it is told besides
     case Diagnostic::Kind::contradiction:
       return "contradiction";
   }
@@ -245,7 +245,7 @@ void QmoveController::collect_diagnostics(std::size_t device) {
         !said_.emplace(device, diagnostic.kind, diagnostic.subject, diagnostic.text).second)
       continue;
     const std::string separator = diagnostic.subject.empty() || diagnostic.text.empty() ? "" : ": ";
-    events_.push_back({configuration_.devices[device].name, std::string(event_of(diagnostic.kind)),
+    events_.push_back({configuration_.devices[device].name, std::string(event_of(diagnostic)),
                        diagnostic.subject + separator + diagnostic.text});
   }
 }

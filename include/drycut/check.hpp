@@ -17,7 +17,9 @@ struct Check {
     double from = 0;                                         ///< [s] events from here on count ...
     double until = std::numeric_limits<double>::infinity();  ///< ... up to there
 
+#if __cplusplus >= 202002L
     bool operator==(const Tolerance&) const = default;
+#endif
     template <typename Archive, typename Self>
     static void visit(Archive& archive, Self& self) {
       archive("event", self.event);
@@ -45,7 +47,9 @@ struct Check {
   std::optional<double> too_few = {};  ///< [s] of events that it counts there were too few, from then on
   bool deadline = false;               ///< its limit is a time by which something has come
 
+#if __cplusplus >= 202002L
   bool operator==(const Check&) const = default;
+#endif
   /// Names every member to `archive`, as archive(key, member). Files, Python and live pages are made of this:
   /// a new member is in all of them by its line here.
   template <typename Archive, typename Self>

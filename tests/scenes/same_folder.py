@@ -87,7 +87,7 @@ def main():
     parser.add_argument("drycut")
     parser.add_argument("--pictures", action="store_true")
     parser.add_argument("scenes", nargs="*")
-    asked = parser.parse_args()
+    asked = parser.parse_intermixed_args()
     scenes = asked.scenes or sorted(file.stem for file in SCENES.glob("*.yaml"))
     cases = [(scene, form) for scene in scenes for form in ("csv", "hdf5")]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
