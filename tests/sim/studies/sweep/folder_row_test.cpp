@@ -36,7 +36,7 @@ TEST_P(FolderRow, IsTheRowOfAWorker) {
   run.scenarios = {knife};
   run.out = folder / "out";
   run.pictures = false;
-  for (const auto& [path, value] : question.set) run.set.push_back(path + "=" + value);
+  for (const auto& [path, value] : question.set) run.set.emplace_back(path).append("=").append(value);
   ASSERT_EQ(captured([&] { return cli::run_scenarios(run); }), cli::check_failed) << err;
   const auto record = read_record(folder / "out/rotary_knife", problems);
   prepare(question, problems);
