@@ -51,8 +51,9 @@ Standing::Standing(const scenario::Scenario& scenario, devices::Controller& cont
     const auto terminal = controller.terminal_name(*address);
     const auto& plug = wire.plug.text;
     const auto follow = [&](std::vector<Level>& levels, const bool& level) {
-      levels.push_back({terminal, plug, &level, level, level,
-                        names_terminal(controller, terminal) && (homes || !plug.ends_with(".home"))});
+      const bool read = &levels == &inputs_ && (homes || !plug.ends_with(".home")) &&
+                        names_terminal(controller, terminal);
+      levels.push_back({terminal, plug, &level, level, level, read});
     };
     const bool on_panel = plug.starts_with("panel.");
     if (address->kind == devices::Kind::counter) {
