@@ -199,6 +199,14 @@ std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devi
   return notes;
 }
 
+bool presets(devices::Controller& controller, const std::string& axis) {
+  const auto programs = controller.programs();
+  return std::any_of(programs.begin(), programs.end(), [&](const devices::ProgramText& program) {
+    return program.language == "qcl" &&
+           program_words(program).find("preset " + lower(axis)) != std::string::npos;
+  });
+}
+
 bool names_terminal(devices::Controller& controller, const std::string& terminal) {
   return is_named(terminal, controller.programs(), Named::surely);
 }

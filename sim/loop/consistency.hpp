@@ -16,10 +16,12 @@ std::vector<std::string> contradictions(const scenario::Scenario& scenario,
 /// encoder on two counters.
 std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devices::Controller& controller);
 
-/// Terminals that nothing is wired to, a phrase each: "Y1 gives pulses, and nothing is wired to it".
 /// The wire at a terminal, nullptr = nothing is wired to it.
 const scenario::Wire* wire_at(const scenario::Scenario& scenario, devices::Controller& controller,
                               const devices::Address& address);
+
+/// A QCL program gives PRESET for that axis; "" = for any.
+bool presets(devices::Controller& controller, const std::string& axis);
 
 /// A program surely names that terminal, or what the configuration calls it.
 bool names_terminal(devices::Controller& controller, const std::string& terminal);
@@ -33,6 +35,7 @@ std::vector<std::string> contradicting_speeds(const scenario::Scenario& scenario
                                               devices::Controller& controller,
                                               const std::vector<NamedPlant>& plants);
 
+/// Terminals that nothing is wired to, a phrase each: "Y1 gives pulses, and nothing is wired to it".
 struct OpenTerminals {
   std::vector<std::string> moving;  ///< pulses, references, counters: without them nothing moves as it should
   std::vector<std::string> others;  ///< inputs and outputs that the program names

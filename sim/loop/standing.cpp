@@ -22,11 +22,12 @@ bool may_be_off(const std::string& plug) {
 }
 
 /// A QMOVE device reads its home switch only in a PRESET.
-bool seeks_home(const std::vector<devices::ProgramText>& programs) {
-  return std::any_of(programs.begin(), programs.end(), [](const devices::ProgramText& program) {
-    return program.language == "il" || program.language == "st" ||
-           (program.language == "qcl" && program_words(program).find("preset ") != std::string::npos);
-  });
+bool seeks_home(devices::Controller& controller) {
+  const auto programs = controller.programs();
+  return presets(controller, "") ||
+         std::any_of(programs.begin(), programs.end(), [](const devices::ProgramText& program) {
+           return program.language == "il" || program.language == "st";
+         });
 }
 
 std::string those_never_on(const auto&... levels) {
@@ -43,7 +44,7 @@ std::string those_never_on(const auto&... levels) {
 
 Standing::Standing(const scenario::Scenario& scenario, devices::Controller& controller) {
   auto& cards = controller.cards();
-  const bool homes = seeks_home(controller.programs());
+  const bool homes = seeks_home(controller);
   for (const auto& wire : scenario.wiring) {
     const auto found = controller.terminal(wire.terminal.text);
     const auto* address = std::get_if<devices::Address>(&found);
@@ -51,8 +52,8 @@ Standing::Standing(const scenario::Scenario& scenario, devices::Controller& cont
     const auto terminal = controller.terminal_name(*address);
     const auto& plug = wire.plug.text;
     const auto follow = [&](std::vector<Level>& levels, const bool& level) {
-      const bool read = &levels == &inputs_ && (homes || !plug.ends_with(".home")) &&
-                        names_terminal(controller, terminal);
+      const bool read =
+          &levels == &inputs_ && (homes || !plug.ends_with(".home")) && names_terminal(controller, terminal);
       levels.push_back({terminal, plug, &level, level, level, read});
     };
     const bool on_panel = plug.starts_with("panel.");

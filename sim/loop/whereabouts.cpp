@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "base/text.hpp"
 #include "sim/loop/consistency.hpp"
 
 namespace drycut::sim::loop {
@@ -16,12 +15,6 @@ constexpr double told_place = 2;    // [mm], more than a play
 constexpr double told_zero = 10;    // [mm], more than play and twist of a gear at the turn of a stroke
 constexpr double enough_way = 10;   // [mm]
 constexpr double rounding = 0.1;    // [mm] a step of either and the time between two looks
-
-bool homes(devices::Controller& controller, const std::string& axis) {
-  for (const auto& program : controller.programs())
-    if (program_words(program).find("preset " + lower(axis)) != std::string::npos) return true;
-  return false;
-}
 
 }  // namespace
 
@@ -35,7 +28,7 @@ Whereabouts::Whereabouts(const scenario::Scenario& scenario, devices::Controller
     const auto position = names.reading(plant);
     if (!position || position->unit != "mm") continue;
     axes_.push_back({loop.name, loop.drive, posit->read, decpt->read, plant, position->read,
-                     homes(controller, loop.name)});
+                     presets(controller, loop.name)});
   }
 }
 
