@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "devices/eanpos/eanpos.hpp"
+#include "devices/epicpos/eanpos.hpp"
 #include "devices/epicpos/epicpos.hpp"
 
 namespace drycut::devices::epicpos {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "devices/catalogue.hpp"
 #include "devices/device.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/text.hpp"
 
 // The configuration unit of a QMOVE project (spec qem.md §3): what the program's names stand for.

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "devices/catalogue.hpp"
 #include "devices/controller.hpp"
 #include "devices/due.hpp"
 #include "devices/modbus/modbus.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/machine.hpp"
 #include "devices/qmove/program.hpp"

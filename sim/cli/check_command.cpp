@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "base/text.hpp"
-#include "devices/catalogue.hpp"
 #include "devices/lx3vp/il_doubts.hpp"
 #include "devices/lx3vp/register_file.hpp"
 #include "devices/plcopen/st/program.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/program.hpp"
 #include "sim/cams/study.hpp"

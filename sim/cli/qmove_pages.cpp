@@ -6,8 +6,8 @@
 #include <iterator>
 
 #include "base/text.hpp"
-#include "devices/catalogue.hpp"
 #include "devices/device.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/language.hpp"
 #include "devices/qmove/machine.hpp"
 #include "sim/cli/pages.hpp"

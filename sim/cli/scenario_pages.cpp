@@ -90,7 +90,7 @@ class KeyLister final : public Archive {
   }
   void controller(const Key& key, std::unique_ptr<scenario::ControllerSection>&) override {
     add(key, "a map of one key");
-    for (const auto& kind : controllers::controller_kinds()) {
+    for (const auto& kind : scenario::controller_kinds()) {
       const auto scratch = kind.make();
       inside(fmt::format("controller.{}", kind.name), [&](Archive& inner) { scratch->visit(inner); });
     }

@@ -1,7 +1,6 @@
 #pragma once
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,19 +15,8 @@ class PlcopenController;
 
 namespace drycut::sim::controllers {
 
-/// A kind of controller that a scenario can name.
-struct ControllerKind {
-  std::string_view name;     ///< "qmove"
-  std::string_view example;  ///< of its section: "{configuration: ...}"
-  std::unique_ptr<scenario::ControllerSection> (*make)();
-};
-
-/// All of them: what drycut can load is in this list and nowhere else.
-std::span<const ControllerKind> controller_kinds();
-/// nullptr if there is none of that name.
-const ControllerKind* controller_kind(std::string_view name);
-
-// What each of them is in a scenario: its keys, its files, how it is loaded; one a file of this folder.
+// What each kind of controller is in a scenario: its keys, its files, how it is loaded; one a file of this
+// folder.
 
 /// controller: qmove: ...
 struct QmoveSection final : scenario::ControllerSection {

@@ -1,4 +1,4 @@
-#include "devices/catalogue.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/program.hpp"
 #include "devices/qmove/qmove_controller.hpp"

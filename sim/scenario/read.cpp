@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "base/text.hpp"
-#include "sim/controllers/kinds.hpp"
 #include "sim/file.hpp"
 #include "sim/scenario/extends.hpp"
 #include "sim/scenario/format.hpp"
@@ -45,12 +44,12 @@ class ScenarioReader final : public MapReader {
     refuse_duplicates(node, "controller", findings());
     std::vector<std::string> known;
     std::vector<std::string> examples;
-    for (const auto& kind : controllers::controller_kinds()) {
+    for (const auto& kind : controller_kinds()) {
       known.emplace_back(kind.name);
       examples.push_back(fmt::format("{{{}: {}}}", kind.name, kind.example));
     }
     for (const auto& entry : node.entries) {
-      const auto* const kind = controllers::controller_kind(entry.key.text);
+      const auto* const kind = controller_kind(entry.key.text);
       if (kind == nullptr) {
         findings().add(entry.key.place, fmt::format("unknown controller '{}'", entry.key.text),
                        fmt::format("known: {}", fmt::join(known, ", ")));

@@ -67,8 +67,8 @@ struct PlantEntry {
 class Archive;
 struct Scenario;
 
-/// What a scenario says of its controller. sim/controllers/kinds.hpp lists the kinds; what one of them is, is
-/// in its file there.
+/// What a scenario says of its controller. What a kind of it is, is in its file of
+/// sim/controllers/.
 struct ControllerSection {
   ControllerSection() = default;
   virtual ~ControllerSection() = default;
@@ -112,6 +112,17 @@ struct ControllerSection {
   virtual std::unique_ptr<devices::Controller> load(const Scenario& scenario, Problems& problems,
                                                     std::vector<std::string>* notes) const = 0;
 };
+
+/// A kind of controller that a scenario can name.
+struct ControllerKind {
+  std::string_view name;     ///< "qmove"
+  std::string_view example;  ///< of its section: "{configuration: ...}"
+  std::unique_ptr<ControllerSection> (*make)();
+};
+/// All of them, as sim/controllers/kinds.cpp lists them.
+std::span<const ControllerKind> controller_kinds();
+/// nullptr if there is none of that name.
+const ControllerKind* controller_kind(std::string_view name);
 
 /// wiring: {2.CNT01: knife.encoder}
 struct Wire {

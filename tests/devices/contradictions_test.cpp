@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/catalogue.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/qmove_controller.hpp"
 
 // Opposite commands of one sample (issue: an emergency is never lost in silence). The table's order stays.

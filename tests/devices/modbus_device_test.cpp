@@ -1,8 +1,8 @@
 // The device MODBUS of the QMOVE: its tables, its commands, and what a master reaches of it.
 #include <gmock/gmock.h>
 
-#include "devices/catalogue.hpp"
 #include "devices/modbus/modbus.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/qmove_controller.hpp"
 #include "tests/test_folder.hpp"
 

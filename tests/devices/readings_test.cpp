@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "devices/catalogue.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/language.hpp"
 #include "devices/qmove/text.hpp"
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "devices/camming4/codes.hpp"
-#include "devices/catalogue.hpp"
+#include "devices/qmove/catalogue.hpp"
 
 // Bytes played as what can happen to a device inside a controller: writes and commands of a program, counts,
 // inputs and index pulses of a machine, samples, power cycles. For fuzzers, which find the bytes, and for

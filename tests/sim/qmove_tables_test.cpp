@@ -5,7 +5,7 @@
 #include "base/text.hpp"
 #include "devices/camming4/codes.hpp"
 #include "devices/camming4/messages.hpp"
-#include "devices/catalogue.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/language.hpp"
 #include "sim/cli/commands.hpp"

@@ -18,7 +18,7 @@
 #include "sim/scenario/units.hpp"
 #include "sim/scenario/yaml_node.hpp"
 #include "sim/scenario/yaml_reader.hpp"
-#include "sim/studies/compare/recorded_csv.hpp"
+#include "sim/studies/recorded_csv.hpp"
 
 namespace drycut::sim::studies {
 

@@ -11,8 +11,8 @@
 #include "base/text.hpp"
 #include "plants/plant.hpp"
 #include "sim/loop/statistics.hpp"
-#include "sim/studies/compare/recorded_csv.hpp"
 #include "sim/studies/fingerprint.hpp"
+#include "sim/studies/recorded_csv.hpp"
 #include "sim/studies/sweep/rated_drive.hpp"
 #include "sim/studies/tune/metric.hpp"
 

@@ -192,7 +192,7 @@ std::vector<scenario::Override> overrides_of(const TunedParameters& parameters, 
 }
 
 std::optional<PresetName> preset_name(const std::string& path) {
-  for (const auto& kind : controllers::controller_kinds()) {
+  for (const auto& kind : scenario::controller_kinds()) {
     const auto prefix = fmt::format("controller.{}.set.", kind.name);
     if (path.starts_with(prefix)) return PresetName{std::string(kind.name), path.substr(prefix.size())};
   }

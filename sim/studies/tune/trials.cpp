@@ -17,10 +17,10 @@
 #include "base/text.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/controller_loader.hpp"
-#include "sim/studies/compare/recorded_csv.hpp"
 #include "sim/studies/fingerprint.hpp"
 #include "sim/studies/override_json.hpp"
 #include "sim/studies/proven_line.hpp"
+#include "sim/studies/recorded_csv.hpp"
 
 namespace drycut::sim::studies {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "devices/eanpos/eanpos.hpp"
+#include "devices/epicpos/eanpos.hpp"
 #include "devices/epicpos/epicpos.hpp"
 #include "tests/devices/coverage.hpp"
 

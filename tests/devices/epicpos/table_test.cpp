@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "devices/eanpos/eanpos.hpp"
+#include "devices/epicpos/eanpos.hpp"
 #include "devices/epicpos/epicpos.hpp"
 
 namespace drycut::devices::epicpos {

@@ -1,5 +1,5 @@
 // The PLCopen controller as the simulation sees it: terminals, values by name, events, power.
-#include "devices/plcopen/controller.hpp"
+#include "devices/plcopen/controller/controller.hpp"
 
 #include <gmock/gmock.h>
 

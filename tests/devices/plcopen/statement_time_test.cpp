@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/plcopen/controller.hpp"
+#include "devices/plcopen/controller/controller.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {

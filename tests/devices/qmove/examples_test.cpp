@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/catalogue.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/qmove_controller.hpp"
 
 // The manuals' programs, in the folder that the environment variable DRYCUT_EXAMPLES names, else beside the

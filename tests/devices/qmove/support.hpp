@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "devices/catalogue.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/qmove_controller.hpp"
 
 // A small device and a bench for tests of the QMOVE controller: no real device is needed to test it.

@@ -1,4 +1,4 @@
-#include "sim/studies/compare/recorded_csv.hpp"
+#include "sim/studies/recorded_csv.hpp"
 
 #include <fmt/format.h>
 

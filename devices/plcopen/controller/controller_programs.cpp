@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
-#include "devices/plcopen/controller.hpp"
+#include "devices/plcopen/controller/controller.hpp"
 #include "devices/plcopen/st/code.hpp"
 #include "devices/plcopen/st/lexer.hpp"
 

@@ -1,9 +1,9 @@
-#include "devices/catalogue.hpp"
+#include "devices/qmove/catalogue.hpp"
 
 #include <array>
 
 #include "devices/camming4/camming4.hpp"
-#include "devices/eanpos/eanpos.hpp"
+#include "devices/epicpos/eanpos.hpp"
 #include "devices/epicpos/epicpos.hpp"
 #include "devices/modbus/modbus.hpp"
 #include "devices/oopos2/oopos2.hpp"

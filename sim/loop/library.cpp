@@ -1,5 +1,5 @@
 // The library's front, include/drycut/simulation.hpp, before the simulation that the program runs.
-#include "sim/library.hpp"
+#include "sim/loop/library.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // The cams of the axes as a simulation compares them with their laws.
 #include <cmath>
 
-#include "devices/plcopen/controller.hpp"
+#include "devices/plcopen/controller/controller.hpp"
 #include "devices/plcopen/tab_file.hpp"
 
 namespace drycut::devices::plcopen {

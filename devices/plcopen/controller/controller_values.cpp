@@ -8,7 +8,7 @@
 #include <set>
 
 #include "base/text.hpp"
-#include "devices/plcopen/controller.hpp"
+#include "devices/plcopen/controller/controller.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {

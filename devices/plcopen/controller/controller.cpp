@@ -1,4 +1,4 @@
-#include "devices/plcopen/controller.hpp"
+#include "devices/plcopen/controller/controller.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "devices/eanpos/eanpos.hpp"
+#include "devices/epicpos/eanpos.hpp"
 
 #include "devices/epicpos/positioner.hpp"
 
