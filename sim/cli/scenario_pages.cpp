@@ -9,7 +9,6 @@
 #include "base/text.hpp"
 #include "sim/cams/study.hpp"
 #include "sim/cli/pages.hpp"
-#include "sim/controllers/kinds.hpp"
 #include "sim/scenario/forms.hpp"
 #include "sim/studies/compare/scene.hpp"
 

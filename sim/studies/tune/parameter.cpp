@@ -9,7 +9,6 @@
 
 #include "base/text.hpp"
 #include "plants/plant.hpp"
-#include "sim/controllers/kinds.hpp"
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/overwritten.hpp"
 #include "sim/scenario/units.hpp"
