@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "plants/part.hpp"
+#include "plants/plant.hpp"
 #include "plants/random.hpp"
 
 namespace drycut::plants {

@@ -1,7 +1,7 @@
 // The cam of a CAMMING4 as a simulation compares it with its law.
 #include <algorithm>
 
-#include "devices/axis/speed.hpp"
+#include "devices/axis/position.hpp"
 #include "devices/camming4/cam_table.hpp"
 #include "devices/camming4/camming4.hpp"
 

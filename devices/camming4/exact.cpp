@@ -1,4 +1,4 @@
-#include "devices/camming4/exact.hpp"
+#include "devices/camming4/sector.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "devices/table.hpp"
+#include "devices/device.hpp"
 
 // The public face of CAMMING4 (000 1.9; spec qem.md 8.1-8.3, with the print's slips corrected as D16 and D19
 // say).

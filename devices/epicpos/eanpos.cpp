@@ -1,4 +1,4 @@
-#include "devices/epicpos/eanpos.hpp"
+#include "devices/epicpos/epicpos.hpp"
 
 #include "devices/epicpos/positioner.hpp"
 

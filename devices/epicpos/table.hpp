@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "devices/table.hpp"
+#include "devices/device.hpp"
 
 // The public face of EPICPOS (002 1.4; spec qem.md 6, with the print's slips corrected as D1 and D16 say).
 // EANPOS has the same rows but for the last ones (spec qem.md 7, D17).

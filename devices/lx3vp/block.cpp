@@ -1,4 +1,4 @@
-#include "devices/lx3vp/block.hpp"
+#include "devices/lx3vp/registers.hpp"
 
 #include <fmt/format.h>
 

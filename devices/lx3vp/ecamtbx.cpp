@@ -5,8 +5,6 @@
 #include <limits>
 #include <optional>
 
-#include "devices/lx3vp/ecamtbx_rows.hpp"
-
 namespace drycut::devices::lx3vp {
 
 namespace {

@@ -1,4 +1,4 @@
-#include "devices/lx3vp/ecamtbx_rows.hpp"
+#include "devices/lx3vp/ecamtbx.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "devices/lx3vp/ecamtbx_words.hpp"
+#include "devices/lx3vp/ecamtbx_registers.hpp"
 
 namespace drycut::devices::lx3vp {
 

@@ -7,8 +7,6 @@
 #include "devices/lx3vp/il_lines.hpp"
 #include "devices/lx3vp/il_operands.hpp"
 #include "devices/lx3vp/il_program.hpp"
-#include "devices/lx3vp/il_rungs.hpp"
-#include "devices/lx3vp/il_structure.hpp"
 #include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp::il {

@@ -1,7 +1,7 @@
 // Jumps, loops, subroutines, master contacts and the steps of sequences, as the FX family has them.
 #include <algorithm>
 
-#include "devices/lx3vp/il_rung.hpp"
+#include "devices/lx3vp/il_scan.hpp"
 
 namespace drycut::devices::lx3vp::il {
 

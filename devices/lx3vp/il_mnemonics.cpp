@@ -1,4 +1,4 @@
-#include "devices/lx3vp/il_mnemonics.hpp"
+#include "devices/lx3vp/il_program.hpp"
 
 #include <algorithm>
 #include <iterator>

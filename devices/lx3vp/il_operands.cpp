@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "base/text.hpp"
-#include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "devices/lx3vp/registers.hpp"
 

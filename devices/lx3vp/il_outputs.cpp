@@ -1,4 +1,4 @@
-#include "devices/lx3vp/il_outputs.hpp"
+#include "devices/lx3vp/il_scan.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 #include <tuple>
 
-#include "devices/lx3vp/il_doubts.hpp"
+#include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/il_values.hpp"
 
 namespace drycut::devices::lx3vp::il {

@@ -1,5 +1,5 @@
 // Instructions on floating-point numbers: what each does, with its row in the table.
-#include "devices/lx3vp/il_call.hpp"
+#include "devices/lx3vp/il_values.hpp"
 
 namespace drycut::devices::lx3vp::il {
 

@@ -7,10 +7,8 @@
 
 #include "base/text.hpp"
 #include "devices/lx3vp/ecamtbx_registers.hpp"
-#include "devices/lx3vp/il_call.hpp"
 #include "devices/lx3vp/il_operands.hpp"
-#include "devices/lx3vp/il_outputs.hpp"
-#include "devices/lx3vp/il_rung.hpp"
+#include "devices/lx3vp/il_values.hpp"
 
 namespace drycut::devices::lx3vp::il {
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,6 +12,10 @@
 #include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp::il {
+
+/// Hands DECAM or a pulse instruction to the controller, with the power into it. Throws
+/// RuntimeError.
+void drive_outputs(const Registers& registers, const Step& step, bool powered, Instructions& instructions);
 
 /// Runs a program scan by scan, as the PLC does: from the first instruction to END, each on what those before
 /// it left in the registers. What instructions remember from scan to scan (edges, the fraction of a timer's
@@ -91,6 +96,46 @@ class Scanner {
   bool watched_ = false;
   std::string scanning_;  ///< what the present scan has done so far
   std::string scanned_;
+};
+
+/// What a scan carries from instruction to instruction.
+struct Scanner::Rung {
+  /// A FOR that runs.
+  struct Loop {
+    int place = 0;
+    int left = 0;  ///< times still to run
+  };
+  /// A subroutine that was called.
+  struct Frame {
+    std::size_t back = 0;   ///< place behind the CALL
+    std::size_t loops = 0;  ///< that ran there
+  };
+  static constexpr std::size_t masters = 8;  ///< N0..N7
+
+  Rung(Registers& of, Instructions& to) : registers(of), instructions(to) {}
+
+  Registers& registers;
+  Instructions& instructions;
+  std::int64_t passed_ns = 0;       ///< since the scan before
+  std::vector<bool> blocks = {};    ///< begun before the present one
+  std::vector<bool> branches = {};  ///< kept by MPS
+  std::vector<Loop> loops = {};
+  std::vector<Frame> frames = {};
+  std::array<bool, masters> open_masters = {};  ///< N0..N7: MC without power, until MCR
+  const Step* state = nullptr;                  ///< STL whose instructions run; nullptr: outside a sequence
+  bool state_on = true;
+  bool supply = true;  ///< all master contacts and the state are ON
+  bool flow = false;
+  std::int64_t work = 0;
+  std::size_t next = 0;
+  bool over = false;
+
+  /// What reaches a coil.
+  [[nodiscard]] bool power() const { return flow && supply; }
+  void renew_supply() {
+    supply = state_on;
+    for (const bool open : open_masters) supply = supply && !open;
+  }
 };
 
 }  // namespace drycut::devices::lx3vp::il

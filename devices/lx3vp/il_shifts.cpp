@@ -2,8 +2,8 @@
 #include <cmath>
 #include <vector>
 
-#include "devices/lx3vp/il_call.hpp"
 #include "devices/lx3vp/il_operands.hpp"
+#include "devices/lx3vp/il_values.hpp"
 
 namespace drycut::devices::lx3vp::il {
 

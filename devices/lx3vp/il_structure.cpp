@@ -1,4 +1,4 @@
-#include "devices/lx3vp/il_structure.hpp"
+#include "devices/lx3vp/il_lines.hpp"
 
 #include <fmt/format.h>
 

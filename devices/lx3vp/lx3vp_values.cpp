@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/lx3vp_controller.hpp"
+#include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp {
 

@@ -2,8 +2,8 @@
 #include <span>
 #include <string_view>
 
+#include "devices/controller.hpp"
 #include "devices/lx3vp/registers.hpp"
-#include "devices/modbus_face.hpp"
 
 namespace drycut::devices::lx3vp {
 

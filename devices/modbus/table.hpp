@@ -2,7 +2,7 @@
 #include <array>
 #include <string_view>
 
-#include "devices/table.hpp"
+#include "devices/device.hpp"
 
 // The public face of MODBUS (wiki.qem.it, en:software:devices:modbus, as far as its pages could be read: the
 // revisions of December 2016).

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "devices/axis/speed.hpp"
+#include "devices/axis/position.hpp"
+#include "devices/device.hpp"
 #include "devices/oopos2/oopos2.hpp"
-#include "devices/terminals.hpp"
 
 namespace drycut::devices::oopos2 {
 

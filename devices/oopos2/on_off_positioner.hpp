@@ -3,11 +3,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "devices/axis/frequency_meter.hpp"
 #include "devices/axis/position.hpp"
+#include "devices/cards.hpp"
 #include "devices/oopos2/movement.hpp"
 #include "devices/oopos2/table.hpp"
-#include "devices/turn.hpp"
 
 namespace drycut::devices::oopos2 {
 

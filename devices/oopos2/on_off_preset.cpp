@@ -1,7 +1,7 @@
 #include <utility>
 
+#include "devices/device.hpp"
 #include "devices/oopos2/on_off_positioner.hpp"
-#include "devices/terminals.hpp"
 
 // The preset search (001 1.4.8; spec qem.md 5.11 and 9.7).
 namespace drycut::devices::oopos2 {

@@ -2,7 +2,7 @@
 #include <array>
 #include <string_view>
 
-#include "devices/table.hpp"
+#include "devices/device.hpp"
 
 // The public face of OOPOS2 (001 1.6; spec qem.md 9, with the print's slips corrected as D1 and D34 say).
 namespace drycut::devices::oopos2::table {

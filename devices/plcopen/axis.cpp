@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/units.hpp"
-#include "devices/axis/dac.hpp"
+#include "devices/axis/regulator.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "devices/plcopen/tab_file.hpp"
-#include "devices/plcopen/table_text.hpp"
 
 // Cams as files of their own: CSV, and what comments say of the axes.
 namespace drycut::devices::plcopen {

@@ -1,4 +1,4 @@
-#include "devices/plcopen/cam_laws.hpp"
+#include "devices/plcopen/cam_table.hpp"
 
 #include <algorithm>
 #include <cmath>

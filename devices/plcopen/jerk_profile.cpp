@@ -1,4 +1,4 @@
-#include "devices/plcopen/jerk_profile.hpp"
+#include "devices/plcopen/coupling.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "devices/modbus_face.hpp"
+#include "devices/controller.hpp"
 
 namespace drycut::devices::plcopen {
 

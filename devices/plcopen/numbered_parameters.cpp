@@ -1,4 +1,4 @@
-#include "devices/plcopen/numbered_parameters.hpp"
+#include "devices/plcopen/axis.hpp"
 
 #include <array>
 

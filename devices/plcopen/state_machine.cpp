@@ -1,4 +1,4 @@
-#include "devices/plcopen/state_machine.hpp"
+#include "devices/plcopen/requests.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {

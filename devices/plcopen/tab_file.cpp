@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "devices/plcopen/table_text.hpp"
-
 namespace drycut::devices::plcopen {
 namespace {
 

@@ -1,4 +1,4 @@
-#include "devices/plcopen/table_text.hpp"
+#include "devices/plcopen/tab_file.hpp"
 
 #include <algorithm>
 #include <cmath>

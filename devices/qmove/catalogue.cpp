@@ -3,7 +3,6 @@
 #include <array>
 
 #include "devices/camming4/camming4.hpp"
-#include "devices/epicpos/eanpos.hpp"
 #include "devices/epicpos/epicpos.hpp"
 #include "devices/modbus/modbus.hpp"
 #include "devices/oopos2/oopos2.hpp"

@@ -6,12 +6,17 @@
 #include <vector>
 
 #include "base/problem.hpp"
+#include "base/text.hpp"
 #include "devices/device.hpp"
 #include "devices/qmove/catalogue.hpp"
-#include "devices/qmove/text.hpp"
+
+namespace drycut::devices::qmove {
+
+/// The words of the language: no variable, device or label may have such a name.
+const std::vector<std::string>& reserved_words();
+bool is_reserved(std::string_view word);
 
 // The configuration unit of a QMOVE project (spec qem.md §3): what the program's names stand for.
-namespace drycut::devices::qmove {
 
 /// CONST: a number with a name; a value with a decimal point is a single, else a long.
 struct Constant {

@@ -11,7 +11,6 @@
 
 #include "devices/qmove/lexer.hpp"
 #include "devices/qmove/program.hpp"
-#include "devices/qmove/symbols.hpp"
 
 namespace drycut::devices::qmove {
 

@@ -17,8 +17,6 @@
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/machine.hpp"
 #include "devices/qmove/program.hpp"
-#include "devices/qmove/symbols.hpp"
-#include "devices/slot_terminals.hpp"
 
 namespace drycut::devices::qmove {
 

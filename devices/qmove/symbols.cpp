@@ -1,4 +1,4 @@
-#include "devices/qmove/symbols.hpp"
+#include "devices/qmove/program.hpp"
 
 #include <array>
 #include <utility>

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/cams/findings.hpp"
+#include "sim/cams/report.hpp"
 
 namespace drycut::sim::cams {
 

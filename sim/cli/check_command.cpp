@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "base/text.hpp"
-#include "devices/lx3vp/il_doubts.hpp"
+#include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/register_file.hpp"
 #include "devices/plcopen/st/program.hpp"
 #include "devices/qmove/catalogue.hpp"

@@ -26,7 +26,7 @@
 #include "sim/live/server.hpp"
 #include "sim/live/session.hpp"
 #include "sim/record/recording.hpp"
-#include "sim/scenario/yaml_reader.hpp"
+#include "sim/scenario/archive.hpp"
 
 namespace drycut::sim::cli {
 

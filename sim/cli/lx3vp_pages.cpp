@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/ecamtbx.hpp"
-#include "devices/lx3vp/ecamtbx_words.hpp"
-#include "devices/lx3vp/il_mnemonics.hpp"
+#include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "devices/lx3vp/il_operands.hpp"
+#include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/modbus_map.hpp"
+#include "devices/lx3vp/registers.hpp"
 #include "sim/cli/pages.hpp"
 
 namespace drycut::sim::cli {

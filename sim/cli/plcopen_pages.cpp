@@ -6,10 +6,9 @@
 #include <string>
 
 #include "base/text.hpp"
-#include "devices/plcopen/axis_values.hpp"
+#include "devices/plcopen/axis.hpp"
 #include "devices/plcopen/errors.hpp"
 #include "devices/plcopen/kernel.hpp"
-#include "devices/plcopen/numbered_parameters.hpp"
 #include "devices/plcopen/pins.hpp"
 #include "devices/plcopen/readings.hpp"
 #include "devices/plcopen/st/language.hpp"

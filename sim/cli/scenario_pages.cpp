@@ -9,7 +9,7 @@
 #include "base/text.hpp"
 #include "sim/cams/study.hpp"
 #include "sim/cli/pages.hpp"
-#include "sim/scenario/forms.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/studies/compare/scene.hpp"
 
 namespace drycut::sim::cli {

@@ -9,7 +9,7 @@
 #include "base/text.hpp"
 #include "sim/controllers/program_files.hpp"
 #include "sim/file.hpp"
-#include "sim/scenario/forms.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/variables.hpp"
 
 namespace drycut::sim {

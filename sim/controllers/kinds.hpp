@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "devices/modbus_face.hpp"
+#include "devices/controller.hpp"
 #include "devices/plcopen/axis_parameters.hpp"
 #include "sim/scenario/archive.hpp"
 

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include "devices/lx3vp/il_doubts.hpp"
+#include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/lx3vp_controller.hpp"
 #include "sim/controllers/kinds.hpp"
 #include "sim/controllers/program_files.hpp"
-#include "sim/scenario/forms.hpp"
+#include "sim/scenario/archive.hpp"
 
 namespace drycut::sim::controllers {
 

@@ -8,9 +8,9 @@
 #include "sim/controllers/kinds.hpp"
 #include "sim/controllers/plcopen_scales.hpp"
 #include "sim/controllers/program_files.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/format.hpp"
-#include "sim/scenario/forms.hpp"
 
 namespace drycut::sim::controllers {
 

@@ -4,7 +4,7 @@
 #include "base/text.hpp"
 #include "devices/plcopen/controller/controller.hpp"
 #include "sim/controllers/kinds.hpp"
-#include "sim/scenario/forms.hpp"
+#include "sim/scenario/archive.hpp"
 
 namespace drycut::sim::controllers {
 

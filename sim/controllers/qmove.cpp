@@ -4,7 +4,7 @@
 #include "devices/qmove/qmove_controller.hpp"
 #include "sim/controllers/kinds.hpp"
 #include "sim/controllers/program_files.hpp"
-#include "sim/scenario/forms.hpp"
+#include "sim/scenario/archive.hpp"
 
 namespace drycut::sim::controllers {
 

@@ -10,7 +10,7 @@
 
 #include "base/text.hpp"
 #include "sim/record/json.hpp"
-#include "sim/scenario/yaml_reader.hpp"
+#include "sim/scenario/archive.hpp"
 
 namespace drycut::sim::live {
 

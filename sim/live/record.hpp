@@ -5,7 +5,6 @@
 #include <string>
 
 #include "sim/live/session.hpp"
-#include "sim/record/observer.hpp"
 #include "sim/record/recording.hpp"
 #include "sim/record/trace_files.hpp"
 

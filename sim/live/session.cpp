@@ -11,8 +11,6 @@
 #include "sim/record/own_file.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
-#include "sim/scenario/forms.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 #include "sim/studies/fingerprint.hpp"
 
 namespace drycut::sim::live {

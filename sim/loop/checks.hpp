@@ -8,7 +8,6 @@
 #include "sim/loop/known_events.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/loop/watch.hpp"
-#include "sim/record/observer.hpp"
 #include "sim/record/outcome.hpp"
 #include "sim/record/recording.hpp"
 #include "sim/scenario/expression.hpp"

@@ -28,7 +28,6 @@
 #include "sim/loop/unasked.hpp"
 #include "sim/loop/watch.hpp"
 #include "sim/loop/whereabouts.hpp"
-#include "sim/record/observer.hpp"
 #include "sim/record/recording.hpp"
 #include "sim/record/trace_files.hpp"
 #include "sim/scenario/scenario.hpp"

@@ -1,4 +1,4 @@
-#include "sim/record/hdf5_reader.hpp"
+#include "sim/record/hdf5_file.hpp"
 
 #include <fmt/format.h>
 

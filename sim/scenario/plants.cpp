@@ -9,7 +9,7 @@
 #include <unordered_map>
 
 #include "base/text.hpp"
-#include "sim/scenario/forms.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/motor_catalogue.hpp"
 #include "sim/scenario/parameter_text.hpp"
 #include "sim/scenario/sections.hpp"

@@ -6,12 +6,12 @@
 
 #include "base/text.hpp"
 #include "sim/file.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/extends.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/sections.hpp"
 #include "sim/scenario/variable_slips.hpp"
 #include "sim/scenario/variables.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::scenario {
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <unordered_set>
 
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
-#include "sim/scenario/forms.hpp"
 
 namespace drycut::sim::scenario {
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::scenario {
 

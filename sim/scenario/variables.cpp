@@ -12,9 +12,9 @@
 
 #include "base/text.hpp"
 #include "sim/file.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/constant.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::scenario {
 

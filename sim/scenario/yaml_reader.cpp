@@ -1,4 +1,4 @@
-#include "sim/scenario/yaml_reader.hpp"
+#include "sim/scenario/archive.hpp"
 
 #include <fmt/format.h>
 

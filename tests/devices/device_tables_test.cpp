@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "devices/camming4/camming4.hpp"
-#include "devices/epicpos/eanpos.hpp"
 #include "devices/epicpos/epicpos.hpp"
 #include "devices/oopos2/oopos2.hpp"
 #include "devices/qmove/catalogue.hpp"

@@ -6,9 +6,9 @@
 #include <map>
 #include <string>
 
-#include "devices/lx3vp/block.hpp"
+#include "devices/controller.hpp"
 #include "devices/lx3vp/modbus_map.hpp"
-#include "devices/modbus_face.hpp"
+#include "devices/lx3vp/registers.hpp"
 #include "devices/plcopen/modbus_map.hpp"
 
 namespace drycut::devices {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "devices/qmove/catalogue.hpp"
+#include "devices/qmove/cnf.hpp"
 #include "devices/qmove/language.hpp"
-#include "devices/qmove/text.hpp"
 
 // Readings of ours stand beside what they are about, each with the place that leaves it open.
 namespace drycut::devices {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "devices/camming4/codes.hpp"
+#include "devices/camming4/sector.hpp"
 #include "devices/qmove/catalogue.hpp"
 
 // Bytes played as what can happen to a device inside a controller: writes and commands of a program, counts,

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-#include "plants/friction.hpp"
+#include "plants/motor_load.hpp"
 #include "tests/plants/plants_lookup.hpp"
 
 namespace drycut::plants {

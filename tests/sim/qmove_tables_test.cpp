@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.hpp"
-#include "devices/camming4/codes.hpp"
 #include "devices/camming4/messages.hpp"
+#include "devices/camming4/sector.hpp"
 #include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/language.hpp"

@@ -11,7 +11,7 @@
 #include "base/problem.hpp"
 #include "devices/controller.hpp"
 #include "devices/due.hpp"
-#include "devices/plcopen/axis_values.hpp"
+#include "devices/plcopen/axis.hpp"
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/program.hpp"
 #include "devices/plcopen/st/runtime.hpp"

@@ -1,4 +1,4 @@
-#include "devices/plcopen/st/arithmetic.hpp"
+#include "devices/plcopen/st/code.hpp"
 
 #include <algorithm>
 #include <cmath>

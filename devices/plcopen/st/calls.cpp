@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "devices/plcopen/st/expressions.hpp"
-#include "devices/plcopen/st/functions.hpp"
+#include "devices/plcopen/st/compiler.hpp"
+#include "devices/plcopen/st/values.hpp"
 
 // Assignments, and calls of functions and function blocks.
 namespace drycut::devices::plcopen::st {

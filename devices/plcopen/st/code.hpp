@@ -1,7 +1,10 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "devices/plcopen/st/program.hpp"
@@ -233,5 +236,32 @@ struct Compiled {
   };
   std::vector<Scope> scopes;
 };
+
+/// The result of an operation without effects, Op::add to Op::maximum_real, in its type. Whole numbers wrap
+/// in their width, REALs are rounded to single precision. What `no_result` tells is the caller's to refuse.
+Cell apply(Op op, Basic basic, Cell a, Cell b);
+inline bool is_pure(Op op) { return op >= Op::add && op <= Op::maximum_real; }
+
+struct NoResult {
+  std::string what;
+  std::string remedy;
+};
+/// Why an operation without effects has no finite result where PLC run-times raise an exception: a division
+/// by 0, SQRT, LN, LOG, ASIN, ACOS outside of what they take, a power or EXP beyond the type `basic`. Sums
+/// and products of real numbers may become infinite.
+std::optional<NoResult> no_result(Op op, Basic basic, Cell a, Cell b);
+
+// The functions of STRING as CODESYS has them: places count from 1, and what lies outside of a text is cut
+// off.
+
+/// LEFT, RIGHT, MID, CONCAT, INSERT, DELETE and REPLACE of one or more texts; `numbers` are L and P as far as
+/// the function has them.
+std::string edited(TextOp op, std::span<const std::string_view> texts, std::span<const Cell> numbers);
+/// Where `wanted` begins in `text`, from 1; 0 if nowhere.
+Cell found(std::string_view text, std::string_view wanted);
+/// '5', '-1.5', 'TRUE', 'T#1s500ms', 'D#1996-08-15': X_TO_STRING.
+std::string text_of(Basic basic, Cell value);
+/// The number, time or date that the text begins with, else 0: STRING_TO_X.
+Cell value_of(Basic basic, std::string_view text);
 
 }  // namespace drycut::devices::plcopen::st

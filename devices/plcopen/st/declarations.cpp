@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
-#include "devices/plcopen/st/keywords.hpp"
+#include "devices/plcopen/st/lexer.hpp"
 #include "devices/plcopen/terminals.hpp"
 
 // The VAR sections of POUs and VAR_GLOBAL.

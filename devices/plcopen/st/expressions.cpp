@@ -1,4 +1,4 @@
-#include "devices/plcopen/st/expressions.hpp"
+#include "devices/plcopen/st/compiler.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 
 #include "base/text.hpp"
 #include "devices/plcopen/kernel.hpp"
-#include "devices/plcopen/st/keywords.hpp"
-#include "devices/plcopen/st/operators.hpp"
+#include "devices/plcopen/st/lexer.hpp"
+#include "devices/plcopen/st/values.hpp"
 
 // What the tree of an expression means: its literals, its names and what may follow them, .member and
 // [index].

@@ -1,12 +1,10 @@
-#include "devices/plcopen/st/functions.hpp"
+#include "devices/plcopen/st/values.hpp"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
 #include <fmt/format.h>
-
-#include "devices/plcopen/st/operators.hpp"
 
 namespace drycut::devices::plcopen::st {
 namespace {

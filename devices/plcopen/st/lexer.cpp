@@ -10,8 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "devices/plcopen/st/pragmas.hpp"
-
 namespace drycut::devices::plcopen::st {
 namespace {
 

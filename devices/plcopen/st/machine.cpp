@@ -8,8 +8,7 @@
 
 #include "base/text.hpp"
 #include "devices/plcopen/kernel.hpp"
-#include "devices/plcopen/st/arithmetic.hpp"
-#include "devices/plcopen/st/texts.hpp"
+#include "devices/plcopen/st/code.hpp"
 
 namespace drycut::devices::plcopen::st {
 

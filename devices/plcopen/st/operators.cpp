@@ -1,4 +1,4 @@
-#include "devices/plcopen/st/operators.hpp"
+#include "devices/plcopen/st/values.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "devices/plcopen/st/keywords.hpp"
-#include "devices/plcopen/st/operators.hpp"
+#include "devices/plcopen/st/lexer.hpp"
+#include "devices/plcopen/st/values.hpp"
 
 namespace drycut::devices::plcopen::st {
 namespace {

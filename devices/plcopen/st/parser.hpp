@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "devices/plcopen/st/reader.hpp"
+#include "devices/plcopen/st/lexer.hpp"
 
 namespace drycut::devices::plcopen::st {
 

@@ -1,8 +1,6 @@
-#include "devices/plcopen/st/reader.hpp"
+#include "devices/plcopen/st/lexer.hpp"
 
 #include <fmt/format.h>
-
-#include "devices/plcopen/st/keywords.hpp"
 
 namespace drycut::devices::plcopen::st {
 namespace {

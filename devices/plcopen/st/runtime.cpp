@@ -9,7 +9,7 @@
 
 #include "base/text.hpp"
 #include "devices/due.hpp"
-#include "devices/plcopen/st/arithmetic.hpp"
+#include "devices/plcopen/st/code.hpp"
 #include "devices/plcopen/st/machine.hpp"
 
 namespace drycut::devices::plcopen::st {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "devices/plcopen/st/compiler.hpp"
-#include "devices/plcopen/st/keywords.hpp"
+#include "devices/plcopen/st/lexer.hpp"
 
 // Assignments, calls, IF and CASE.
 namespace drycut::devices::plcopen::st {

@@ -1,4 +1,4 @@
-#include "devices/plcopen/st/texts.hpp"
+#include "devices/plcopen/st/code.hpp"
 
 #include <algorithm>
 #include <charconv>

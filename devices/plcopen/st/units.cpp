@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "devices/plcopen/st/compiler.hpp"
-#include "devices/plcopen/st/keywords.hpp"
+#include "devices/plcopen/st/lexer.hpp"
 
 // The parts of a file: where they begin and end, and the order in which they are read.
 namespace drycut::devices::plcopen::st {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "devices/plcopen/st/arithmetic.hpp"
+#include "devices/plcopen/st/code.hpp"
 
 namespace drycut::devices::plcopen::st {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "devices/axis/speed.hpp"
+#include "devices/axis/position.hpp"
 
 namespace drycut::sim::cams {
 

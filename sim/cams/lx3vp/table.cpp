@@ -6,7 +6,7 @@
 #include <map>
 
 #include "base/text.hpp"
-#include "devices/lx3vp/block.hpp"
+#include "devices/lx3vp/registers.hpp"
 #include "sim/cams/csv.hpp"
 #include "sim/cams/lx3vp/judge.hpp"
 

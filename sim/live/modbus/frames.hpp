@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "devices/modbus_face.hpp"
+#include "devices/controller.hpp"
 
 // Modbus as the standard has it (MODBUS Application Protocol V1.1b3, Messaging on TCP/IP V1.0b), without any
 // socket: bytes to frames, requests to answers.

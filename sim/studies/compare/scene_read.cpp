@@ -4,9 +4,9 @@
 #include <cctype>
 
 #include "sim/file.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/extends.hpp"
 #include "sim/scenario/format.hpp"
-#include "sim/scenario/forms.hpp"
 #include "sim/scenario/json_schema.hpp"
 #include "sim/scenario/variables.hpp"
 #include "sim/studies/compare/scene.hpp"

@@ -11,8 +11,8 @@
 
 #include "base/text.hpp"
 #include "devices/camming4/cam_table.hpp"
-#include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/ecam_table.hpp"
+#include "devices/lx3vp/registers.hpp"
 #include "sim/cams/study.hpp"
 #include "sim/record/own_file.hpp"
 #include "sim/scenario/format.hpp"

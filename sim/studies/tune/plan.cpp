@@ -8,8 +8,8 @@
 
 #include "sim/file.hpp"
 #include "sim/loop/simulation.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 #include "sim/studies/tune/patch.hpp"
 #include "sim/studies/tune/search.hpp"
 

@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "devices/plcopen/cam_laws.hpp"
+#include "devices/plcopen/cam_table.hpp"
 #include "tests/devices/plcopen/covers.hpp"
 
 namespace drycut::devices::plcopen {

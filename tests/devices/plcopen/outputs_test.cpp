@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "devices/plcopen/numbered_parameters.hpp"
+#include "devices/plcopen/axis.hpp"
 #include "tests/devices/plcopen/bench.hpp"
 #include "tests/devices/st/bench.hpp"
 

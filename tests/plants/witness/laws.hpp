@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "plants/end_stop.hpp"
-#include "plants/friction.hpp"
+#include "plants/motor_load.hpp"
 #include "plants/servo_drive.hpp"
 #include "plants/transmission.hpp"
 

@@ -6,7 +6,6 @@
 
 #include "sim/record/deflate.hpp"
 #include "sim/record/hdf5_file.hpp"
-#include "sim/record/hdf5_reader.hpp"
 #include "sim/record/hdf5_table.hpp"
 #include "tests/test_folder.hpp"
 

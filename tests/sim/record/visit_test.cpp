@@ -3,7 +3,6 @@
 
 #include "sim/cli/run_cache.hpp"
 #include "sim/record/hdf5_file.hpp"
-#include "sim/record/hdf5_reader.hpp"
 #include "sim/record/json.hpp"
 #include "sim/record/outcome.hpp"
 #include "tests/test_folder.hpp"

@@ -113,4 +113,94 @@ class Encoder {
   double start_;  // as it shows it
 };
 
+/// A proximity or limit switch with a target of some width: on while the position is over the target. All
+/// positions in one unit of the plant's choice (turns for a drum, metres for a slide).
+struct PositionSwitchData {
+  double centre = 0;      ///< of the target
+  double width = 0;       ///< of the target
+  double hysteresis = 0;  ///< the switch lets go this far behind the edge of the target
+  double delay = 0;       ///< of its filter [s]: shorter pulses and gaps are swallowed
+};
+
+class PositionSwitch {
+ public:
+  /// `period`: the position repeats after this much (1 turn), 0 = it does not. `start`: position at the
+  /// start.
+  PositionSwitch(const PositionSwitchData& data, double period, double start);
+
+  SignalPort port;  ///< edges with their exact fraction of the step, after the delay
+
+  /// Follows the motion over the last step of `h` seconds, over the whole target if it goes so far.
+  void sense(double before, double now, double h);
+  /// The same for a target that is not at one place: `distance` from its centre now.
+  void follow(double distance, double h);
+
+  /// stuck and dead under the component name `component`. 0 clears each.
+  void offer_faults(std::vector<Fault>& faults, const std::string& component);
+
+ private:
+  [[nodiscard]] double shorter(double way) const;
+  [[nodiscard]] double offset(double position) const;              // from the nearest centre
+  void move(double distance, double begin, double end, double h);  // in this part of the step, straight
+  void filter(double h);
+  void let_through(double h);
+  void show(bool level, double fraction);
+
+  PositionSwitchData data_;
+  double period_;
+  double distance_;       // at the end of the last step
+  bool raw_;              // over the target, with hysteresis, before the delay
+  bool filtered_;         // after the delay, before the faults
+  bool pending_ = false;  // raw_ changed less than `delay` ago
+  double remaining_ = 0;  // until the filter lets it through [s]
+  bool stuck_ = false;
+  bool dead_ = false;
+};
+
+/// What an axis' position is measured with; positions along the axis [m].
+struct AxisTransducersData {
+  EncoderData encoder = {.lines = 2500};                ///< on the motor
+  double scale_resolution = 1e-6;                       ///< of the linear scale, a count x4
+  double scale_pitch = 0.02;                            ///< between two index pulses of the scale
+  PositionSwitchData home = {0, 0.02, 0.5e-3, 0.5e-3};  ///< [m]
+  double limit_min = -0.03;                             ///< the limit switches are on beyond these
+  double limit_max = 1.03;
+  double limit_delay = 0.5e-3;  ///< of the limit switches' filter [s]
+};
+
+/// Where a machine's defaults are from.
+struct AxisTransducersSources {
+  std::string_view scale_resolution = "a usual scale";
+  std::string_view home = "position 0";
+  std::string_view limits = "20 mm before the stop";
+};
+/// Rows for a parameter table: `encoder.`, `scale.`, `home.`, `limit_`.
+Parameters axis_transducer_parameters(AxisTransducersData& data, const AxisTransducersSources& from = {});
+
+/// Encoder on the motor, linear scale and switches on the moving part. Both count 0 at the start.
+class AxisTransducers {
+ public:
+  /// `start` [m] and `revolutions` of the motor at the start.
+  AxisTransducers(const AxisTransducersData& data, double start, double revolutions, Random encoder_noise,
+                  Random scale_noise);
+
+  /// Follows the bodies over the last step of `h` seconds.
+  void sense(const Shaft& rotor, const Slide& part, double h);
+
+  // What they add to a plant's lists.
+  void offer_ports(std::vector<Port>& ports);
+  void offer_channels(std::vector<Channel>& channels) const;
+  void offer_faults(std::vector<Fault>& faults);
+
+ private:
+  AxisTransducersData data_;
+  double start_;
+  Encoder encoder_;
+  PulseLine scale_;
+  SignalPort scale_index_;
+  PositionSwitch home_;
+  PositionSwitch limit_min_;
+  PositionSwitch limit_max_;
+};
+
 }  // namespace drycut::plants
