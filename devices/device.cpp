@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "devices/contradictions.hpp"
+#include "devices/controller.hpp"
 
 namespace drycut::devices {
 namespace {
@@ -273,5 +274,7 @@ std::string Device::unmet(const Condition& condition) const {
   }
   return text;
 }
+
+std::optional<CamAxis> Device::cam_axis() { return std::nullopt; }
 
 }  // namespace drycut::devices

@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "devices/cards.hpp"
-#include "devices/controller.hpp"
 
 namespace drycut::devices {
+
+struct CamAxis;  // devices/controller.hpp
 
 // A device is a table plus a step. The table (DeviceType) is its public face: QCL programs, scenario files,
 // the recorder and `drycut devices` all use it, and nothing about a variable is written twice.
@@ -176,7 +177,7 @@ class Device {
   virtual void power_up();
 
   /// Its cam, if it has one; the owner gives it its name.
-  [[nodiscard]] virtual std::optional<CamAxis> cam_axis() { return std::nullopt; }
+  [[nodiscard]] virtual std::optional<CamAxis> cam_axis();
   /// Of an analogue axis: what its parameters take for the speed at 10 V [bits x4/s], 0 = nothing.
   [[nodiscard]] virtual double bits_at_10v() const { return 0; }
 

@@ -330,6 +330,37 @@ struct EventType {
 /// What severs the web tells so with an event of this name: its plant is a cutter.
 inline constexpr std::string_view cut_event = "cut";
 
+/// What a motor and its drive are rated for, over the speed of the motor [rad/s, either sign].
+struct DriveRatings {
+  double rotor_inertia = 0;        ///< [kg m2]
+  double stall_torque = 0;         ///< for ever, at standstill [N m]
+  double rated_torque = 0;         ///< for ever, at rated speed [N m]
+  double peak_torque = 0;          ///< up to rated speed [N m]
+  double torque_at_max_speed = 0;  ///< largest there, falling linearly from rated speed [N m]
+  double rated_speed = 0;          ///< [rad/s]
+  double max_speed = 0;            ///< [rad/s]; no driving torque is left 5 % above
+  /// The torque limit acts in normal work: an inverter's ramp waits at it, a motor on the mains passes its
+  /// pull-out torque whenever it starts.
+  bool works_at_limit = false;
+
+  [[nodiscard]] double continuous(double speed) const;  ///< torque for ever: S1 [N m]
+  [[nodiscard]] double peak(double speed) const;        ///< largest driving torque [N m]
+
+  bool operator==(const DriveRatings&) const = default;
+  /// Names every member to `archive`, as archive(key, member).
+  template <typename Archive, typename Self>
+  static void visit(Archive& archive, Self& self) {
+    archive("rotor_inertia", self.rotor_inertia);
+    archive("stall_torque", self.stall_torque);
+    archive("rated_torque", self.rated_torque);
+    archive("peak_torque", self.peak_torque);
+    archive("torque_at_max_speed", self.torque_at_max_speed);
+    archive("rated_speed", self.rated_speed);
+    archive("max_speed", self.max_speed);
+    archive("works_at_limit", self.works_at_limit);
+  }
+};
+
 /// A drive of a plant, for whoever judges it.
 struct DriveOfPlant {
   std::string name;         ///< within the plant: "servo", "drive"

@@ -8,9 +8,10 @@
 #include <string_view>
 
 #include "plants/plant.hpp"
-#include "plants/random.hpp"
 
 namespace drycut::plants {
+
+class Random;
 
 /// A body that turns about an axis parallel to z: rotor, drum. The angle is whole turns plus a part of a
 /// turn, so that it neither wraps nor loses digits over millions of turns. A plant adds torques before the

@@ -6,7 +6,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "devices/controller.hpp"
 #include "python/shared.hpp"
+#include "sim/loop/names.hpp"
 
 namespace drycut::python {
 

@@ -9,6 +9,11 @@
 #include "devices/camming4/cam.hpp"
 #include "devices/camming4/table.hpp"
 
+namespace drycut::devices {
+struct CamMoment;
+struct CamTable;
+}
+
 namespace drycut::devices::camming4 {
 
 /// The calculations that follow writes of parameters, spread over samples as the manual's table says (000

@@ -4,6 +4,7 @@
 #include "devices/axis/position.hpp"
 #include "devices/camming4/cam_table.hpp"
 #include "devices/camming4/camming4.hpp"
+#include "devices/controller.hpp"
 
 namespace drycut::devices::camming4 {
 

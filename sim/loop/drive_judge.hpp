@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "plants/power_stage.hpp"
+#include "sim/loop/bus.hpp"
 #include "sim/loop/drive_cycles.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/record/outcome.hpp"

@@ -10,6 +10,7 @@
 #include "plants/plant.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/loop/specimens.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
 

@@ -9,7 +9,9 @@
 #include <unordered_map>
 
 #include "base/text.hpp"
+#include "sim/loop/known_events.hpp"
 #include "sim/loop/live_parameters.hpp"
+#include "sim/loop/names.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/units.hpp"
 

@@ -8,6 +8,8 @@
 
 #include "base/text.hpp"
 #include "devices/plcopen/terminals.hpp"
+#include "sim/loop/bus.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
 

@@ -8,10 +8,17 @@
 
 #include "base/problem.hpp"
 #include "devices/controller.hpp"
-#include "sim/loop/bus.hpp"
-#include "sim/scenario/scenario.hpp"
+#include "plants/plant.hpp"
+
+namespace drycut::sim::scenario {
+struct Scenario;
+struct Wire;
+}  // namespace drycut::sim::scenario
 
 namespace drycut::sim::loop {
+
+struct NamedPlant;
+struct Panel;
 
 /// A number that can be recorded or used in an expression.
 struct Reading {

@@ -16,6 +16,8 @@
 #include "renders/mesh.hpp"
 #include "renders/part_models.hpp"
 #include "renders/pictures.hpp"
+#include "sim/loop/shutter.hpp"
+#include "sim/loop/strobe.hpp"
 #include "sim/report/gallery_plots.hpp"
 
 namespace drycut::sim::report {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "renders/decimate.hpp"
+#include "sim/loop/known_events.hpp"
 #include "sim/report/gallery.hpp"
 #include "sim/report/gallery_plots.hpp"
 

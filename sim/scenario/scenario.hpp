@@ -11,9 +11,12 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "devices/controller.hpp"
 #include "plants/plant.hpp"
 #include "sim/time.hpp"
+
+namespace drycut::devices {
+class Controller;
+}
 
 namespace drycut::sim::scenario {
 

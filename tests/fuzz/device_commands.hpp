@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/camming4/sector.hpp"
 #include "devices/qmove/catalogue.hpp"
 

@@ -6,6 +6,7 @@
 #include <complex>
 #include <numbers>
 
+#include "sim/loop/bus.hpp"
 #include "sim/loop/timeline.hpp"
 #include "tests/sim/fakes.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "sim/loop/bus.hpp"
 #include "tests/sim/fakes.hpp"
 
 namespace drycut::sim::loop {

@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "devices/camming4/cam.hpp"
 #include "devices/camming4/messages.hpp"
 #include "sim/cams/judge.hpp"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "devices/axis/position.hpp"
+#include "devices/camming4/cam.hpp"
 
 namespace drycut::sim::cams {
 

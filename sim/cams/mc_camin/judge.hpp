@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "devices/plcopen/tab_file.hpp"
 #include "sim/cams/kinds.hpp"
 
 namespace drycut::sim::cams {

@@ -1,4 +1,4 @@
-#include "sim/studies/bode/hunting.hpp"
+#include "sim/studies/bode/loop.hpp"
 
 #include <fmt/format.h>
 

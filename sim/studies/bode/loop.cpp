@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "plants/power_stage.hpp"
+#include "sim/loop/names.hpp"
 #include "sim/record/recording.hpp"
 #include "sim/scenario/units.hpp"
 

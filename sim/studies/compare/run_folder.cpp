@@ -11,6 +11,7 @@
 #include "devices/plcopen/axis.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/known_events.hpp"
+#include "sim/loop/names.hpp"
 #include "sim/record/hdf5_file.hpp"
 #include "sim/record/json.hpp"
 #include "sim/record/trace_files.hpp"

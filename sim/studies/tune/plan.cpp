@@ -11,7 +11,7 @@
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/units.hpp"
 #include "sim/studies/tune/patch.hpp"
-#include "sim/studies/tune/search.hpp"
+#include "sim/studies/tune/trials.hpp"
 
 namespace drycut::sim::studies {
 
