@@ -95,7 +95,7 @@ inline constexpr double dac_full_scale_volts = 10.0;
 
 /// A device's part in an output that several devices may name: they take turns with REGON and REGOFF and must
 /// never drive it at once (001 1.4.1, 002 1.3.1). The output keeps `driver`, who holds it.
-class Turn {
+class OutputTurn {
  public:
   /// The device drives the output in this sample. True once if another one does too: in two samples on end,
   /// since a turn that changes hands within one is in order.

@@ -34,7 +34,7 @@ struct Condition {
 };
 
 /// One parameter or variable. Values outside min..max are taken and reported, as the manuals say.
-struct Variable {
+struct DeviceVariable {
   std::string_view name;  ///< the manual's spelling; rows > 1: without the row number ("codeG")
   Size size = Size::L;
   std::string_view unit;  ///< "Um", "bits x4", "speed", "1/100 s", "" for a code or a number
@@ -64,7 +64,7 @@ struct Effect {
 };
 
 /// One command. Row order is execution order among commands of the same sample (priority).
-struct Command {
+struct DeviceCommand {
   std::string_view name;
   Condition condition = {};
   std::string_view meaning = {};
@@ -89,7 +89,7 @@ struct Alias {
 };
 
 /// A reading of ours, where the manual is silent, contradicts itself or lost its print.
-struct Reading {
+struct ManualReading {
   std::string_view of;      ///< a row of the tables (a cam table's without number), "" for the whole device
   std::string_view text;    ///< what the device does here
   std::string_view manual;  ///< the place that leaves it open, and how
@@ -98,12 +98,12 @@ struct Reading {
 struct DeviceType {
   std::string_view name;  ///< "CAMMING4"
   std::string_view summary;
-  std::span<const Variable> variables;
-  std::span<const State> states;      ///< row 0 is st_init
-  std::span<const Command> commands;  ///< row 0 is INIT
+  std::span<const DeviceVariable> variables;
+  std::span<const State> states;            ///< row 0 is st_init
+  std::span<const DeviceCommand> commands;  ///< row 0 is INIT
   std::span<const Field> fields;
   std::span<const Alias> aliases;
-  std::span<const Reading> readings = {};
+  std::span<const ManualReading> readings = {};
 };
 
 /// Something a device has that can be read by name: a variable (with its row, 0-based) or a state.
@@ -275,8 +275,8 @@ constexpr Row elsewhere(std::string_view section, Row row) {
 }
 /// Variables of a table that has so many rows.
 template <std::size_t N>
-constexpr std::array<Variable, N> of_rows(int number, std::array<Variable, N> variables) {
-  for (Variable& variable : variables) variable.rows = number;
+constexpr std::array<DeviceVariable, N> of_rows(int number, std::array<DeviceVariable, N> variables) {
+  for (DeviceVariable& variable : variables) variable.rows = number;
   return variables;
 }
 
@@ -285,35 +285,35 @@ inline constexpr double lowest = -2147483648.0;
 inline constexpr double highest = 2147483647.0;
 
 /// A parameter: programs write it where `write` holds, the retentive memory keeps it.
-constexpr Variable kept(std::string_view name, Size size, std::string_view unit, double min, double max,
-                        Condition write, std::string_view meaning) {
+constexpr DeviceVariable kept(std::string_view name, Size size, std::string_view unit, double min, double max,
+                              Condition write, std::string_view meaning) {
   return {name, size, unit, min, max, Access::read_write, Retention::retentive, write, meaning};
 }
-constexpr Variable kept(std::string_view name, Size size, std::string_view unit, double min, double max,
-                        std::string_view meaning) {
+constexpr DeviceVariable kept(std::string_view name, Size size, std::string_view unit, double min, double max,
+                              std::string_view meaning) {
   return kept(name, size, unit, min, max, {}, meaning);
 }
 /// The same of a value that begins at 0 with each power-up.
-constexpr Variable zeroed(std::string_view name, Size size, std::string_view unit, double min, double max,
-                          Condition write, std::string_view meaning) {
+constexpr DeviceVariable zeroed(std::string_view name, Size size, std::string_view unit, double min,
+                                double max, Condition write, std::string_view meaning) {
   return {name, size, unit, min, max, Access::read_write, Retention::zero, write, meaning};
 }
-constexpr Variable zeroed(std::string_view name, Size size, std::string_view unit, double min, double max,
-                          std::string_view meaning) {
+constexpr DeviceVariable zeroed(std::string_view name, Size size, std::string_view unit, double min,
+                                double max, std::string_view meaning) {
   return zeroed(name, size, unit, min, max, {}, meaning);
 }
 /// What the device shows; without a range any value of size L.
-constexpr Variable shown(std::string_view name, Size size, std::string_view unit, double min, double max,
-                         std::string_view meaning) {
+constexpr DeviceVariable shown(std::string_view name, Size size, std::string_view unit, double min,
+                               double max, std::string_view meaning) {
   return {name, size, unit, min, max, Access::read, Retention::zero, {}, meaning};
 }
-constexpr Variable shown(std::string_view name, std::string_view unit, std::string_view meaning) {
+constexpr DeviceVariable shown(std::string_view name, std::string_view unit, std::string_view meaning) {
   return shown(name, Size::L, unit, lowest, highest, meaning);
 }
 
 /// A command, and what it does to a state.
-constexpr Command command(std::string_view name, Condition condition, std::string_view meaning,
-                          Effect effect = {}) {
+constexpr DeviceCommand command(std::string_view name, Condition condition, std::string_view meaning,
+                                Effect effect = {}) {
   return {name, condition, meaning, {}, effect};
 }
 

@@ -304,7 +304,7 @@ inline Fault fault_value(std::string component, std::string name, std::string_vi
 }
 
 /// Something that happened in the machine, at an exact time inside the step.
-struct Event {
+struct MachineEvent {
   struct Value {
     std::string_view name;
     double number;
@@ -421,13 +421,13 @@ class Plant {
   [[nodiscard]] virtual std::optional<QuotaLine> quota_line(double /*quota*/) const { return {}; }
 
   [[nodiscard]] bool has_events() const { return !events_.empty(); }
-  [[nodiscard]] std::vector<Event> take_events() { return std::exchange(events_, {}); }
+  [[nodiscard]] std::vector<MachineEvent> take_events() { return std::exchange(events_, {}); }
 
  protected:
-  void happened(Event event) { events_.push_back(std::move(event)); }
+  void happened(MachineEvent event) { events_.push_back(std::move(event)); }
 
  private:
-  std::vector<Event> events_;
+  std::vector<MachineEvent> events_;
 };
 
 /// The definition of one plant in a scenario: parameters with defaults, then the machine built from them.

@@ -269,7 +269,7 @@ class PowerStage {
   void offer_faults(std::vector<Fault>& faults);
   static void offer_events(std::vector<EventType>& types);
   [[nodiscard]] bool has_events() const { return !events_.empty(); }
-  [[nodiscard]] std::vector<Event> take_events() { return std::exchange(events_, {}); }
+  [[nodiscard]] std::vector<MachineEvent> take_events() { return std::exchange(events_, {}); }
 
  private:
   void prepare(double h);
@@ -278,7 +278,7 @@ class PowerStage {
   void settle(double h);
   void end_saturation();
   void watch(bool energised);
-  void trip(std::string_view event, std::vector<Event::Value> values);
+  void trip(std::string_view event, std::vector<MachineEvent::Value> values);
   void show();
   void clear_edges();
 
@@ -321,7 +321,7 @@ class PowerStage {
     double end = 0;    // so far [s]
     double asked = 0;  // largest
   } saturation_;
-  std::vector<Event> events_;
+  std::vector<MachineEvent> events_;
 };
 
 }  // namespace drycut::plants

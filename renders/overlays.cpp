@@ -90,7 +90,7 @@ struct Marked {
 };
 
 /// A line between the two ends with a stroke up and down at each, which is where it was cut.
-std::optional<Marked> draw_length(const Sheet& sheet, const Callout& callout) {
+std::optional<Marked> draw_length(const Sheet& sheet, const DrawnCallout& callout) {
   if (!sheet.before_eye(callout.at) || !sheet.before_eye(callout.to)) return std::nullopt;
   const Point from = sheet.at(callout.at);
   const Point to = sheet.at(callout.to);
@@ -120,7 +120,7 @@ std::optional<Point> arrow(const Sheet& sheet, const Vec3& at, const Vec3& way, 
   return to;
 }
 
-std::optional<Marked> draw_force(const Sheet& sheet, const Callout& callout, double largest) {
+std::optional<Marked> draw_force(const Sheet& sheet, const DrawnCallout& callout, double largest) {
   const double force = callout.to.norm();
   if (force < 1e-3 * largest) return std::nullopt;
   const double pixels =
@@ -136,7 +136,7 @@ std::optional<Marked> draw_force(const Sheet& sheet, const Callout& callout, dou
 
 /// As long as what moves is fast, so that two arrows can be compared, with words below; a ring where it is
 /// too short. Nothing else is written on it.
-std::optional<Marked> draw_speed(const Sheet& sheet, const Callout& callout, double fastest) {
+std::optional<Marked> draw_speed(const Sheet& sheet, const DrawnCallout& callout, double fastest) {
   if (!sheet.before_eye(callout.at)) return std::nullopt;
   const double speed = callout.to.norm();
   const Point from = sheet.at(callout.at);
@@ -154,7 +154,7 @@ std::optional<Marked> draw_speed(const Sheet& sheet, const Callout& callout, dou
   return Marked{{(from[0] + (*end)[0]) / 2, (from[1] + (*end)[1]) / 2 + 16 * sheet.scale}, words};
 }
 
-Marked draw_quota(const Sheet& sheet, const Quota& quota) {
+Marked draw_quota(const Sheet& sheet, const DrawnQuota& quota) {
   const Point right = sheet.at(quota.right);
   line(sheet, sheet.at(quota.left), right);
   stroke(sheet, 1.0, 0.85, 0.20);
@@ -249,9 +249,9 @@ Overlays::Overlays(const Film& film, int caption_height)
       empty_(!film.trails && film.live.empty() && film.beside.empty()) {
   for (const Frame& frame : film.frames) {
     empty_ = empty_ && frame.callouts.empty() && !frame.quota;
-    for (const Callout& callout : frame.callouts) {
-      if (callout.kind == Callout::Kind::force) largest_ = std::max(largest_, callout.to.norm());
-      if (callout.kind == Callout::Kind::speed) fastest_ = std::max(fastest_, callout.to.norm());
+    for (const DrawnCallout& callout : frame.callouts) {
+      if (callout.kind == DrawnCallout::Kind::force) largest_ = std::max(largest_, callout.to.norm());
+      if (callout.kind == DrawnCallout::Kind::speed) fastest_ = std::max(fastest_, callout.to.norm());
     }
   }
 }
@@ -284,7 +284,7 @@ void Overlays::draw_view(std::size_t frame, std::size_t view, cairo_t* pen) cons
     room.take(box);
   };
   keep_free(live_.box(height_));
-  const std::optional<Quota>& quota = film_.frames[frame].quota;
+  const std::optional<DrawnQuota>& quota = film_.frames[frame].quota;
   if (quota) keep_free(gauge_box(film_));
   const Sheet sheet = {pen, camera, tile.width, tile.height, picture_scale(film_.height), room};
   if (tiles_.size() > 1) {
@@ -293,20 +293,20 @@ void Overlays::draw_view(std::size_t frame, std::size_t view, cairo_t* pen) cons
   }
   for (std::size_t part = 0; film_.trails && part < film_.parts.size(); ++part)
     if (film_.parts[part].tip) draw_trail(sheet, film_, part, frame);
-  const auto draw_all = [&](Callout::Kind kind, auto&& draw_one) {
+  const auto draw_all = [&](DrawnCallout::Kind kind, auto&& draw_one) {
     std::vector<Marked> marked;
-    for (const Callout& callout : film_.frames[frame].callouts) {
+    for (const DrawnCallout& callout : film_.frames[frame].callouts) {
       if (callout.kind != kind) continue;
       if (auto one = draw_one(callout)) marked.push_back(std::move(*one));
     }
     return marked;
   };
   const auto lengths =
-      draw_all(Callout::Kind::length, [&](const Callout& one) { return draw_length(sheet, one); });
-  const auto forces =
-      draw_all(Callout::Kind::force, [&](const Callout& one) { return draw_force(sheet, one, largest_); });
-  const auto speeds =
-      draw_all(Callout::Kind::speed, [&](const Callout& one) { return draw_speed(sheet, one, fastest_); });
+      draw_all(DrawnCallout::Kind::length, [&](const DrawnCallout& one) { return draw_length(sheet, one); });
+  const auto forces = draw_all(DrawnCallout::Kind::force,
+                               [&](const DrawnCallout& one) { return draw_force(sheet, one, largest_); });
+  const auto speeds = draw_all(DrawnCallout::Kind::speed,
+                               [&](const DrawnCallout& one) { return draw_speed(sheet, one, fastest_); });
   if (quota && sheet.before_eye(quota->left) && sheet.before_eye(quota->right)) {
     const Marked one = draw_quota(sheet, *quota);
     plate(sheet, one.at, one.words, one.length);

@@ -32,7 +32,7 @@ class DacTurn {
   void release(AnalogueOutput& dac) { turn_.release(dac.driver); }
 
  private:
-  Turn turn_;
+  OutputTurn turn_;
 };
 
 /// What a device says when DacTurn::put finds another one on its DAC.

@@ -11,8 +11,8 @@
 
 namespace drycut::devices {
 struct CamMoment;
-struct CamTable;
-}
+struct CamSectors;
+}  // namespace drycut::devices
 
 namespace drycut::devices::camming4 {
 

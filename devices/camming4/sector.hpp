@@ -12,12 +12,12 @@ namespace drycut::devices::camming4 {
 // 1 bit = `measure` grains. A device's posit is trunc(grains / pulse), its count is grains / measure.
 
 /// Resolution of one axis. Values outside 1..2^30 act as the nearest of the two, so that nothing overflows.
-struct Resolution {
+struct GrainResolution {
   std::int64_t measure = 1;  ///< [Um], and grains a bit
   std::int64_t pulse = 1;    ///< [bits x4], and grains a Um
-  bool operator==(const Resolution&) const = default;
+  bool operator==(const GrainResolution&) const = default;
 };
-Resolution usable(Resolution resolution);
+GrainResolution usable(GrainResolution resolution);
 
 /// A length in grains. The fraction, 0 <= fraction < 1, is other than 0 only after arcs, whose length is
 /// irrational, and after a change of a gearing's ratio.
@@ -128,9 +128,9 @@ struct Row {
 
 /// What the laws need besides the table.
 struct CamSettings {
-  Resolution master;  ///< measurem, pulsem
-  Resolution slave;   ///< measure, pulse
-  int decpt = 0;      ///< 0..3: the tangent axis counts 360*10^decpt Um a turn
+  GrainResolution master;  ///< measurem, pulsem
+  GrainResolution slave;   ///< measure, pulse
+  int decpt = 0;           ///< 0..3: the tangent axis counts 360*10^decpt Um a turn
   bool operator==(const CamSettings&) const = default;
 };
 

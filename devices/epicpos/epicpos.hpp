@@ -15,10 +15,10 @@ namespace table {
 inline constexpr auto variables = joined(epicpos::table::variables, epicpos::table::eanpos_variables);
 
 inline constexpr std::array own_readings = {
-    Reading{"", "has all of EPICPOS (002) but rtype and stopt, and its readings",
-            "000 1.5 declares the device; its own manual is not to be had"},
-    Reading{"ramptype", "as CAMMING4's (000 1.9.2): 0 trapezoidal, 1 epicycloidal",
-            "000 1.5 declares the device; its own manual is not to be had"},
+    ManualReading{"", "has all of EPICPOS (002) but rtype and stopt, and its readings",
+                  "000 1.5 declares the device; its own manual is not to be had"},
+    ManualReading{"ramptype", "as CAMMING4's (000 1.9.2): 0 trapezoidal, 1 epicycloidal",
+                  "000 1.5 declares the device; its own manual is not to be had"},
 };
 inline constexpr auto readings = joined(own_readings, epicpos::table::readings);
 

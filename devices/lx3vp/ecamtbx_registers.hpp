@@ -27,7 +27,7 @@ std::span<const EcamtbxWord> saw_words();
 /// Of K0 and K1 (S-curves).
 std::span<const EcamtbxWord> s_curve_words();
 /// Where the manual is silent or contradicts itself.
-std::span<const Reading> ecamtbx_readings();
+std::span<const BlockReading> ecamtbx_readings();
 
 // Offsets, by the manual's numbers.
 namespace saw_word {

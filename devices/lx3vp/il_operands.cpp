@@ -88,7 +88,7 @@ const Family* family_of(char letter) {
     if (family.letter == letter) return &family;
   return nullptr;
 }
-const Family* family_of(Kind kind) { return family_of(letter_of(kind)); }
+const Family* family_of(OperandType kind) { return family_of(letter_of(kind)); }
 
 std::string number_text(const Family& family, int number) {
   return family.octal ? fmt::format("{}{:o}", family.letter, number)
@@ -136,8 +136,9 @@ class Reader {
     auto operand = read_plain();
     text_ = whole;
     if (!operand) return std::nullopt;
-    if (operand->kind == Kind::V || operand->kind == Kind::Z || operand->kind == Kind::real ||
-        operand->kind == Kind::word_bit || operand->kind == Kind::label || operand->kind == Kind::nesting)
+    if (operand->kind == OperandType::V || operand->kind == OperandType::Z ||
+        operand->kind == OperandType::real || operand->kind == OperandType::word_bit ||
+        operand->kind == OperandType::label || operand->kind == OperandType::nesting)
       return refuse("takes no index register", "index a device, bits or a number: D10Z0, K4M0Z0, K5V1");
     operand->index = number;
     return operand;
@@ -174,9 +175,9 @@ class Reader {
 
   std::optional<Operand> read_bits(std::string_view groups, char letter, std::string_view digits) {
     Operand operand;
-    operand.kind = Kind::bits;
+    operand.kind = OperandType::bits;
     const auto& family = *family_of(letter);
-    operand.of = static_cast<Kind>(letter);
+    operand.of = static_cast<OperandType>(letter);
     if (std::string_view("XYMS").find(letter) == std::string_view::npos)
       return refuse("groups no bits", "bits are grouped of X, Y, M or S: K4M0");
     if (!number_from(groups, operand.count) || operand.count < 1 || operand.count > 8)
@@ -198,7 +199,7 @@ class Reader {
 
   std::optional<Operand> read_real(std::string_view digits) {
     Operand operand;
-    operand.kind = Kind::real;
+    operand.kind = OperandType::real;
     if (!number_from(digits, operand.real) || !std::isfinite(operand.real))
       return refuse("is no 32-bit floating-point number", "write E1.5 or E-3.2E4");
     return operand;
@@ -206,10 +207,10 @@ class Reader {
 
   std::optional<Operand> read_device(const Family& family, std::string_view digits) {
     Operand operand;
-    operand.kind = static_cast<Kind>(family.letter);
+    operand.kind = static_cast<OperandType>(family.letter);
     const auto dot = digits.find('.');
-    if (operand.kind == Kind::D && dot != std::string_view::npos) {
-      operand.kind = Kind::word_bit;
+    if (operand.kind == OperandType::D && dot != std::string_view::npos) {
+      operand.kind = OperandType::word_bit;
       if (!number_from(digits.substr(dot + 1), operand.count, 16) || operand.count < 0 || operand.count > 15)
         return refuse("has no such bit", "a word has the bits 0 to F: D10.F");
       digits = digits.substr(0, dot);
@@ -233,7 +234,7 @@ class Reader {
 
 /// Whether a kind of operand takes what the text named.
 bool takes(char kind, const Operand& operand) {
-  if (kind == 'w' && operand.kind == Kind::bits && operand.of == Kind::X) return false;
+  if (kind == 'w' && operand.kind == OperandType::bits && operand.of == OperandType::X) return false;
   if (kind == 'p' && operand.number >= pulse_outputs) return false;
   return operand_kind(kind).takes.find(letter_of(operand.kind)) != std::string_view::npos;
 }
@@ -242,7 +243,7 @@ bool is_word(char kind) { return kind == 'n' || kind == 'w' || kind == 'u'; }
 
 /// V and Z, as devices and as indexes.
 std::optional<ValueFault> misfit_of_index(const Operand& operand, char kind, const Spelling& spelling) {
-  if (operand.kind == Kind::V && spelling.wide)
+  if (operand.kind == OperandType::V && spelling.wide)
     return ValueFault{fmt::format("{} is the upper half of a 32-bit index", to_string(operand)),
                       fmt::format("use Z{0}: a 32-bit instruction takes V{0} with it", operand.number)};
   if (operand.index == Operand::no_index) return {};
@@ -280,14 +281,16 @@ std::optional<Operand> read_operand(std::string_view text, ValueFault& fault) {
 std::string_view operand_text(char kind) { return operand_kind(kind).text; }
 
 bool exists(const Operand& operand) {
-  const auto* family = family_of(operand.kind == Kind::bits ? operand.of : operand.kind);
+  const auto* family = family_of(operand.kind == OperandType::bits ? operand.of : operand.kind);
   return family == nullptr || exists(*family, operand.number);
 }
 
 std::optional<ValueFault> unserved(const Operand& operand) {
-  const bool grouped = operand.kind == Kind::bits;
-  const auto kind = grouped ? operand.of : operand.kind == Kind::word_bit ? Kind::D : operand.kind;
-  if (kind != Kind::D && kind != Kind::M) return {};
+  const bool grouped = operand.kind == OperandType::bits;
+  const auto kind = grouped                                 ? operand.of
+                    : operand.kind == OperandType::word_bit ? OperandType::D
+                                                            : operand.kind;
+  if (kind != OperandType::D && kind != OperandType::M) return {};
   const int count = grouped ? 4 * operand.count : 1;
   for (int number = operand.number; number < operand.number + count; ++number)
     if (!is_served(letter_of(kind), number))
@@ -301,9 +304,9 @@ std::optional<ValueFault> misfit(const Operand& operand, char kind, const Spelli
     return ValueFault{fmt::format("{} does not take {} here", spelling.text, to_string(operand)),
                       fmt::format("it takes {}", operand_text(kind))};
   if (auto fault = misfit_of_index(operand, kind, spelling)) return fault;
-  if (operand.kind == Kind::V || operand.kind == Kind::Z) return {};
-  if (operand.kind == Kind::constant) return misfit_of_constant(operand, kind, spelling);
-  if (operand.kind == Kind::bits) {
+  if (operand.kind == OperandType::V || operand.kind == OperandType::Z) return {};
+  if (operand.kind == OperandType::constant) return misfit_of_constant(operand, kind, spelling);
+  if (operand.kind == OperandType::bits) {
     if (!exists(*family_of(operand.of), operand.number, 4 * operand.count))
       return ValueFault{fmt::format("{} goes beyond the devices", to_string(operand)),
                         fmt::format("there are {}", range_text(*family_of(operand.of)))};
@@ -313,12 +316,12 @@ std::optional<ValueFault> misfit(const Operand& operand, char kind, const Spelli
   }
   const auto* family = family_of(operand.kind);
   if (family == nullptr) return {};
-  if (operand.kind == Kind::C && operand.number >= first_wide_counter && is_word(kind)) {
+  if (operand.kind == OperandType::C && operand.number >= first_wide_counter && is_word(kind)) {
     if (spelling.wide) return {};
     return ValueFault{fmt::format("{} is 32 bits wide", to_string(operand)), "use the 32-bit instruction"};
   }
   const int count = spelling.wide ? operand_kind(kind).wide_extent : operand_kind(kind).extent;
-  if (operand.kind == Kind::C && is_word(kind) && operand.number + count > first_wide_counter)
+  if (operand.kind == OperandType::C && is_word(kind) && operand.number + count > first_wide_counter)
     return ValueFault{fmt::format("{} takes {} words from {} on", spelling.text, count, to_string(operand)),
                       "the 16-bit counters end at C199"};
   if ((kind == 'a' || kind == 'd') && operand.number + count > first_special)
@@ -337,14 +340,14 @@ std::string to_string(const Operand& operand) {
                        operand.index % Operand::first_z);
   }
   switch (operand.kind) {
-    case Kind::constant:
+    case OperandType::constant:
       return operand.hexadecimal ? fmt::format("H{:X}", static_cast<std::uint32_t>(operand.value))
                                  : fmt::format("K{}", operand.value);
-    case Kind::real:
+    case OperandType::real:
       return fmt::format("E{}", operand.real);
-    case Kind::bits:
+    case OperandType::bits:
       return fmt::format("K{}{}", operand.count, number_text(*family_of(operand.of), operand.number));
-    case Kind::word_bit:
+    case OperandType::word_bit:
       return fmt::format("D{}.{:X}", operand.number, operand.count);
     default:
       return number_text(*family_of(operand.kind), operand.number);

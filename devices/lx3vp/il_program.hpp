@@ -112,7 +112,7 @@ std::span<const Mnemonic> shift_mnemonics();  ///< il_shifts.cpp
 std::span<const Mnemonic> real_mnemonics();   ///< il_reals.cpp
 
 /// Where no manual of the unit is at hand and the FX family's conventions, or a choice of ours, stand in.
-std::span<const Reading> instruction_readings();
+std::span<const BlockReading> instruction_readings();
 
 /// A mnemonic as it is written: "DMOVP" is MOV, wide, pulse.
 struct Spelling {
@@ -136,7 +136,7 @@ bool is_not_simulated(std::string_view text);
 // (il_lines.hpp).
 
 /// What an operand names: devices, labels and nestings have their letters.
-enum class Kind : char {
+enum class OperandType : char {
   X = 'X',
   Y = 'Y',
   M = 'M',
@@ -153,12 +153,12 @@ enum class Kind : char {
   bits = '#',     ///< a group: K4M0
   word_bit = '.'  ///< D10.F
 };
-constexpr char letter_of(Kind kind) { return static_cast<char>(kind); }
+constexpr char letter_of(OperandType kind) { return static_cast<char>(kind); }
 
 /// A checked operand.
 struct Operand {
-  Kind kind = Kind::constant;
-  Kind of = Kind::M;         ///< bits: of which devices
+  OperandType kind = OperandType::constant;
+  OperandType of = OperandType::M;  ///< bits: of which devices
   int number = 0;            ///< of the device (X and Y: decimal), first of the bits, of the label, of N
   int index = no_index;      ///< 0..7 V0..V7, 8..15 Z0..Z7: added to the number, of a constant to its value
   int count = 0;             ///< bits: groups of four, 1..8; word_bit: the bit, 0..15
@@ -195,8 +195,8 @@ struct Step {
   [[nodiscard]] bool wide() const { return spelling != nullptr && spelling->wide; }
 };
 
-/// A compiled program: runs by `Scanner` (il_scan.hpp).
-struct Program {
+/// A compiled program: runs by `ProgramScan` (il_scan.hpp).
+struct IlProgram {
   std::string file;
   std::string text;
   std::vector<Step> steps;
@@ -206,13 +206,13 @@ struct Program {
 };
 
 /// Compiles a text. Every fault becomes a problem; the program is only to be run if there was none.
-Program compile(std::string_view text, const std::string& file, Problems& problems);
+IlProgram compile(std::string_view text, const std::string& file, Problems& problems);
 
 /// "D100", "X17", "K4M0", "H1F", "D10Z0"; as the text would have it.
 std::string to_string(const Operand& operand);
 
 /// What is no fault in a program and hardly meant, "file:line:column: ..." each: a coil with two
 /// OUT, or with OUT and SET; a type of cam that ECAMTBX does not know.
-std::vector<std::string> doubts(const Program& program);
+std::vector<std::string> doubts(const IlProgram& program);
 
 }  // namespace drycut::devices::lx3vp::il

@@ -12,8 +12,8 @@
 namespace drycut::devices::lx3vp::il {
 
 /// An error of an instruction while it runs (D8067).
-struct RuntimeError : std::runtime_error {
-  RuntimeError(int number, const std::string& text) : std::runtime_error(text), code(number) {}
+struct IlError : std::runtime_error {
+  IlError(int number, const std::string& text) : std::runtime_error(text), code(number) {}
   int code;
 };
 /// FX: more than five subroutines call each other.
@@ -68,7 +68,7 @@ class Call {
   /// The same, which has to be a number.
   [[nodiscard]] double finite(std::size_t i) const {
     const auto value = static_cast<double>(real(i));
-    if (!std::isfinite(value)) throw RuntimeError(bad_operand, "an operand is no floating-point number");
+    if (!std::isfinite(value)) throw IlError(bad_operand, "an operand is no floating-point number");
     return value;
   }
   [[nodiscard]] int number(std::size_t i) const { return step_.operands[i].number; }
@@ -89,7 +89,7 @@ class Call {
 
   void set_real(std::size_t i, double result) {
     const auto rounded = static_cast<float>(result);
-    if (!std::isfinite(rounded)) throw RuntimeError(bad_operand, "the result is no floating-point number");
+    if (!std::isfinite(rounded)) throw IlError(bad_operand, "the result is no floating-point number");
     registers_.m[zero_flag] = rounded == 0;
     registers_.set_f32(number(i), rounded);
   }
@@ -109,13 +109,13 @@ class Call {
   [[nodiscard]] int count(std::size_t i, int most = 512) const {
     const int count = read_value(registers_, step_.operands[i], false);
     if (count < 1 || count > most)
-      throw RuntimeError(bad_operand, fmt::format("a count of {} is none of 1 to {}", count, most));
+      throw IlError(bad_operand, fmt::format("a count of {} is none of 1 to {}", count, most));
     return count;
   }
   void need_words(std::size_t i, int words) const {
     if (number(i) + words > data_words)
-      throw RuntimeError(bad_operand,
-                         fmt::format("{} words from D{} on go beyond D{}", words, number(i), data_words - 1));
+      throw IlError(bad_operand,
+                    fmt::format("{} words from D{} on go beyond D{}", words, number(i), data_words - 1));
   }
 
  private:

@@ -199,11 +199,11 @@ bool is_served(char letter, int number);
 std::string served_specials(char letter);
 
 /// A place where the manual is silent or contradicts itself, and what is done here.
-struct Reading {
+struct BlockReading {
   std::string_view where;  ///< "word 4", "status bit 6"
   std::string_view text;
 };
-std::span<const Reading> block_readings();
+std::span<const BlockReading> block_readings();
 
 /// Gives the words of the block at D`block` that nothing has written the manual's initial values (003 5).
 /// What it gave and where, in words; "" if all of them were written.

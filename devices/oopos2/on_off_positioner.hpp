@@ -35,7 +35,7 @@ class OnOffPositioner final : public TableDevice<oopos2_type> {
   /// An output that the device may have and may share; nullptr where the .CNF says X.X.
   struct Output {
     DigitalOutput* terminal = nullptr;
-    Turn turn;
+    OutputTurn turn;
     bool level = false;
   };
   static constexpr int outputs = 6;  ///< OutAva to OutFre

@@ -55,7 +55,7 @@ enum class Command : std::uint8_t {
 };
 
 /// The state that the command leads to, or why it is refused: then nothing changes.
-struct Verdict {
+struct CommandVerdict {
   AxisState to = AxisState::disabled;
   ErrorId error = ErrorId::none;
 };
@@ -63,7 +63,7 @@ struct Verdict {
 /// The whole state diagram for commands. A new movement interrupts Stopping, unlike PLCopen's own diagram, as
 /// the ISG kernel does; couplings do not. Reset and MC_Power on an axis in Errorstop look at the other of the
 /// two besides: the axis does that.
-Verdict judge(AxisState from, Command command);
+CommandVerdict judge(AxisState from, Command command);
 
 // What function blocks ask of axes, as plain values: a command that waits for its turn is kept as one.
 

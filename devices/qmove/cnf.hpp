@@ -19,7 +19,7 @@ bool is_reserved(std::string_view word);
 // The configuration unit of a QMOVE project (spec qem.md §3): what the program's names stand for.
 
 /// CONST: a number with a name; a value with a decimal point is a single, else a long.
-struct Constant {
+struct CnfConstant {
   std::string name;
   double value = 0;
   bool real = false;
@@ -44,7 +44,7 @@ struct Array {
 };
 
 /// TIMER: assigning n starts n ms; reads 1 when they have elapsed (spec D7).
-struct Timer {
+struct CnfTimer {
   std::string name;
   Place place;
 };
@@ -94,10 +94,10 @@ struct DeviceRecord {
 struct Configuration {
   std::string file;
   std::string text;
-  std::vector<Constant> constants;
+  std::vector<CnfConstant> constants;
   std::vector<Scalar> scalars;
   std::vector<Array> arrays;
-  std::vector<Timer> timers;
+  std::vector<CnfTimer> timers;
   std::vector<DataGroup> groups;
   std::vector<Slot> slots;
   std::vector<Terminal> inputs;

@@ -66,7 +66,7 @@ int cell_count(const NamedThing& thing);
 
 /// What an instruction does. Expressions work on a stack of 32-bit cells; whether a cell holds a long or a
 /// single is known when compiling. "a, b" are the instruction's operands, top is the top of the stack.
-enum class Op : std::uint8_t {
+enum class QclOp : std::uint8_t {
   // Values.
   push,          ///< push a (for a single: its bits)
   load,          ///< push cell a
@@ -135,13 +135,13 @@ enum class Op : std::uint8_t {
 };
 
 struct Instruction {
-  Op op = Op::end;
+  QclOp op = QclOp::end;
   std::int32_t a = 0;
   std::int32_t b = 0;
 };
 
 /// A compiled module: one task of the controller.
-struct Program {
+struct QclProgram {
   std::string name;  ///< the file's name without folder and extension
   std::string file;  ///< for messages
   std::string text;
@@ -160,8 +160,8 @@ inline constexpr int max_calls = 32;
 
 /// Compiles a QCL module (spec qem.md §4) against its configuration. All faults of the text are appended to
 /// `problems` in order; a module with faults has no code.
-Program compile_module(std::string_view text, const std::string& file_name,
-                       const Configuration& configuration, std::span<const CatalogueEntry> catalogue,
-                       Problems& problems);
+QclProgram compile_module(std::string_view text, const std::string& file_name,
+                          const Configuration& configuration, std::span<const CatalogueEntry> catalogue,
+                          Problems& problems);
 
 }  // namespace drycut::devices::qmove

@@ -17,7 +17,7 @@ struct CamFile;
 // them.
 namespace drycut::sim::cams {
 
-using CammingTable = devices::camming4::CamTable;
+using CammingTable = devices::camming4::CamSectors;
 using devices::lx3vp::EcamTable;
 using devices::plcopen::CamFile;
 

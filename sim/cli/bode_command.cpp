@@ -119,13 +119,13 @@ int measure_bode(const BodeOptions& options) {
   std::optional<studies::LoopResult> result;
   std::optional<studies::LimitCycle> cycle;
   if (problems.empty() && options.limit_cycle) {
-    Progress bar;
+    ProgressBar bar;
     cycle = studies::find_limit_cycle(scenario, options.loop, problems, [&](double done) {
       bar.show("measuring " + options.scenario.stem().string(), done);
     });
     if (cycle) result = cycle->margins[cycle->least.value_or(cycle->margins.size() / 2)].loop;
   } else if (problems.empty()) {
-    Progress bar;
+    ProgressBar bar;
     result = studies::measure_both(scenario, options.loop, problems, [&](double done) {
       bar.show("measuring " + options.scenario.stem().string(), done);
     });

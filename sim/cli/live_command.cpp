@@ -146,10 +146,11 @@ int run_line(const LiveOptions& options, const std::filesystem::path& opcua, liv
   const OnEnd end([&] { line.stop(); });
   const auto token = is_own(options.listen) ? "" : make_token();
   live::Server server({options.listen, static_cast<std::uint16_t>(options.port), token}, line);
-  std::optional<live::modbus::Server> modbus;
+  std::optional<live::modbus::ModbusServer> modbus;
   if (options.modbus)
-    modbus.emplace(live::modbus::Server::Options{options.listen, static_cast<std::uint16_t>(*options.modbus)},
-                   line);
+    modbus.emplace(
+        live::modbus::ModbusServer::Options{options.listen, static_cast<std::uint16_t>(*options.modbus)},
+        line);
   std::optional<live::OpcuaGateway> gateway;
   if (options.opcua) {
     const auto port = live::free_port(options.listen, static_cast<std::uint16_t>(*options.opcua));

@@ -31,7 +31,7 @@ Sheet::Cell offsets(const Word& word) {
 }
 
 /// Where the manual is silent and what is done here.
-Sheet readings_of(std::span<const lx3vp::Reading> readings) {
+Sheet readings_of(std::span<const lx3vp::BlockReading> readings) {
   Sheet sheet("readings", "Readings of ours, where the manual is silent or contradicts itself",
               {"where", "reading"});
   for (const auto& reading : readings) sheet.add({reading.where, reading.text});

@@ -115,7 +115,7 @@ Page plcopen_page() {
 
 template <std::size_t count>
 Sheet rows_of(const std::string& key, const std::string& title,
-              const std::array<plcopen::st::LanguageRow, count>& rows) {
+              const std::array<plcopen::st::StRow, count>& rows) {
   Sheet sheet(key, title, {"form", "meaning"});
   for (const auto& [form, meaning] : rows) sheet.add({form, meaning});
   return sheet;

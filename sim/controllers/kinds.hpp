@@ -59,7 +59,7 @@ struct PlcopenSection final : scenario::ControllerSection {
   struct Axis {
     scenario::Text name;
     devices::plcopen::AxisConfiguration configuration = {};
-    std::vector<std::pair<std::string, scenario::Place>> places =
+    std::vector<std::pair<std::string, scenario::ScenePlace>> places =
         {};                               ///< of the parameters that the file gives
     std::vector<std::string> notes = {};  ///< numbers without a unit beside others that have one
   };

@@ -49,7 +49,7 @@ class Filler {
   }
 
  private:
-  void problem(const scenario::Place& place, std::string what, std::string remedy) {
+  void problem(const scenario::ScenePlace& place, std::string what, std::string remedy) {
     problems_.push_back(scenario::problem_at(scenario_, place, std::move(what), std::move(remedy)));
   }
 

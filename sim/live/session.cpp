@@ -122,7 +122,7 @@ class Reader {
       return;
     }
     session_.reached = std::max(session_.reached, *act.at);
-    move_places(act, [this](scenario::Place& place) {
+    move_places(act, [this](scenario::ScenePlace& place) {
       place.line += number_ - 1;
       place.column += static_cast<int>(item.size());
     });
@@ -272,7 +272,7 @@ std::optional<Replay> read_session(const std::filesystem::path& file, std::optio
   scenario.sources.push_back(file.string());
   for (auto& act : session->acts) {
     if (until && *act.at >= *until) continue;
-    move_places(act, [source](scenario::Place& place) { place.source = source; });
+    move_places(act, [source](scenario::ScenePlace& place) { place.source = source; });
     scenario.timeline.push_back(std::move(act));
     ++replay.acts;
   }

@@ -34,7 +34,7 @@ class Binder {
   }
 
  private:
-  void fault(const scenario::Place& place, std::string what, std::string remedy) {
+  void fault(const scenario::ScenePlace& place, std::string what, std::string remedy) {
     problems_.push_back(scenario::problem_at(scenario_, place, std::move(what), std::move(remedy)));
   }
   void no_channel(const scenario::Text& name) {

@@ -84,7 +84,7 @@ struct NamedPlant {
 /// The operator's panel: switches that the timeline works and lamps that the controller lights. What it has
 /// is what is wired: a `panel.` plug on an input or interrupt terminal is a switch, on an output it is a
 /// lamp.
-struct Panel {
+struct OperatorPanel {
   std::map<std::string, plants::SignalPort> switches;
   std::map<std::string, plants::CommandPort> lamps;
   std::set<std::string> pressed;  ///< switches that have been on
@@ -140,8 +140,8 @@ class Bus {
   };
   [[nodiscard]] std::vector<AnalogueWire>& analogue_wires() { return analogue_outputs_; }
 
-  [[nodiscard]] Panel& panel() { return panel_; }
-  [[nodiscard]] const Panel& panel() const { return panel_; }
+  [[nodiscard]] OperatorPanel& panel() { return panel_; }
+  [[nodiscard]] const OperatorPanel& panel() const { return panel_; }
 
  private:
   struct CounterWire {
@@ -176,7 +176,7 @@ class Bus {
   devices::Controller* controller_ = nullptr;
   double h_ = 0;                           ///< [s]
   std::unique_ptr<InputFilters> filters_;  ///< nullptr without any
-  Panel panel_;
+  OperatorPanel panel_;
   std::vector<CounterWire> counters_;
   std::vector<InputWire> inputs_;
   std::vector<InterruptWire> interrupts_;

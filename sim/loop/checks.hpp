@@ -70,7 +70,7 @@ class Checks : public record::Observer {
     std::string last_window;        ///< what the last one came to
   };
   struct State : Tally {
-    scenario::Check check;
+    scenario::CheckRequest check;
     std::optional<scenario::Expression> expression;
     std::vector<Operand> operands;  ///< what the expression names
     std::deque<Slot> slots;         ///< event values or statistics, by name in the expression

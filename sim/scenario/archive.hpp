@@ -26,7 +26,7 @@ struct Form {
   /// What messages call a value, and where its key stands.
   struct Name {
     std::string full;  ///< "plants.web.speed"
-    Place key;         ///< of an item of a list: of the item
+    ScenePlace key;    ///< of an item of a list: of the item
   };
   /// Takes the value from `node`, which is something. Says in `findings` what is wrong with it.
   std::function<void(const YamlNode& node, const Name& name, Findings& findings)> read;
@@ -56,7 +56,7 @@ struct ParameterTable {
   std::string help;    ///< where a reader finds the names: "'drycut plants web' lists its parameters"
   bool nested = true;  ///< written as nested maps
   /// What the file gives, and where: the value's place if `at_value`, else the key's.
-  std::vector<std::pair<std::string, Place>>* places = nullptr;
+  std::vector<std::pair<std::string, ScenePlace>>* places = nullptr;
   bool at_value = true;
 };
 
@@ -131,13 +131,13 @@ class Archive {
 };
 
 void visit(Archive& archive, Scenario& scenario);
-void visit(Archive& archive, Variable& variable);
+void visit(Archive& archive, VariableEntry& variable);
 void visit(Archive& archive, PlantEntry& plant);
 void visit(Archive& archive, Wire& wire);
 void visit(Archive& archive, InputFilter& filter);
 void visit(Archive& archive, Stimulus& stimulus);
 void visit(Archive& archive, Disturbance& disturbance);
-void visit(Archive& archive, Check& check);
+void visit(Archive& archive, CheckRequest& check);
 void visit(Archive& archive, OpcuaSection& opcua);
 void visit(Archive& archive, OpcuaSection::Cutter& cutter);
 void visit(Archive& archive, PicturesSection& pictures);
@@ -212,10 +212,10 @@ class MapReader : public Archive {
   const YamlNode::Entry* find(std::string_view key);
   [[nodiscard]] bool has(std::string_view key) const;
   /// Of the key, else of the map.
-  [[nodiscard]] Place place(std::string_view key) const;
-  [[nodiscard]] Place place() const { return node_.text.place; }
+  [[nodiscard]] ScenePlace place(std::string_view key) const;
+  [[nodiscard]] ScenePlace place() const { return node_.text.place; }
   /// Of the value under the key, else of the map.
-  [[nodiscard]] Place value_place(std::string_view key) const;
+  [[nodiscard]] ScenePlace value_place(std::string_view key) const;
   [[nodiscard]] std::string full(std::string_view key) const;
   [[nodiscard]] const std::string& name() const { return name_; }
   /// A problem at the key, or at the map if it is not given.

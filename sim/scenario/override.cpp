@@ -176,7 +176,7 @@ class OverrideSetter {
   }
 
   const Override& override_;
-  Place place_;
+  ScenePlace place_;
   Findings& findings_;
   YamlNode value_;
   const YamlNode* root_ = nullptr;

@@ -52,7 +52,7 @@ std::optional<PlantEntry> read_plant(const YamlNode::Entry& entry, std::span<con
   return PlantEntry{entry.key, wanted, known->define(), {}};
 }
 
-Place place_of(const PlantEntry& plant, const std::string& parameter) {
+ScenePlace place_of(const PlantEntry& plant, const std::string& parameter) {
   for (const auto& [name, place] : plant.places) {
     if (name == parameter) return place;
   }

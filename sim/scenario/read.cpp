@@ -78,7 +78,7 @@ class ScenarioReader final : public MapReader {
 };
 
 // Where the value at `path` stands: the place of what makes two numbers not fit.
-Place place_at(const YamlNode& root, std::initializer_list<std::string_view> path) {
+ScenePlace place_at(const YamlNode& root, std::initializer_list<std::string_view> path) {
   const YamlNode* node = &root;
   for (const auto& key : path) {
     const auto* const next = child(*node, key);
@@ -153,7 +153,7 @@ void read_sections(const YamlNode& root, std::span<const plants::PlantType> type
 }
 
 /// What the file and what it extends say of a variable.
-void take_origin(const YamlNode& root, Variable& variable) {
+void take_origin(const YamlNode& root, VariableEntry& variable) {
   const auto* section = child(root, "variables");
   const auto* value = section == nullptr ? nullptr : child(*section, variable.name.text);
   if (value == nullptr) return;
@@ -225,8 +225,8 @@ bool refuse_comparison(const YamlNode& root, Findings& findings) {
 
 }  // namespace
 
-Place Text::at(std::size_t offset) const {
-  Place base = place;
+ScenePlace Text::at(std::size_t offset) const {
+  ScenePlace base = place;
   std::size_t from = 0;
   for (const auto& next : breaks) {
     if (next.offset > offset) break;
@@ -237,7 +237,7 @@ Place Text::at(std::size_t offset) const {
   return base;
 }
 
-Problem problem_at(const Scenario& scenario, const Place& place, std::string what, std::string remedy) {
+Problem problem_at(const Scenario& scenario, const ScenePlace& place, std::string what, std::string remedy) {
   const auto source = static_cast<std::size_t>(place.source);
   const auto name = source < scenario.sources.size() ? scenario.sources[source] : scenario.file.string();
   return {name, place.line, place.column, std::move(what), std::move(remedy)};

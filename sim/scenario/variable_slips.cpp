@@ -88,11 +88,11 @@ Problems places_given_anew(const Scenario& scenario) {
 }
 
 // Whether one of the problems is in a line that uses the variable, or in a table, where uses are not known.
-bool may_be_to_blame(const Variable& variable, const Scenario& scenario, const Problems& problems) {
+bool may_be_to_blame(const VariableEntry& variable, const Scenario& scenario, const Problems& problems) {
   return std::any_of(problems.begin(), problems.end(), [&](const Problem& problem) {
     const auto source = std::find(scenario.sources.begin(), scenario.sources.end(), problem.file);
     if (source == scenario.sources.end()) return true;
-    return std::any_of(variable.uses.begin(), variable.uses.end(), [&](const Place& use) {
+    return std::any_of(variable.uses.begin(), variable.uses.end(), [&](const ScenePlace& use) {
       return use.line == problem.line && use.source == source - scenario.sources.begin();
     });
   });

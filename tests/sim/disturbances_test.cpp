@@ -157,7 +157,7 @@ struct DisturbancesTest : testing::Test {
   scenario::Scenario scenario;
   fakes::FakeController controller;
   DisturbedPlant plant;
-  loop::Panel panel;
+  loop::OperatorPanel panel;
   Problems problems;
   record::Recording recording;
 };

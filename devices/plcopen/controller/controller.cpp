@@ -11,10 +11,10 @@
 namespace drycut::devices::plcopen {
 namespace {
 
-MotionKernel make_kernel(const Configuration& configuration) {
+MotionKernel make_kernel(const PlcopenConfiguration& configuration) {
   MotionKernel kernel(configuration.cycle_ns);
   for (const AxisConfiguration& axis : configuration.axes) kernel.add_axis(axis.name, axis.parameters);
-  for (const CamTable& table : configuration.tables) {
+  for (const McCamTable& table : configuration.tables) {
     [[maybe_unused]] const ErrorId error = kernel.add_table(table);
     assert(error == ErrorId::none);
   }
@@ -38,7 +38,8 @@ AxisKind kind_of(const AxisConfiguration& axis) { return axis.parameters.kind; }
 
 }  // namespace
 
-PlcopenController::PlcopenController(st::Program program, std::string file, Configuration configuration)
+PlcopenController::PlcopenController(st::Program program, std::string file,
+                                     PlcopenConfiguration configuration)
     : program_(std::move(program)),
       file_(std::move(file)),
       configuration_(std::move(configuration)),

@@ -20,9 +20,9 @@
 namespace drycut::devices::plcopen {
 
 /// What a controller is made of, its program apart.
-struct Configuration {
+struct PlcopenConfiguration {
   std::vector<AxisConfiguration> axes;
-  std::vector<CamTable> tables;  ///< each id once, types known
+  std::vector<McCamTable> tables;  ///< each id once, types known
   std::int64_t cycle_ns = MotionKernel::default_cycle_ns;
   std::int64_t task_ns = MotionKernel::default_cycle_ns;  ///< a whole multiple of cycle_ns
   std::vector<st::Program::Task> tasks = {};  ///< in place of those of the program's CONFIGURATION
@@ -49,7 +49,7 @@ class PlcopenController : public Controller {
  public:
   /// `program` is free of problems and names no axis that `configuration` lacks; `file` names it in messages.
   /// Begins powered on, at time 0.
-  PlcopenController(st::Program program, std::string file, Configuration configuration);
+  PlcopenController(st::Program program, std::string file, PlcopenConfiguration configuration);
 
   Cards& cards() override { return cards_; }
   /// `Knife.encoder`, `IX0.0`, `%QX0.1`: see axis_terminal_table.
@@ -73,7 +73,7 @@ class PlcopenController : public Controller {
 
   [[nodiscard]] std::variant<const ModbusFace*, std::string> modbus() const override;
   /// To be filled from elsewhere too; it has what the program has AT %M.
-  [[nodiscard]] ModbusMap& modbus_map() { return modbus_; }
+  [[nodiscard]] MemoryFace& modbus_map() { return modbus_; }
   /// Variables by the names of find(), pins of a block in its call too; those of a function block's own text
   /// for each of its instances, four at most.
   [[nodiscard]] std::vector<ProgramText> programs() override;
@@ -146,7 +146,7 @@ class PlcopenController : public Controller {
 
   st::Program program_;
   std::string file_;
-  Configuration configuration_;
+  PlcopenConfiguration configuration_;
   Cards cards_;
   MotionKernel kernel_;
   std::vector<AxisPlugs> plugs_;
@@ -161,7 +161,7 @@ class PlcopenController : public Controller {
   std::optional<st::TaskRun> computing_;  ///< a task whose outputs are to come
   std::set<std::string> late_;            ///< tasks that overran the last time they ran
   bool powered_ = true;
-  ModbusMap modbus_{powered_};
+  MemoryFace modbus_{powered_};
   bool power_up_due_ = true;
   bool fault_told_ = false;
 };

@@ -47,7 +47,7 @@ CamMoment PlcopenController::cam_moment(int number) const {
 std::shared_ptr<const devices::CamTable> PlcopenController::cam_table(int number) const {
   const Axis& slave = axis(number);
   const CouplingLink& link = slave.link();
-  const CamTable* table = kernel_.tables().find(link.table);
+  const McCamTable* table = kernel_.tables().find(link.table);
   if (slave.coupling() == nullptr || slave.coupling()->cam() == nullptr || table == nullptr) return nullptr;
   const CamFollow& cam = *slave.coupling()->cam();
   const auto unit = [&](int axis) {

@@ -18,7 +18,7 @@
 namespace drycut::devices::plcopen {
 namespace {
 
-using st::Token;
+using st::StToken;
 
 /// Finds the variables that the lines of a text name.
 class Namer {

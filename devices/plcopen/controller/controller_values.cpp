@@ -111,7 +111,7 @@ void PlcopenController::set_parameter(int number, const AxisParameter& parameter
 std::optional<ControllerValue> PlcopenController::table_value(std::string_view name) {
   const auto element = parse_element(name);
   if (!element) return std::nullopt;
-  const CamTable* table = kernel_.tables().find(element->id);
+  const McCamTable* table = kernel_.tables().find(element->id);
   const bool exists = table != nullptr && element->line >= 1 && element->line <= table->lines() &&
                       element->column >= 1 && element->column <= table->columns();
   if (!exists) return std::nullopt;
@@ -133,7 +133,7 @@ std::optional<ControllerValue> PlcopenController::table_value(std::string_view n
 }
 
 ControllerValue PlcopenController::symbol_value(std::size_t symbol) {
-  const st::Symbol& of = runtime_.symbols()[symbol];
+  const st::StSymbol& of = runtime_.symbols()[symbol];
   ControllerValue value{
       of.name,
       of.unit,
@@ -149,7 +149,7 @@ ControllerValue PlcopenController::symbol_value(std::size_t symbol) {
 
 std::vector<std::string> PlcopenController::names() const {
   std::vector<std::string> names;
-  for (const st::Symbol& symbol : runtime_.symbols()) names.push_back(symbol.name);
+  for (const st::StSymbol& symbol : runtime_.symbols()) names.push_back(symbol.name);
   for (const AxisConfiguration& axis : configuration_.axes) {
     for (const AxisValue& value : axis_value_table())
       names.push_back(fmt::format("{}.{}", axis.name, value.name));
@@ -195,7 +195,7 @@ void PlcopenController::read_kept(std::string_view line, int number, const std::
   if (name.empty() || value_text.empty())
     return complain(content, fmt::format("'{}' is no value", content), "write: name = value");
   const auto found = symbols_.find(lower(name));
-  const st::Symbol* symbol = found == symbols_.end() ? nullptr : &runtime_.symbols()[found->second];
+  const st::StSymbol* symbol = found == symbols_.end() ? nullptr : &runtime_.symbols()[found->second];
   if (symbol == nullptr || !symbol->retain)
     return complain(name, fmt::format("the program has no RETAIN variable '{}'", name), "remove the line");
   for (const auto& [other, value] : kept)

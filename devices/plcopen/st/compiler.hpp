@@ -23,17 +23,17 @@ class Expressions : public Values {
   using Values::Values;
 
  protected:
-  Expression expression(const Type* wanted = nullptr) { return typed(tree(), wanted); }
-  Expression typed(const Tree& tree, const Type* wanted = nullptr);
-  std::optional<Expression> variable(const Token& name);
+  TypedExpression expression(const Type* wanted = nullptr) { return typed(tree(), wanted); }
+  TypedExpression typed(const Tree& tree, const Type* wanted = nullptr);
+  std::optional<TypedExpression> variable(const StToken& name);
   [[nodiscard]] Unit* find_unit(std::string_view name) const;
   /// Reads the declarations of a unit that may be needed before its turn.
   virtual void declare(Unit& unit) = 0;
 
   // calls.cpp
-  int assign(const Expression& target, const Expression& value);
+  int assign(const TypedExpression& target, const TypedExpression& value);
   /// Notes a table's file that the text names.
-  void cam_file(const Token& text);
+  void cam_file(const StToken& text);
   int sequence_node(std::vector<int> statements, Place place);
   /// The statements that give an instance's inputs and take its outputs.
   struct BlockCall {
@@ -43,9 +43,9 @@ class Expressions : public Values {
   };
   /// Whether what is called is a function, not an instance.
   bool names_function(const Tree& callee);
-  BlockCall block_arguments(const Expression& instance, const std::vector<Argument>& given);
-  int block_call(const Expression& instance, const Tree& tree);
-  const Variable* pin_of(const Type& type, const Token& name, bool output);
+  BlockCall block_arguments(const TypedExpression& instance, const std::vector<Argument>& given);
+  int block_call(const TypedExpression& instance, const Tree& tree);
+  const Variable* pin_of(const Type& type, const StToken& name, bool output);
 
   std::vector<std::unique_ptr<Unit>> units_;
   std::unordered_map<std::string, Unit*> unit_index_;          ///< by name in lower case, VAR_GLOBAL apart
@@ -58,17 +58,17 @@ class Expressions : public Values {
 
  private:
   // expressions.cpp
-  Expression literal(const Token& token);
-  Expression typed_literal(const Tree& tree);
-  Expression name_expression(const Token& name, const Type* wanted);
+  TypedExpression literal(const StToken& token);
+  TypedExpression typed_literal(const Tree& tree);
+  TypedExpression name_expression(const StToken& name, const Type* wanted);
   const Type* enumeration(std::string_view name);
-  std::optional<Expression> enum_value(const Token& name, const Type* wanted);
-  Expression qualified_enum(const Type& type, const Token& name);
-  Expression member_of(const Tree& tree);
-  Expression no_member(const Expression& owner, const Token& name);
-  Expression bits_of_number(const Tree& tree, const Expression& owner);
-  Expression element_of(const Tree& tree);
-  Expression element_at(Expression owner, const Expression& index);
+  std::optional<TypedExpression> enum_value(const StToken& name, const Type* wanted);
+  TypedExpression qualified_enum(const Type& type, const StToken& name);
+  TypedExpression member_of(const Tree& tree);
+  TypedExpression no_member(const TypedExpression& owner, const StToken& name);
+  TypedExpression bits_of_number(const Tree& tree, const TypedExpression& owner);
+  TypedExpression element_of(const Tree& tree);
+  TypedExpression element_at(TypedExpression owner, const TypedExpression& index);
   [[nodiscard]] std::vector<std::string> known_names() const;
 
   // calls.cpp
@@ -77,20 +77,20 @@ class Expressions : public Values {
     const Tree* condition = nullptr;
     const Tree* result = nullptr;
   };
-  int store(const Expression& target, int value);
+  int store(const TypedExpression& target, int value);
   Enable take_enable(std::vector<Argument>& given, const Type* callee);
   int enable_condition(const Enable& enable, Place place);
   int enable_store(const Enable& enable, bool on);
-  Expression enabled(const Enable& enable, Expression value, const Type* wanted);
-  Expression call(const Tree& tree, const Type* wanted);
-  Expression function_call(const Token& name, const std::vector<Argument>& given, const Type* wanted);
-  Expression user_call(Unit& unit, const Token& name, const std::vector<Argument>& given);
+  TypedExpression enabled(const Enable& enable, TypedExpression value, const Type* wanted);
+  TypedExpression call(const Tree& tree, const Type* wanted);
+  TypedExpression function_call(const StToken& name, const std::vector<Argument>& given, const Type* wanted);
+  TypedExpression user_call(Unit& unit, const StToken& name, const std::vector<Argument>& given);
   std::vector<int> input_triple(const Type& function, const Variable& pin, const Argument& argument,
                                 int frame, int& depth);
-  bool all_connected(const Unit& unit, const Token& name, const std::vector<Argument>& given,
+  bool all_connected(const Unit& unit, const StToken& name, const std::vector<Argument>& given,
                      const std::set<const Variable*>& connected, std::size_t number);
-  void input_of(const Expression& instance, const Argument& argument, BlockCall& call);
-  int in_out_store(const Type& type, const Variable& pin, const Expression& value, int place);
+  void input_of(const TypedExpression& instance, const Argument& argument, BlockCall& call);
+  int in_out_store(const Type& type, const Variable& pin, const TypedExpression& value, int place);
   int output_store(const Type& owner, const Variable& pin, const Argument& argument, int place);
   static std::vector<std::string> pins_of(const Type& type, bool output);
 };
@@ -118,7 +118,7 @@ class Declarations : public Expressions {
  private:
   // declarations.cpp: VAR sections.
   struct VarSection {
-    Section section = Section::local;
+    VarClass section = VarClass::local;
     bool constant = false;
     bool retain = false;
     bool external = false;
@@ -134,16 +134,16 @@ class Declarations : public Expressions {
   bool variable_section(Unit& unit, Type& owner);
   std::optional<VarSection> section_header();
   void declare_variables(Unit& unit, Type& owner, const VarSection& section);
-  void declare_named(Unit& unit, Type& owner, const VarSection& section, const std::vector<Token>& names);
-  void add_variable(Unit& unit, Type& owner, const VarSection& section, const Token& name, const Type* type,
+  void declare_named(Unit& unit, Type& owner, const VarSection& section, const std::vector<StToken>& names);
+  void add_variable(Unit& unit, Type& owner, const VarSection& section, const StToken& name, const Type* type,
                     const Location& location, std::span<const Cell> initial);
-  bool check_section(const Unit& unit, const VarSection& section, const Token& name, const Type& type,
+  bool check_section(const Unit& unit, const VarSection& section, const StToken& name, const Type& type,
                      const Location& location);
-  void external(const Token& name, const Type* type);
+  void external(const StToken& name, const Type* type);
   Location location();
-  bool check_memory(const Token& name, const Type& type, const MemoryPlace& place);
-  void keep_in_memory(const Token& name, const Type& type, const MemoryPlace& place, int pou);
-  bool name_is_free(const Unit& unit, const Type& owner, const Token& name);
+  bool check_memory(const StToken& name, const Type& type, const MemoryPlace& place);
+  void keep_in_memory(const StToken& name, const Type& type, const MemoryPlace& place, int pou);
+  bool name_is_free(const Unit& unit, const Type& owner, const StToken& name);
 
   // type_declarations.cpp
   void declare_type(Unit& unit);
@@ -204,17 +204,17 @@ class Statements : public Declarations {
   int if_statement();
   int case_statement();
   std::int64_t case_label(const Type& selector);
-  std::vector<Range> case_labels(const Type& selector, Labels& labels);
+  std::vector<Subrange> case_labels(const Type& selector, Labels& labels);
   [[nodiscard]] bool at_label() const;
   int condition(std::string_view closing);
-  void close(const Token& opened, std::string_view closing);
+  void close(const StToken& opened, std::string_view closing);
 
   // loops.cpp
   int for_statement();
   int while_statement();
   int repeat_statement();
   int loop_body(std::initializer_list<std::string_view> closing);
-  int jump(Op op);
+  int jump(StOp op);
 
   int loops_ = 0;
 };
@@ -246,7 +246,7 @@ class Compiler : public Statements {
   void configuration_part(bool tasks, int& resources);
   void declare_task();
   void declare_instance();
-  void add_instance(const Token& name, int task, Unit& unit, std::size_t connections);
+  void add_instance(const StToken& name, int task, Unit& unit, std::size_t connections);
   void check_instances();
   void connect_instances();
 
@@ -262,7 +262,7 @@ class Compiler : public Statements {
   /// What a CONFIGURATION connects to a program, beside Compiled::instances.
   struct Connections {
     Unit* unit = nullptr;
-    Token name;
+    StToken name;
     std::size_t connections = 0;  ///< where the '(' is, or 0
   };
   std::vector<Connections> connections_;

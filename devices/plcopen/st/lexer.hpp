@@ -57,7 +57,7 @@ class Pragmas : private Complaints {
 
 /// A word, literal or sign of a Structured Text file. Signs are
 /// ( ) [ ] , ; : . + - * / < > = & # := => ** <= >= <> .. and times and dates are numbers too.
-struct Token : drycut::Token {
+struct StToken : drycut::Token {
   Basic basic = Basic::unknown;  ///< of a number: LINT, above it ULINT, LREAL, TIME, TOD, DATE or DT
   Cell value = 0;
   std::string string;  ///< without quotes and escapes
@@ -75,7 +75,7 @@ inline constexpr std::array<TimeUnit, 5> time_units{
 
 /// The tokens of a file, comments, pragmas `{...}` and what they switch off left out, ended by one of
 /// Kind::end.
-std::vector<Token> tokens_of(std::string_view text, const std::string& file, Problems& problems);
+std::vector<StToken> tokens_of(std::string_view text, const std::string& file, Problems& problems);
 
 /// Thrown when a statement or a declaration is given up; its problem has been told.
 struct GiveUp {};
@@ -93,7 +93,7 @@ class Nested {
 };
 
 /// The tokens of a file, which are read unit by unit.
-class Reader : public TokenReader<Token> {
+class Reader : public TokenReader<StToken> {
  public:
   using TokenReader::TokenReader;
 
@@ -102,11 +102,11 @@ class Reader : public TokenReader<Token> {
  protected:
   void expect(std::string_view sign, std::string_view where);
   void expect_word(std::string_view keyword, std::string_view where);
-  Token expect_name(const std::string& what);
+  StToken expect_name(const std::string& what);
   [[nodiscard]] Place behind() const;
   /// The next token is a word by which `is_one` knows it: closes_block, opens_unit, is_keyword.
   [[nodiscard]] bool at_word(bool (*is_one)(std::string_view)) const {
-    return peek().kind == Token::Kind::name && is_one(peek().text);
+    return peek().kind == StToken::Kind::name && is_one(peek().text);
   }
   /// Goes on to where `here` holds, or to the end of the part.
   void skip_to(const std::function<bool()>& here);

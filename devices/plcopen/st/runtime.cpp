@@ -78,8 +78,8 @@ struct Runtime::State {
         if (watched) trace(number);
         machine.run(instances[number], time_ns / ns_per_ms);
       }
-    } catch (const RuntimeError& error) {
-      fault = Fault{error.line, error.column, error.what()};
+    } catch (const StError& error) {
+      fault = RuntimeFault{error.line, error.column, error.what()};
     }
     return !fault;
   }
@@ -99,7 +99,7 @@ struct Runtime::State {
   std::vector<Task> tasks;
   std::int64_t statement_ns;
   std::int64_t free_ns = 0;  ///< the last task has ended
-  std::optional<Fault> fault;
+  std::optional<RuntimeFault> fault;
   bool watched = false;
   std::vector<Trace> traces = {};  ///< of each program; none before it ran
   std::vector<int> order = {};     ///< lines of the statements of the task that ran last
@@ -152,7 +152,7 @@ std::int64_t Runtime::next_ns() const {
   return next;
 }
 
-std::span<const Symbol> Runtime::symbols() const { return state_->program.compiled().symbols; }
+std::span<const StSymbol> Runtime::symbols() const { return state_->program.compiled().symbols; }
 
 double Runtime::read(std::size_t symbol) const {
   const SymbolPlace& place = state_->program.compiled().places.at(symbol);
@@ -178,7 +178,7 @@ std::string_view Runtime::block_type(std::size_t symbol) const {
 void Runtime::write(std::size_t number, double value) {
   const Compiled& code = state_->program.compiled();
   const SymbolPlace& place = code.places.at(number);
-  const Symbol& symbol = code.symbols[number];
+  const StSymbol& symbol = code.symbols[number];
   if (!symbol.writable || std::isnan(value)) return;
   value = std::clamp(value, symbol.min, symbol.max);
   if (is_real(place.basic)) {
@@ -186,7 +186,7 @@ void Runtime::write(std::size_t number, double value) {
     return;
   }
   const double whole = std::nearbyint(is_clock(place.basic) ? value * per_second(place.basic) : value);
-  state_->machine.set_cell(place.cell, apply(Op::to_whole, place.basic, cell_of(whole), 0));
+  state_->machine.set_cell(place.cell, apply(StOp::to_whole, place.basic, cell_of(whole), 0));
 }
 
 void Runtime::watch(bool on) {
@@ -218,6 +218,6 @@ bool Runtime::located(std::size_t i) const {
 void Runtime::set_located(std::size_t i, bool level) {
   state_->machine.set_cell(state_->program.compiled().located_cells.at(i), level ? 1 : 0);
 }
-const std::optional<Fault>& Runtime::fault() const { return state_->fault; }
+const std::optional<RuntimeFault>& Runtime::fault() const { return state_->fault; }
 
 }  // namespace drycut::devices::plcopen::st

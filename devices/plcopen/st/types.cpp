@@ -70,7 +70,7 @@ bool is_elementary(Basic basic) { return is_whole(basic) || is_real(basic); }
 
 int bits_of(Basic basic) { return row_of(basic).bits; }
 
-Range range_of(Basic basic) {
+Subrange range_of(Basic basic) {
   const Row& row = row_of(basic);
   if (is_wide(basic)) return {0, std::numeric_limits<std::int64_t>::max()};
   if (row.sign) {
@@ -80,7 +80,9 @@ Range range_of(Basic basic) {
   return {0, static_cast<std::int64_t>((std::uint64_t{1} << row.bits) - 1)};
 }
 
-Range range_of(const Type& type) { return type.subrange ? Range{type.low, type.high} : range_of(type.basic); }
+Subrange range_of(const Type& type) {
+  return type.subrange ? Subrange{type.low, type.high} : range_of(type.basic);
+}
 
 int per_second(Basic basic) { return basic == Basic::time || basic == Basic::tod ? 1000 : 1; }
 

@@ -16,8 +16,8 @@ using devices::camming4::CamSample;
 using devices::camming4::CamStep;
 using devices::camming4::CodeClass;
 using devices::camming4::Column;
+using devices::camming4::GrainResolution;
 using devices::camming4::Point;
-using devices::camming4::Resolution;
 using devices::camming4::Row;
 using devices::camming4::Sector;
 

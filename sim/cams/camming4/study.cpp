@@ -50,7 +50,7 @@ class Report {
  private:
   [[nodiscard]] std::string heading() const {
     const auto& axes = table_.settings;
-    const auto bit = [](const camming4::Resolution& axis) {
+    const auto bit = [](const camming4::GrainResolution& axis) {
       return rounded(static_cast<double>(axis.measure) / static_cast<double>(axis.pulse));
     };
     auto text =

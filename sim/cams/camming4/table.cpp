@@ -27,7 +27,7 @@ const std::vector<std::string> columns = {"sector",  "codeG",   "codeQm", "codeQ
 
 /// What the device's own table says of a variable or a field of its record.
 struct Entry {
-  Range range;
+  CamKeyRange range;
   std::string meaning;
 };
 Entry entry_of(std::string_view name) {
@@ -41,10 +41,10 @@ Entry entry_of(std::string_view name) {
       return {{static_cast<double>(field.min), static_cast<double>(field.max)}, std::string(field.meaning)};
   return {};
 }
-Range range_of_variable(std::string_view name) { return entry_of(name).range; }
+CamKeyRange range_of_variable(std::string_view name) { return entry_of(name).range; }
 
 /// The range of a column under a code (000 1.2.13): narrower than its variable's where the code says so.
-Range range_of(std::string_view column, Use use, int code) {
+CamKeyRange range_of(std::string_view column, Use use, int code) {
   switch (use) {
     case Use::master_space:
     case Use::master_coefficient:
@@ -59,7 +59,7 @@ Range range_of(std::string_view column, Use use, int code) {
     case Use::displacement_y:
       return {-318308, 318308};
     case Use::slave_space:
-      return code == 180 ? Range{-318308, 318308} : range_of_variable(column);
+      return code == 180 ? CamKeyRange{-318308, 318308} : range_of_variable(column);
     default:
       return range_of_variable(column);
   }
@@ -125,7 +125,7 @@ class Reader {
   }
 
   /// A whole number in its range, or a problem.
-  std::optional<std::int32_t> integer(const Cell& cell, std::string_view name, Range range) {
+  std::optional<std::int32_t> integer(const Cell& cell, std::string_view name, CamKeyRange range) {
     const auto number = whole_number(cell, line_, name, range, told_);
     if (!number) return {};
     return static_cast<std::int32_t>(*number);

@@ -16,15 +16,15 @@ namespace {
 
 using devices::lx3vp::EcamType;
 
-constexpr Range whole_32 = {-2147483648.0, 2147483647.0};
-constexpr Range whole_16 = {0, 65535};
-constexpr Range ratios = {-1e30, 1e30};  // what a float holds; ECAMTBX itself judges them
+constexpr CamKeyRange whole_32 = {-2147483648.0, 2147483647.0};
+constexpr CamKeyRange whole_16 = {0, 65535};
+constexpr CamKeyRange ratios = {-1e30, 1e30};  // what a float holds; ECAMTBX itself judges them
 constexpr std::size_t most_rows_read = 100000;
 
 /// A parameter of ECAMTBX: its name and what it may be.
 struct Parameter {
   std::string_view name;
-  Range range;
+  CamKeyRange range;
   bool real = false;
   bool needed = true;
 };

@@ -40,6 +40,6 @@ std::vector<CamFinding> judge_cam_in(const CamInRun& run, const CamDuty& duty);
 CamMotionWords motion_of(const CamInRun& run, const CamDuty& duty);
 
 /// The slave's limits in force: those of the options before those of the file [deg or mm, s].
-devices::plcopen::CamLimits limits_of(const CamInRun& run, const CamDuty& duty);
+devices::plcopen::CamFileLimits limits_of(const CamInRun& run, const CamDuty& duty);
 
 }  // namespace drycut::sim::cams

@@ -14,7 +14,7 @@ namespace drycut::sim::studies {
 
 namespace {
 
-using devices::camming4::CamTable;
+using devices::camming4::CamSectors;
 using devices::camming4::Row;
 
 constexpr int most_space = 999999;  // of a sector [Um]
@@ -145,7 +145,7 @@ RampAims aims_of(const DesignJob& job, const UmJob& um) {
 }
 
 /// measure and pulse: Um, and counts in them.
-bool set(devices::camming4::Resolution& resolution, const PulseWay& way, int decpt, const char* option,
+bool set(devices::camming4::GrainResolution& resolution, const PulseWay& way, int decpt, const char* option,
          Problems& problems) {
   double um = way.millimetres * std::pow(10, decpt);
   double count = way.count;

@@ -44,7 +44,7 @@ void record_names(scenario::Scenario& scenario, const std::vector<Gauge>& all) {
     scenario.sources.push_back(gauge.option);
     for (const auto& name : gauge.metric.names()) {
       if (!name.event.empty()) continue;
-      const scenario::Place place{1, static_cast<int>(name.offset) + 1, source};
+      const scenario::ScenePlace place{1, static_cast<int>(name.offset) + 1, source};
       scenario.record.channels.push_back({name.text, place});
     }
   }

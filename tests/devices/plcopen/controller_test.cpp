@@ -50,7 +50,7 @@ struct Rig {
     line.parameters.kind = AxisKind::virtual_axis;
     line.parameters.homed_at_start = true;
     made.axes = {web, knife, line};
-    CamTable table;
+    McCamTable table;
     table.file = "knife.tab";
     table.id = 1;
     table.type = 7;

@@ -42,8 +42,9 @@ class Puppet : public Device {
         State{"st_init", zero, "", ""}, State{"st_still", Retention::one, "", ""},
         State{"st_locked", kept_value, "", ""}, State{"st_int", zero, "", ""}};
     static constexpr std::array commands = {
-        Command{"INIT", {}, "", ""}, Command{"HALT", {1, 1, {}}, "", ""}, Command{"GO", {3, 3, {}}, "", ""},
-        Command{"DELCNT", {1, 1, {}}, "", ""}, Command{"LOCK", {1, 1, {}}, "", ""}};
+        DeviceCommand{"INIT", {}, "", ""}, DeviceCommand{"HALT", {1, 1, {}}, "", ""},
+        DeviceCommand{"GO", {3, 3, {}}, "", ""}, DeviceCommand{"DELCNT", {1, 1, {}}, "", ""},
+        DeviceCommand{"LOCK", {1, 1, {}}, "", ""}};
     static constexpr std::array fields = {
         Field{"TCamp", Field::Kind::period_ms, 1, 250, ""},   Field{"Count", Field::Kind::counter, 0, 0, ""},
         Field{"IntL", Field::Kind::interrupt_line, 1, 8, ""}, Field{"IAZero", Field::Kind::input, 0, 0, ""},
@@ -100,7 +101,7 @@ inline const DeviceType& camming_fields() {
                                         Field{"IoutA", FieldKind::analogue, 0, 0, ""},
                                         Field{"Out", FieldKind::output, 0, 0, ""}};
   static constexpr std::array states = {State{"st_init", Retention::zero, "", ""}};
-  static constexpr std::array commands = {Command{"INIT", {}, "", ""}};
+  static constexpr std::array commands = {DeviceCommand{"INIT", {}, "", ""}};
   static constexpr DeviceType type{"CAMMING4", "", {}, states, commands, fields, {}};
   return type;
 }
