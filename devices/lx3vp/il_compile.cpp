@@ -21,9 +21,9 @@ bool needs_memory(const Step& step) {
          op == Op::stl || (step.spelling != nullptr && step.spelling->pulse);
 }
 
-class Compiler : private Complaints {
+class IlCompiler : private Complaints {
  public:
-  Compiler(std::string_view text, const std::string& file, Problems& problems)
+  IlCompiler(std::string_view text, const std::string& file, Problems& problems)
       : Complaints(file, problems), text_(text) {
     program_.file = file;
     program_.text = text;
@@ -307,7 +307,7 @@ class Compiler : private Complaints {
 }  // namespace
 
 IlProgram compile(std::string_view text, const std::string& file, Problems& problems) {
-  return Compiler(text, file, problems).compile();
+  return IlCompiler(text, file, problems).compile();
 }
 
 }  // namespace drycut::devices::lx3vp::il

@@ -15,16 +15,16 @@ namespace drycut::devices::lx3vp::il {
 namespace {
 
 /// The devices of a kind: the letter, whether numbers are octal, and the ranges that exist.
-struct Range {
+struct OperandRange {
   int first = 0;
   int last = 0;
 };
-struct Family {
+struct OperandFamily {
   char letter;
   bool octal;
-  Range ranges[2];
+  OperandRange ranges[2];
 };
-constexpr Family families[] = {
+constexpr OperandFamily families[] = {
     {'X', true, {{0, 0377}, {0, -1}}},       {'Y', true, {{0, 0377}, {0, -1}}},
     {'M', false, {{0, 3071}, {8000, 8255}}}, {'S', false, {{0, 999}, {0, -1}}},
     {'T', false, {{0, 255}, {0, -1}}},       {'C', false, {{0, 255}, {0, -1}}},
@@ -83,18 +83,18 @@ const OperandKind& operand_kind(char letter) {
                        [&](const OperandKind& kind) { return kind.letter == letter; });
 }
 
-const Family* family_of(char letter) {
+const OperandFamily* family_of(char letter) {
   for (const auto& family : families)
     if (family.letter == letter) return &family;
   return nullptr;
 }
-const Family* family_of(OperandType kind) { return family_of(letter_of(kind)); }
+const OperandFamily* family_of(OperandType kind) { return family_of(letter_of(kind)); }
 
-std::string number_text(const Family& family, int number) {
+std::string number_text(const OperandFamily& family, int number) {
   return family.octal ? fmt::format("{}{:o}", family.letter, number)
                       : fmt::format("{}{}", family.letter, number);
 }
-std::string range_text(const Family& family) {
+std::string range_text(const OperandFamily& family) {
   auto text = fmt::format("{} to {}", number_text(family, family.ranges[0].first),
                           number_text(family, family.ranges[0].last));
   if (family.ranges[1].last >= 0)
@@ -102,8 +102,8 @@ std::string range_text(const Family& family) {
                         number_text(family, family.ranges[1].last));
   return text;
 }
-bool exists(const Family& family, int first, int count = 1) {
-  return std::any_of(std::begin(family.ranges), std::end(family.ranges), [&](const Range& range) {
+bool exists(const OperandFamily& family, int first, int count = 1) {
+  return std::any_of(std::begin(family.ranges), std::end(family.ranges), [&](const OperandRange& range) {
     return first >= range.first && first <= range.last - (count - 1);
   });
 }
@@ -119,9 +119,9 @@ bool number_from(std::string_view text, Number& number, auto... base) {
   return read.has_value();
 }
 
-class Reader {
+class OperandReader {
  public:
-  Reader(std::string_view text, ValueFault& fault) : text_(upper(text)), fault_(fault) {}
+  OperandReader(std::string_view text, ValueFault& fault) : text_(upper(text)), fault_(fault) {}
 
   std::optional<Operand> read() {
     const auto at = text_.find_first_of("VZ", 1);
@@ -205,7 +205,7 @@ class Reader {
     return operand;
   }
 
-  std::optional<Operand> read_device(const Family& family, std::string_view digits) {
+  std::optional<Operand> read_device(const OperandFamily& family, std::string_view digits) {
     Operand operand;
     operand.kind = static_cast<OperandType>(family.letter);
     const auto dot = digits.find('.');
@@ -219,7 +219,7 @@ class Reader {
     return operand;
   }
 
-  bool read_number(const Family& family, std::string_view digits, int& number) {
+  bool read_number(const OperandFamily& family, std::string_view digits, int& number) {
     if (number_from(digits, number, family.octal ? 8 : 10) && exists(family, number)) return true;
     const bool decimal = family.octal && digits.find_first_of("89") != std::string_view::npos;
     refuse(decimal ? "is not octal" : "does not exist",
@@ -275,7 +275,7 @@ std::optional<ValueFault> misfit_of_constant(const Operand& operand, char kind, 
 }  // namespace
 
 std::optional<Operand> read_operand(std::string_view text, ValueFault& fault) {
-  return Reader(text, fault).read();
+  return OperandReader(text, fault).read();
 }
 
 std::string_view operand_text(char kind) { return operand_kind(kind).text; }

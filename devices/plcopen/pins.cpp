@@ -12,7 +12,7 @@ namespace {
 
 /// A pin of block B beside the member that holds it.
 template <typename B, typename T>
-struct Bound {
+struct BoundPin {
   Pin pin;
   T B::*member;
 };
@@ -22,9 +22,9 @@ constexpr std::array<std::string_view, std::variant_size_v<PinValue>> type_names
     "BOOL", "INT", "UINT", "DINT", "UDINT", "LREAL", "AXIS_REF", "MC_CAM_REF"};
 
 template <typename B, typename C, typename T>
-constexpr Bound<B, T> bind(std::string_view name, PinDirection direction, T C::*member,
-                           std::string_view meaning,
-                           std::string_view type = type_names[PinValue{static_cast<T*>(nullptr)}.index()]) {
+constexpr BoundPin<B, T> bind(
+    std::string_view name, PinDirection direction, T C::*member, std::string_view meaning,
+    std::string_view type = type_names[PinValue{static_cast<T*>(nullptr)}.index()]) {
   return {{name, type, direction, meaning}, static_cast<T B::*>(member)};
 }
 

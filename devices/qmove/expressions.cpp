@@ -15,7 +15,7 @@ namespace {
 // What an operator accepts: singles too, longs only, or flags (each side compared with 0).
 enum class Operands : std::uint8_t { numbers, longs, flags };
 
-struct Operator {
+struct QclOperator {
   std::string_view spelling;
   int level;  ///< higher binds tighter
   Operands operands;
@@ -25,7 +25,7 @@ struct Operator {
 };
 
 // Precedence (spec D8). Unary minus, NOT and NOTB bind tighter than all of these.
-constexpr std::array<Operator, 17> operators{{
+constexpr std::array<QclOperator, 17> operators{{
     {"*", 7, Operands::numbers, QclOp::multiply, QclOp::multiply_real, false},
     {"/", 7, Operands::numbers, QclOp::divide, QclOp::divide_real, false},
     {"%", 7, Operands::longs, QclOp::modulo, QclOp::modulo, false},
@@ -71,7 +71,7 @@ QclCompiler::Type QclCompiler::expression(int level) {
 }
 
 void QclCompiler::binary(std::size_t row, Type left, Type right, const QclToken& op) {
-  const Operator& found = operators[row];
+  const QclOperator& found = operators[row];
   const bool any_real = left == Type::real || right == Type::real;
   if (found.operands == Operands::longs && any_real)
     complain(op.place, fmt::format("{} works on whole numbers, one side is a single", found.spelling),

@@ -67,9 +67,9 @@ void move_places(scenario::Stimulus& act, const Move& move) {
 }
 
 /// Reads the lines of a session, each on its own: a session of a day has a hundred thousand of them.
-class Reader {
+class SessionReader {
  public:
-  Reader(std::string file, Problems& problems) : file_(std::move(file)), problems_(problems) {}
+  SessionReader(std::string file, Problems& problems) : file_(std::move(file)), problems_(problems) {}
 
   std::optional<Session> read(std::string_view text) {
     const auto before = problems_.size();
@@ -160,7 +160,7 @@ std::optional<Session> read_lines(const std::filesystem::path& file, Problems& p
   constexpr std::uintmax_t largest_session = std::uintmax_t{1} << 30U;
   const auto text = read_file(file, problems, largest_session);
   if (!text) return {};
-  auto session = Reader(file.string(), problems).read(*text);
+  auto session = SessionReader(file.string(), problems).read(*text);
   if (session && session->scenario.is_relative())
     session->scenario = (file.parent_path() / session->scenario).lexically_normal();
   return session;

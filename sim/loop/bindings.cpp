@@ -11,9 +11,9 @@ namespace drycut::sim::loop {
 
 namespace {
 
-class Binder {
+class RecordingBinder {
  public:
-  Binder(const Lookup& lookup, record::Recording& recording, Problems& problems)
+  RecordingBinder(const Lookup& lookup, record::Recording& recording, Problems& problems)
       : lookup_(lookup),
         scenario_(lookup.scenario),
         pictures_(lookup.scenario.pictures),
@@ -178,7 +178,7 @@ std::vector<std::string> motor_channels(const std::string& plant) {
 }
 
 Captions bind_recording(const Lookup& lookup, record::Recording& recording, Problems& problems) {
-  return Binder(lookup, recording, problems).bind();
+  return RecordingBinder(lookup, recording, problems).bind();
 }
 
 }  // namespace drycut::sim::loop

@@ -16,14 +16,14 @@ namespace drycut::sim::loop {
 
 namespace {
 
-struct EventRow {
+struct RunEventRow {
   const char* source;
   const char* name;
   Severity severity;
   bool of_program = false;  ///< what a program may wait for in vain, or lose
 };
 using enum Severity;
-constexpr EventRow event_rows[] = {
+constexpr RunEventRow event_rows[] = {
     {"timeline", "set", note},
     {"timeline", "ramp", note},
     {"timeline", "fault", warning},
@@ -43,8 +43,8 @@ constexpr EventRow event_rows[] = {
     {"card", "pulse_lost", warning},
 };
 
-const EventRow* row_of(std::string_view event) {
-  const auto* found = std::ranges::find(event_rows, event, &EventRow::name);
+const RunEventRow* row_of(std::string_view event) {
+  const auto* found = std::ranges::find(event_rows, event, &RunEventRow::name);
   return found == std::end(event_rows) ? nullptr : found;
 }
 

@@ -79,19 +79,19 @@ std::vector<std::string> names_in(hid_t group) {
   return names;
 }
 
-struct Column {
+struct StoredColumn {
   std::string name;
   hdf5::Handle data;
 };
 
-Column open_column(hid_t place, const std::string& name) {
-  Column column{name, open_data(place, name)};
+StoredColumn open_column(hid_t place, const std::string& name) {
+  StoredColumn column{name, open_data(place, name)};
   const hdf5::Handle type(H5Dget_type(column.data), H5Tclose);
   if (H5Tget_class(type) != H5T_FLOAT) throw Wrong{fmt::format("{} are no numbers", in_quotes(name))};
   return column;
 }
 
-void read_numbers(const Column& column, hsize_t begin, hsize_t count, std::vector<double>& numbers) {
+void read_numbers(const StoredColumn& column, hsize_t begin, hsize_t count, std::vector<double>& numbers) {
   const hdf5::Handle there(H5Dget_space(column.data), H5Sclose);
   const hdf5::Handle here(H5Screate_simple(1, &count, nullptr), H5Sclose);
   numbers.resize(count);
@@ -113,7 +113,7 @@ void read_channels(hid_t file, Recording& recording) {
   const hdf5::Handle group(H5Gopen2(file, hdf5::channels_name, H5P_DEFAULT), H5Gclose);
   const auto time = open_column(file, hdf5::time_name);
   const auto rows = size_of(time.data, time.name);  // before the others, which may grow
-  std::vector<Column> columns;
+  std::vector<StoredColumn> columns;
   for (const auto& name : names_in(group)) {
     columns.push_back(open_column(group, name));
     const auto size = size_of(columns.back().data, name);

@@ -17,7 +17,7 @@ namespace drycut::devices::plcopen::st {
 namespace {
 
 /// A task and its programs.
-struct Task {
+struct ScheduledTask {
   std::string name;
   Due due;
   int priority = 0;
@@ -27,9 +27,9 @@ struct Task {
 };
 
 /// The tasks by their priorities, the controller's own last.
-std::vector<Task> plan(const Compiled& code, const Schedule& schedule) {
+std::vector<ScheduledTask> plan(const Compiled& code, const Schedule& schedule) {
   const bool given = !schedule.tasks.empty();
-  std::vector<Task> plan;
+  std::vector<ScheduledTask> plan;
   const auto& tasks = given ? schedule.tasks : code.tasks;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const int single = given ? -1 : code.singles[i];
@@ -45,9 +45,9 @@ std::vector<Task> plan(const Compiled& code, const Schedule& schedule) {
         if (same_word(name, instance.name)) task = t;
     plan[task].programs.push_back(i);
   }
-  std::erase_if(plan, [](const Task& task) { return task.programs.empty(); });
+  std::erase_if(plan, [](const ScheduledTask& task) { return task.programs.empty(); });
   std::stable_sort(plan.begin(), plan.end(),
-                   [](const Task& a, const Task& b) { return a.priority < b.priority; });
+                   [](const ScheduledTask& a, const ScheduledTask& b) { return a.priority < b.priority; });
   return plan;
 }
 
@@ -61,7 +61,7 @@ struct Runtime::State {
         statement_ns(schedule.statement_ns) {}
 
   /// Whether a task runs now; an edge of its SINGLE is seen once.
-  bool is_due(Task& task, std::int64_t time_ns) const {
+  bool is_due(ScheduledTask& task, std::int64_t time_ns) const {
     if (!task.due.take(time_ns)) return false;
     if (task.single < 0) return true;
     const bool before = std::exchange(task.last, machine.cell(task.single) != 0);
@@ -69,7 +69,7 @@ struct Runtime::State {
   }
 
   /// The programs of a task; false after a fault.
-  bool run(const Task& task, std::int64_t time_ns) {
+  bool run(const ScheduledTask& task, std::int64_t time_ns) {
     constexpr std::int64_t ns_per_ms = 1'000'000;
     const auto& instances = program.compiled().instances;
     order.clear();
@@ -96,7 +96,7 @@ struct Runtime::State {
 
   Program program;
   Machine machine;
-  std::vector<Task> tasks;
+  std::vector<ScheduledTask> tasks;
   std::int64_t statement_ns;
   std::int64_t free_ns = 0;  ///< the last task has ended
   std::optional<RuntimeFault> fault;
@@ -116,12 +116,12 @@ void Runtime::cold_start(bool all) {
   state_->machine.start(all);
   state_->free_ns = 0;
   watch(state_->watched);
-  for (Task& task : state_->tasks) task.last = false;
+  for (ScheduledTask& task : state_->tasks) task.last = false;
 }
 
 void Runtime::scan(std::int64_t time_ns) {
   if (state_->fault) return pass(time_ns);
-  for (Task& task : state_->tasks)
+  for (ScheduledTask& task : state_->tasks)
     if (state_->is_due(task, time_ns) && !state_->run(task, time_ns)) return;
 }
 
@@ -130,7 +130,7 @@ std::optional<TaskRun> Runtime::run_next(std::int64_t time_ns) {
     pass(time_ns);
     return std::nullopt;
   }
-  for (Task& task : state_->tasks) {
+  for (ScheduledTask& task : state_->tasks) {
     const std::int64_t due_ns = task.due.next_ns;
     if (!state_->is_due(task, time_ns)) continue;
     const std::int64_t begun_ns = std::max(due_ns, state_->free_ns);
@@ -143,12 +143,12 @@ std::optional<TaskRun> Runtime::run_next(std::int64_t time_ns) {
 }
 
 void Runtime::pass(std::int64_t time_ns) {
-  for (Task& task : state_->tasks) task.due.take(time_ns);
+  for (ScheduledTask& task : state_->tasks) task.due.take(time_ns);
 }
 
 std::int64_t Runtime::next_ns() const {
   std::int64_t next = std::numeric_limits<std::int64_t>::max();
-  for (const Task& task : state_->tasks) next = std::min(next, task.due.next_ns);
+  for (const ScheduledTask& task : state_->tasks) next = std::min(next, task.due.next_ns);
   return next;
 }
 

@@ -65,9 +65,9 @@ CamKeyRange range_of(std::string_view column, Use use, int code) {
   }
 }
 
-class Reader {
+class CammingReader {
  public:
-  Reader(std::string_view text, const std::string& file, Problems& problems)
+  CammingReader(std::string_view text, const std::string& file, Problems& problems)
       : text_(text), told_(file, problems), settings_(told_) {
     table_.file = file;
     const auto take = [&](const char* name, std::int32_t& target) {
@@ -215,12 +215,12 @@ class Reader {
 }  // namespace
 
 CammingTable read_camming4(std::string_view text, const std::string& file, Problems& problems) {
-  return Reader(text, file, problems).read();
+  return CammingReader(text, file, problems).read();
 }
 
 std::vector<CamKey> camming4_keys() {
   Problems none;
-  return Reader("", "", none).keys();
+  return CammingReader("", "", none).keys();
 }
 
 std::vector<CamKey> camming4_columns() {

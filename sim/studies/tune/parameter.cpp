@@ -19,9 +19,9 @@ namespace {
 
 constexpr std::string_view integer_suffix = ":integer";
 
-class Reader {
+class VaryReader {
  public:
-  Reader(const std::string& text, const std::string& option, Problems& problems)
+  VaryReader(const std::string& text, const std::string& option, Problems& problems)
       : text_(text), option_(option), problems_(problems) {}
 
   std::optional<TunedParameter> run(bool relative) {
@@ -158,7 +158,7 @@ std::optional<double> variable_value(TunedParameter& parameter, const scenario::
 
 std::optional<TunedParameter> parse_parameter(const std::string& text, const std::string& option,
                                               bool relative, Problems& problems) {
-  return Reader(text, option, problems).run(relative);
+  return VaryReader(text, option, problems).run(relative);
 }
 
 std::string value_text(const TunedParameter& parameter, double value) {
