@@ -55,7 +55,7 @@ std::int64_t work_of(const Registers& registers, const Step& step) {
 
 }  // namespace
 
-ProgramScan::Scanner(const IlProgram& program, std::int64_t step_ns)
+ProgramScan::ProgramScan(const IlProgram& program, std::int64_t step_ns)
     : program_(program), step_ns_(step_ns), most_(step_ns > 0 ? watchdog_ns / step_ns : most_work) {
   restart();
 }

@@ -61,7 +61,7 @@ QclProgram compile_module(std::string_view text, const std::string& file_name,
   return QclCompiler(file_name, configuration, catalogue, problems).compile(text);
 }
 
-QclCompiler::Compiler(const std::string& file, const Configuration& configuration,
+QclCompiler::QclCompiler(const std::string& file, const Configuration& configuration,
                       std::span<const CatalogueEntry> catalogue, Problems& problems)
     : TokenReader(file, problems),
       configuration_(configuration),

@@ -8,7 +8,7 @@
 
 namespace drycut::sim::cli {
 
-ProgressBar::Progress(bool wanted) : terminal_(wanted && isatty(STDERR_FILENO) != 0) {}
+ProgressBar::ProgressBar(bool wanted) : terminal_(wanted && isatty(STDERR_FILENO) != 0) {}
 
 ProgressBar::~ProgressBar() { clear(); }
 

@@ -31,7 +31,7 @@ fs::path next_in(const fs::path& folder) {
 
 }  // namespace
 
-SessionRecord::Record(const fs::path& folder, const scenario::Scenario& scenario, std::uint64_t fingerprint,
+SessionRecord::SessionRecord(const fs::path& folder, const scenario::Scenario& scenario, std::uint64_t fingerprint,
                       const record::Recording& recording) {
   write([&] {
     folder_ = next_in(folder);

@@ -53,7 +53,7 @@ std::vector<OutcomeTable> outcome_tables() {
   return tables;
 }
 
-Hdf5Turn::Turn() {
+Hdf5Turn::Hdf5Turn() {
   library().lock();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what fails is told in our words
 }

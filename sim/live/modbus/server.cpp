@@ -257,7 +257,7 @@ void ModbusServer::Desk::tell_closed(int unit) {
   std::fflush(stdout);
 }
 
-ModbusServer::Server(Options options, Line& line)
+ModbusServer::ModbusServer(Options options, Line& line)
     : desk_(std::make_shared<Desk>()), core_(std::make_unique<Core>(std::move(options), line, *desk_)) {
   desk_->core = core_.get();
   core_->accept();
