@@ -11,7 +11,7 @@
 
 namespace drycut::devices {
 struct CamMoment;
-struct CamSectors;
+struct CamTable;
 }  // namespace drycut::devices
 
 namespace drycut::devices::camming4 {

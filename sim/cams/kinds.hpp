@@ -3,7 +3,7 @@
 
 namespace drycut::devices {
 namespace camming4 {
-struct CamTable;
+struct CamSectors;
 }
 namespace lx3vp {
 struct EcamTable;

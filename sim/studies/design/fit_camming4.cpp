@@ -106,7 +106,7 @@ class SectorTable {
   }
   void pass(double master) { master_ += master; }
 
-  CamTable table;
+  CamSectors table;
   double sync_begin = 0;
 
  private:
@@ -138,7 +138,7 @@ RampAims aims_of(const DesignJob& job, const UmJob& um) {
   if (job.max_travel) aims.most_down = std::max(1, static_cast<int>(*job.max_travel / um.um - um.sync) / 2);
   aims.friction = {job.friction().viscous * um.um, job.friction().coulomb * um.um};
   constexpr double samplings = 1.5;  // at least, for each of a sector's phases
-  const double sampling = CamTable().TCamp * 1e-3;
+  const double sampling = CamSectors().TCamp * 1e-3;
   aims.shortest = job.speed ? static_cast<int>(std::ceil(samplings * *job.speed * sampling / um.um)) : 1;
   aims.most_sectors = devices::camming4::cam_rows - 5;
   return aims;
@@ -251,7 +251,7 @@ DeviceCam played(SectorTable table, const DesignJob& job, const UmJob& um) {
 
 std::optional<DeviceCam> fit_camming4(const DesignJob& job, const DesignAxes& axes, Problems& problems) {
   const auto um = in_um(job, axes, problems);
-  CamTable head;
+  CamSectors head;
   if (um) {
     head.settings.decpt = um->decpt;
     set(head.settings.master, axes.master, um->decpt, "--master-pulse", problems);

@@ -94,7 +94,7 @@ void judge_limit(const Gauge& gauge, double room, double& worst, Verdict& verdic
 }
 
 /// Takes what pushes have found: values that hunt after one are beyond every limit.
-void judge_pushes(const std::optional<Hunting>& hunting, Verdict& verdict) {
+void judge_pushes(const std::optional<HuntingPoint>& hunting, Verdict& verdict) {
   if (!hunting) return;
   verdict.runs += 2;
   if (!hunting->failure.empty()) return;

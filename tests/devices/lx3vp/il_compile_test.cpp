@@ -281,7 +281,7 @@ TEST(IlCompile, RandomTextNeverCrashes) {
     ++sound;
     Registers registers;
     Notes notes;
-    Scanner scanner(program);
+    ProgramScan scanner(program);
     scanner.scan(registers, notes);
   }
   EXPECT_GT(sound, 10);

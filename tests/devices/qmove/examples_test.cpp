@@ -43,7 +43,8 @@ TEST_P(QmoveExamples, CompileWithoutAProblem) {
       parse_configuration(contents(cnf), cnf.filename(), catalogue(), problems);
   for (const Problem& problem : problems)
     if (problem.what.starts_with("unknown device type")) GTEST_SKIP() << to_string(problem);
-  const Program program = compile_module(contents(mod), mod.filename(), configuration, catalogue(), problems);
+  const QclProgram program =
+      compile_module(contents(mod), mod.filename(), configuration, catalogue(), problems);
   for (const Problem& problem : problems) ADD_FAILURE() << to_string(problem);
   EXPECT_FALSE(program.code.empty());
 }

@@ -146,7 +146,7 @@ struct Bench {
 
   explicit Bench(const std::vector<std::string>& modules, int cycle_ms = 1, std::string_view cnf = usual_cnf)
       : configuration(parse_configuration(cnf, "test.cnf", puppets(), problems)) {
-    std::vector<Program> programs;
+    std::vector<QclProgram> programs;
     for (std::size_t i = 0; i < modules.size(); ++i)
       programs.push_back(compile_module(modules[i], "task" + std::to_string(i) + ".mod", configuration,
                                         puppets(), problems));
