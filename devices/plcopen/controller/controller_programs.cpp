@@ -30,14 +30,14 @@ class Namer {
   }
 
   void run() {
-    while (tokens_[at_].kind != Token::Kind::end) {
-      const Token& token = tokens_[at_];
+    while (tokens_[at_].kind != StToken::Kind::end) {
+      const StToken& token = tokens_[at_];
       if (token.is("(")) {
         calls_.push_back(std::exchange(chain_, ""));
       } else if (token.is(")")) {
         if (!calls_.empty()) calls_.pop_back();
         chain_.clear();
-      } else if (token.kind == Token::Kind::name) {
+      } else if (token.kind == StToken::Kind::name) {
         word();
         continue;
       } else {
@@ -48,12 +48,12 @@ class Namer {
   }
 
  private:
-  [[nodiscard]] const Token& ahead(std::size_t count) const {
+  [[nodiscard]] const StToken& ahead(std::size_t count) const {
     return tokens_[std::min(at_ + count, tokens_.size() - 1)];
   }
 
   void word() {
-    const Token& token = tokens_[at_];
+    const StToken& token = tokens_[at_];
     if (token.word("PROGRAM") || token.word("FUNCTION_BLOCK") || token.word("FUNCTION")) {
       enter(ahead(1).text);
       at_ += 2;
@@ -78,7 +78,7 @@ class Namer {
   std::string chain() {
     std::string all(tokens_[at_++].text);
     for (;;) {
-      if (tokens_[at_].is(".") && ahead(1).kind == Token::Kind::name) {
+      if (tokens_[at_].is(".") && ahead(1).kind == StToken::Kind::name) {
         all += "." + std::string(ahead(1).text);
         at_ += 2;
       } else if (const auto size = fixed_index(all); size > 0) {
@@ -119,7 +119,7 @@ class Namer {
   const st::Compiled& code_;
   const std::map<std::string, std::size_t>& symbols_;
   ProgramText& told_;
-  std::vector<Token> tokens_;
+  std::vector<StToken> tokens_;
   std::size_t at_ = 0;
   std::string chain_;                  ///< the name just read: what a parenthesis behind it calls
   std::vector<std::string> calls_;     ///< what the open parentheses call, "" = nothing
