@@ -10,4 +10,7 @@ namespace drycut::devices::lx3vp::il {
 /// OUT, or with OUT and SET; a type of cam that ECAMTBX does not know.
 std::vector<std::string> doubts(const Program& program);
 
+/// A DECAM on another block than any ECAMTBX makes, where one makes a block that no DECAM runs; "" = none.
+std::string strange_block(const Program& program);
+
 }  // namespace drycut::devices::lx3vp::il

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "devices/lx3vp/il_doubts.hpp"
 #include "devices/lx3vp/lx3vp_controller.hpp"
 
 namespace drycut::devices::lx3vp {
@@ -75,6 +76,12 @@ ProgramPositions Lx3vpController::positions(std::int64_t) const {
   told.tasks.push_back(std::move(scan));
   told.scanned.push_back(scanner_.scanned());
   return told;
+}
+
+std::vector<Controller::ProgramDoubt> Lx3vpController::doubts() const {
+  auto block = il::strange_block(program_);
+  if (block.empty()) return {};
+  return {{std::move(block)}};
 }
 
 }  // namespace drycut::devices::lx3vp

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/cams/overlay.hpp"
+#include "sim/cams/judged.hpp"
 #include "sim/cams/page.hpp"
 #include "sim/cams/study.hpp"
 #include "sim/loop/played_cams.hpp"
