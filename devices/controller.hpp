@@ -238,6 +238,13 @@ class Controller {
   /// Where the programs stand. `time_ns`: the time until which it has run.
   [[nodiscard]] virtual ProgramPositions positions(std::int64_t /*time_ns*/) const { return {}; }
 
+  /// What its programs say that is no fault and hardly meant.
+  struct ProgramDoubt {
+    std::string text;        ///< "cycle.mod:12: gaQuota[2] is read, and no task sets it: it stays 0"
+    std::string value = {};  ///< which the text holds for unless it is set from outside; "" = always
+  };
+  [[nodiscard]] virtual std::vector<ProgramDoubt> doubts() const { return {}; }
+
   /// Where programs wait now: at a condition, or for the command of a block that has never come.
   [[nodiscard]] virtual std::vector<ProgramWait> waits() { return {}; }
 
@@ -253,6 +260,15 @@ class Controller {
     std::optional<Address> zero = {};            ///< the interrupt line of its zero pulse
     std::function<double()> counts_at_10v = {};  ///< its parameters' speed at 10 V [bits x4/s], 0 = none
   };
+  /// What a counter's counts are to the axis that reads them, as its parameters have it now.
+  struct CountedUnit {
+    std::string axis;
+    std::string name;  ///< "AxisX: measurem, pulsem"
+    Address counter;
+    double counts = 0;  ///< [bits x4] of one unit
+  };
+  [[nodiscard]] virtual std::vector<CountedUnit> counted_units() const { return {}; }
+
   /// What they read stays valid as long as the controller.
   [[nodiscard]] virtual std::vector<PositionLoop> position_loops() { return {}; }
 

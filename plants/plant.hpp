@@ -381,6 +381,7 @@ struct PlugScale {
   double value = 0;  ///< encoder: counts (x4) a metre or radian of what is driven; reference: its speed at 10
                      ///< V [m/s or rad/s]
   bool turns = false;  ///< what is driven turns: radians
+  double radius = 0;   ///< of what turns: where it touches the material [m], 0 = it does not
 };
 
 /// A machine or a part of a line. Bodies live in the World; everything else that acts is explicit.

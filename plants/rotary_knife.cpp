@@ -117,7 +117,7 @@ std::vector<Port> RotaryKnife::ports() {
 std::optional<PlugScale> RotaryKnife::scale_of(std::string_view port) const {
   if (port == "encoder")
     return PlugScale{4.0 * data_.encoder.lines * (data_.encoder_on_drum ? 1 : data_.gear.ratio) / units::turn,
-                     true};
+                     true, radius_};
   if (port == "servo.reference") return PlugScale{data_.drive.servo.speed_at_10v / data_.gear.ratio, true};
   return {};
 }

@@ -89,6 +89,26 @@ std::vector<std::string> doubts(const IlProgram& program) {
   return notes;
 }
 
+std::string strange_block(const IlProgram& program) {
+  const Operand* made = nullptr;
+  const Step* running = nullptr;
+  for (const auto& step : program.steps) {
+    const bool makes = step.op() == Op::ecamtbx && step.operands.size() > 2;
+    if (step.indexed && (makes || step.op() == Op::decam)) return "";
+    if (makes) made = &step.operands[2];
+    if (step.op() == Op::decam) running = &step;
+  }
+  if (made == nullptr || running == nullptr) return "";
+  for (const auto& making : program.steps)
+    for (const auto& decam : program.steps)
+      if (making.op() == Op::ecamtbx && decam.op() == Op::decam &&
+          making.operands[2].number == decam.operands[1].number)
+        return "";
+  const auto& block = running->operands[1];
+  return fmt::format("{}:{}:{}: DECAM runs the cam block at {}, and ECAMTBX makes the one at {}",
+                     program.file, running->line, block.column, to_string(block), to_string(*made));
+}
+
 void drive_outputs(const Registers& registers, const Step& step, bool powered, Instructions& instructions) {
   if (step.op() == Op::decam) return instructions.decam(step.number, decam_operands(step), powered);
   using enum PulseOrder::Kind;

@@ -77,4 +77,10 @@ ProgramPositions Lx3vpController::positions(std::int64_t) const {
   return told;
 }
 
+std::vector<Controller::ProgramDoubt> Lx3vpController::doubts() const {
+  auto block = il::strange_block(program_);
+  if (block.empty()) return {};
+  return {{std::move(block)}};
+}
+
 }  // namespace drycut::devices::lx3vp

@@ -1,6 +1,7 @@
 #include "devices/qmove/qmove_controller.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstddef>
 #include <limits>
@@ -309,6 +310,42 @@ std::vector<Controller::PositionLoop> QmoveController::position_loops() {
     loops.push_back(std::move(loop));
   }
   return loops;
+}
+
+std::vector<Controller::CountedUnit> QmoveController::counted_units() const {
+  // Of the first counter of a device and of its master's; cntratio is in 1/100000 of a unit a pulse of 4
+  // bits.
+  struct Ratio {
+    std::string_view units;
+    std::string_view counts;  ///< "" = that many counts, below
+    double fixed;
+  };
+  constexpr std::array<std::array<Ratio, 2>, 2> ratios{
+      {{{{"measure", "pulse", 0}, {"cntratio", "", 400000}}}, {{{"measurem", "pulsem", 0}, {"", "", 0}}}}};
+  std::vector<CountedUnit> units;
+  for (std::size_t i = 0; i < machine_.devices.size(); ++i) {
+    const DeviceRecord& record = configuration_.devices[i];
+    const Device& device = *machine_.devices[i];
+    std::size_t number = 0;
+    for (std::size_t f = 0; f < record.resources.size(); ++f) {
+      if (device.type().fields[f].kind != Field::Kind::counter) continue;
+      if (number == ratios.size()) break;
+      const auto& address = record.resources[f].address;
+      for (const Ratio& ratio : ratios[number]) {
+        const auto measure = find_symbol(device.type(), ratio.units);
+        const auto pulse = find_symbol(device.type(), ratio.counts);
+        if (!address || !measure || (!pulse && !ratio.counts.empty()) || device.read(*measure) == 0) continue;
+        const double counts = pulse ? device.read(*pulse) : ratio.fixed;
+        units.push_back(
+            {record.name,
+             fmt::format("{}: {}", record.name,
+                         pulse ? fmt::format("{}, {}", ratio.units, ratio.counts) : std::string(ratio.units)),
+             *address, counts / device.read(*measure)});
+      }
+      ++number;
+    }
+  }
+  return units;
 }
 
 std::variant<const ModbusFace*, std::string> QmoveController::modbus() const {

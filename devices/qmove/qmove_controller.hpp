@@ -72,6 +72,8 @@ class QmoveController : public Controller {
   [[nodiscard]] ProgramPositions positions(std::int64_t time_ns) const override;
   [[nodiscard]] std::vector<ProgramWait> waits() override;
   [[nodiscard]] std::vector<PositionLoop> position_loops() override;
+  [[nodiscard]] std::vector<CountedUnit> counted_units() const override;
+  [[nodiscard]] std::vector<ProgramDoubt> doubts() const override;
 
   [[nodiscard]] bool has_events() const override { return !events_.empty(); }
   std::vector<ControllerEvent> take_events() override;

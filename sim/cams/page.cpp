@@ -10,8 +10,8 @@
 
 #include "base/shown_units.hpp"
 #include "base/text.hpp"
+#include "sim/cams/judged.hpp"
 #include "sim/cams/overlay.hpp"
-#include "sim/cams/study.hpp"
 
 namespace drycut::sim::cams {
 
@@ -29,19 +29,6 @@ std::string file_name(const std::string& axis) {
   }
   while (!name.empty() && name.back() == '_') name.pop_back();
   return name.empty() ? "cam" : name;
-}
-
-/// Its four first digits, as a person would give it.
-double rounded(double speed) { return std::strtod(fmt::format("{:.4g}", speed).c_str(), nullptr); }
-
-MasterRange range_of(const loop::PlayedCam& played) {
-  MasterRange range;
-  for (std::size_t i = 0; i < played.samples.size(); ++i) {
-    const double master = played.samples[i].master;
-    range.first = i == 0 ? master : std::min(range.first, master);
-    range.last = i == 0 ? master : std::max(range.last, master);
-  }
-  return range;
 }
 
 renders::ReportRow row_of(const CamPeak& peak, const std::string& master_unit) {
@@ -120,18 +107,11 @@ renders::ReportTable played_table(const IdealCam& ideal, const CamErrors& errors
 /// One page, made step by step.
 class PageMaker {
  public:
-  PageMaker(const loop::PlayedCam& played, std::string title, std::string name) : played_(played) {
+  PageMaker(const loop::PlayedCam& played, std::string title, const std::string& name)
+      : played_(played), cam_(judged(played, name)) {
     page_.title = std::move(title);
-    page_.name = std::move(name);
-    page_.table = played.text;
-    const auto file = page_.name + ".csv";
-    if (played.table) {
-      table_ = *played.table;
-      page_.table = cam_file(table_, file);
-    }
-    // Also of a table that was written just now: will drycut cam take the file?
-    auto read = read_cam(played.table ? played.table->kind() : "mc_camin", page_.table, file, problems_);
-    if (!played.table) table_ = std::move(read);
+    page_.name = name;
+    page_.table = cam_.text;
   }
 
   CamPage make() {
@@ -142,75 +122,50 @@ class PageMaker {
           fmt::format("Shown and measured over the last {} samples, from {:.1f} s on; {} "
                       "before them are left out.",
                       played_.samples.size(), seconds(played_.samples.front().time), played_.left_out));
-    if (problems_.empty()) ideal_ = ideal_cam(table_, range_of(played_));
     draw_cam();
-    if (!ideal_.silence.empty())
+    if (!cam_.ideal.silence.empty())
       page_.notes.push_back(
-          fmt::format("The ideal ends where the table alone does not say it: {}.", ideal_.silence));
+          fmt::format("The ideal ends where the table alone does not say it: {}.", cam_.ideal.silence));
     draw_run();
     return std::move(page_);
   }
 
  private:
   void draw_cam() {
-    CamRequest request;
-    request.plot_name = "cam_" + page_.name;
-    const double fastest = fastest_master(played_) * ideal_.speed_scale;
-    if (!gives_master_speed(table_) && fastest > 0) request.duty.master_speed = rounded(fastest);
-    CamStudy study;
-    if (problems_.empty()) study = study_cam(table_, request, problems_);
-    if (!problems_.empty()) {
+    if (!cam_.problems.empty()) {
       page_.notes.push_back(
-          fmt::format("drycut cam does not take this table: {}", to_string(problems_.front())));
+          fmt::format("drycut cam does not take this table: {}", to_string(cam_.problems.front())));
       return;
     }
+    auto& study = cam_.study;
     for (std::size_t begin = 0; begin < study.text.heading.size();) {
       const auto end = study.text.heading.find('\n', begin);
       page_.notes.push_back(study.text.heading.substr(begin, end - begin));
       begin = end == std::string::npos ? end : end + 1;
     }
-    if (request.duty.master_speed)
+    if (cam_.master_speed > 0)
       page_.notes.emplace_back("Judged at the fastest that the master was while the cam was played.");
     if (!study.plot.panels.empty()) page_.plots.push_back(std::move(study.plot));
-    page_.tables.push_back(feasibility(study, ideal_.master_unit));
+    page_.tables.push_back(feasibility(study, cam_.ideal.master_unit));
     for (const auto& [name, columns] : study.text.tables) page_.tables.push_back(table_of(name, columns));
   }
 
   void draw_run() {
-    const auto errors = errors_of(played_, ideal_);
-    const auto cycles = cycles_of(played_, ideal_);
+    const auto errors = errors_of(played_, cam_.ideal);
+    const auto cycles = cycles_of(played_, cam_.ideal);
     const auto* shown = shown_cycle(cycles);
     if (shown == nullptr || shown->first == shown->last) return;
     page_.plots.push_back(
-        overlay_plot(played_, ideal_, errors, cycles, *shown, "cam_" + page_.name + "_played"));
-    page_.tables.insert(page_.tables.begin(), played_table(ideal_, errors, cycles));
+        overlay_plot(played_, cam_.ideal, errors, cycles, *shown, "cam_" + page_.name + "_played"));
+    page_.tables.insert(page_.tables.begin(), played_table(cam_.ideal, errors, cycles));
   }
 
   const loop::PlayedCam& played_;
-  devices::CamTable table_;
-  Problems problems_;
-  IdealCam ideal_;
+  JudgedCam cam_;
   CamPage page_;
 };
 
 }  // namespace
-
-double fastest_master(const loop::PlayedCam& played) {
-  constexpr Time window = 20 * millisecond;
-  double fastest = 0;
-  std::size_t first = 0;
-  for (std::size_t i = 0; i < played.samples.size(); ++i) {
-    const auto& last = played.samples[i];
-    if (last.begins) first = i;
-    while (first + 1 < i && last.time - played.samples[first + 1].time >= window) ++first;
-    if (first == i) continue;
-    const double way = std::abs(last.master - played.samples[first].master);
-    const Time span = last.time - played.samples[first].time;
-    // Two samples that are near to each other tell more of the device's sampling than of the master.
-    if (span >= window) fastest = std::max(fastest, way / seconds(span));
-  }
-  return fastest;
-}
 
 std::vector<CamPage> cam_pages(const std::vector<loop::PlayedCam>& played) {
   std::map<std::string, int> all;

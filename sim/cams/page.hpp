@@ -22,8 +22,4 @@ struct CamPage {
 /// A page a table, in the order of their first start.
 std::vector<CamPage> cam_pages(const std::vector<loop::PlayedCam>& played);
 
-/// The fastest that the master was while the cam was played, over 20 ms or a record period [its unit/s]; 0 if
-/// it never was so long, or stood.
-double fastest_master(const loop::PlayedCam& played);
-
 }  // namespace drycut::sim::cams

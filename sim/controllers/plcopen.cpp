@@ -176,18 +176,6 @@ void check_tasks(const plcopen::st::Program& program, const std::string& file, c
                                                 did_you_mean(wanted.text, names)));
 }
 
-/// True if the scenario sets the value, before power-up or in its timeline.
-bool sets(const scenario::Scenario& scenario, const PlcopenSection& section, const std::string& value) {
-  const auto names_it = [&](const auto& list) {
-    return std::any_of(list.begin(), list.end(),
-                       [&](const auto& entry) { return same_word(entry.first.text, value); });
-  };
-  return names_it(section.set) || std::any_of(scenario.timeline.begin(), scenario.timeline.end(),
-                                              [&](const scenario::Stimulus& stimulus) {
-                                                return names_it(stimulus.set) || names_it(stimulus.ramp);
-                                              });
-}
-
 /// The kernel's own v_phasing is so slow that a slave seems to hang on its way to the cam. MC_GearIn does not
 /// need it: a gear has no place to go to.
 void note_slow_phasing(const plcopen::st::Program& program, const PlcopenSection& section,
@@ -199,7 +187,7 @@ void note_slow_phasing(const plcopen::st::Program& program, const PlcopenSection
     const bool encoder = parameters.kind == plcopen::AxisKind::encoder;
     if (encoder || parameters.is_master) continue;  // masters
     const auto name = fmt::format("{}.{}", axis.name.text, phasing.name);
-    if (parameters.v_phasing != plcopen::AxisParameters{}.v_phasing || sets(scenario, section, name))
+    if (parameters.v_phasing != plcopen::AxisParameters{}.v_phasing || scenario::sets(scenario, name))
       continue;
     notes.push_back(fmt::format(
         "{} is at its default, {}: MC_CamIn will hardly reach its cam; give v_phasing, a_phasing, "

@@ -214,7 +214,8 @@ std::string Causes::of(const std::vector<record::CheckResult>& checks, const Kno
   if (found_nothing(checks) && !known.hindrances.empty())
     return first_error(failed_at.value_or(ever)) != nullptr
                ? cause + joined(known.hindrances.front())
-               : fmt::format("because {}; {}", known.hindrances.front(), cause.substr(cause.find(' ') + 1));
+               : fmt::format("because {}; {}", known.hindrances.front(), cause.substr(cause.find(' ') + 1)) +
+                     (known.doubts.empty() ? "" : joined(known.doubts.front()));
   return errors_.empty() || known.doubts.empty() ? cause : cause + joined(known.doubts.front());
 }
 
@@ -233,7 +234,8 @@ std::string Causes::last_resort(const std::vector<record::CheckResult>& checks, 
     if (failed_at && std::abs(blow.at - *failed_at) <= soon)
       return fmt::format("{} {}", blow.at <= *failed_at ? "after" : "shortly before", text_of(blow));
   const auto set = last_set(sets_, checks);
-  return set.empty() ? "" : "after " + set;
+  if (!set.empty()) return "after " + set;
+  return known.cautions.empty() ? "" : "while " + known.cautions.front();
 }
 
 }  // namespace drycut::sim::loop

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 
 #include "base/text.hpp"
@@ -150,6 +151,80 @@ std::vector<std::string> contradicting_speeds(const scenario::Scenario& scenario
         fmt::format("{}: by its parameters 10 V are {:.0f} counts/s (maxvel, unitvel, decpt, counts a "
                     "unit), by {} and {} {:.0f}",
                     loop.name, told, driven->plug.text, counted->plug.text, given));
+  }
+  return found;
+}
+
+namespace {
+
+/// How far a length is from a power of ten of `base`: 0.1 mm, 1 mm, 10 mm ... are 0.
+bool is_round(double value, double base) {
+  constexpr double tolerance = 0.001;  // 0.23 %
+  const double decades = std::log10(value / base);
+  return std::abs(decades - std::round(decades)) < tolerance;
+}
+
+}  // namespace
+
+namespace {
+
+/// A unit of an axis as the machine has it.
+struct MachineUnit {
+  devices::Controller::CountedUnit counted;
+  std::string plug;
+  double length = 0;  ///< [m], 0 = it turns and touches no material
+  double angle = 0;   ///< [rad], 0 = it does not turn
+
+  [[nodiscard]] std::string text() const {
+    return fmt::format("{} make a unit of {} that is {}", counted.name, plug,
+                       length > 0 ? fmt::format("{:.4g} mm", length * 1000)
+                                  : fmt::format("{:.4g} deg", angle * 180 / std::numbers::pi));
+  }
+};
+
+std::vector<MachineUnit> machine_units(const scenario::Scenario& scenario, devices::Controller& controller,
+                                       const std::vector<NamedPlant>& plants) {
+  std::vector<MachineUnit> units;
+  for (auto& unit : controller.counted_units()) {
+    const auto* wire = wire_at(scenario, controller, unit.counter);
+    const auto scale = wire != nullptr ? scale_of(plants, wire->plug.text) : std::nullopt;
+    if (!scale || unit.counts <= 0) continue;
+    const double way = unit.counts / scale->value;
+    units.push_back(
+        {std::move(unit), wire->plug.text, scale->turns ? way * scale->radius : way, scale->turns ? way : 0});
+  }
+  return units;
+}
+
+}  // namespace
+
+std::vector<std::string> strange_units(const scenario::Scenario& scenario, devices::Controller& controller,
+                                       const std::vector<NamedPlant>& plants) {
+  constexpr double millimetre = 1e-3;
+  constexpr double inch = 25.4e-3;
+  constexpr double degree = std::numbers::pi / 180;
+  std::vector<std::string> found;
+  for (const auto& unit : machine_units(scenario, controller, plants)) {
+    const bool of_length =
+        unit.length > 0 && (is_round(unit.length, millimetre) || is_round(unit.length, inch));
+    const bool of_angle =
+        unit.angle > 0 && (is_round(unit.angle, degree) || is_round(unit.angle, 360 * degree));
+    if (!of_length && !of_angle) found.push_back(unit.text());
+  }
+  return found;
+}
+
+std::vector<std::string> different_units(const scenario::Scenario& scenario, devices::Controller& controller,
+                                         const std::vector<NamedPlant>& plants) {
+  constexpr double tolerance = 0.01;
+  const auto units = machine_units(scenario, controller, plants);
+  std::vector<std::string> found;
+  for (std::size_t i = 1; i < units.size(); ++i) {
+    const auto& own = units[i - 1];
+    const auto& master = units[i];
+    if (own.counted.axis != master.counted.axis || own.length == 0 || master.length == 0) continue;
+    if (std::abs(own.length - master.length) > tolerance * own.length)
+      found.push_back(fmt::format("{}, {}", own.text(), master.text()));
   }
   return found;
 }

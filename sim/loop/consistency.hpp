@@ -35,6 +35,15 @@ std::vector<std::string> contradicting_speeds(const scenario::Scenario& scenario
                                               devices::Controller& controller,
                                               const std::vector<NamedPlant>& plants);
 
+/// Counters whose counts make units of no round length or angle, a phrase each: "AxisX: measurem, pulsem make
+/// a unit of web.wheel that is 0.4 mm". Asked when the program has set the parameters.
+std::vector<std::string> strange_units(const scenario::Scenario& scenario, devices::Controller& controller,
+                                       const std::vector<NamedPlant>& plants);
+
+/// The same of axes whose unit is another length than that of their master.
+std::vector<std::string> different_units(const scenario::Scenario& scenario, devices::Controller& controller,
+                                         const std::vector<NamedPlant>& plants);
+
 /// Terminals that nothing is wired to, a phrase each: "Y1 gives pulses, and nothing is wired to it".
 struct OpenTerminals {
   std::vector<std::string> moving;  ///< pulses, references, counters: without them nothing moves as it should

@@ -18,6 +18,7 @@
 #include "sim/loop/drive_judge.hpp"
 #include "sim/loop/hunting.hpp"
 #include "sim/loop/names.hpp"
+#include "sim/loop/odd_parameters.hpp"
 #include "sim/loop/opcua_names.hpp"
 #include "sim/loop/overwritten.hpp"
 #include "sim/loop/played_cams.hpp"
@@ -110,6 +111,10 @@ void Simulation::compare_with_machine() {
   *open_ = open_terminals(*controller_, bus_.unwired(), named_);
   warnings_ = open_->moving;
   warnings_.insert(warnings_.end(), open_->others.begin(), open_->others.end());
+  for (auto& doubt : controller_->doubts())
+    if (doubt.value.empty() || !scenario::sets(scenario_, doubt.value))
+      doubts_of_program_.push_back(doubt.text);
+  warnings_.insert(warnings_.end(), doubts_of_program_.begin(), doubts_of_program_.end());
   for (auto& doubt : doubtful_wires(scenario_, *controller_)) warnings_.push_back(std::move(doubt));
 }
 
@@ -196,8 +201,9 @@ void Simulation::keep_nothing() {
   shutter_->close();
 }
 
-void Simulation::follow_cams() {
+void Simulation::follow_cams(CamJudge judge) {
   if (!controller_) return;
+  judge_cams_ = std::move(judge);
   // A servo behind a pulse output tells on its own channel how far it is behind.
   const auto deviation = [this](const devices::Address& pulses) -> std::function<double()> {
     constexpr std::string_view train = ".pulses";
@@ -342,7 +348,7 @@ std::vector<std::string> Simulation::notes() const {
     notes.push_back(text_of(*strobe, scenario_.pictures, scenario_.scene.step));
   if (time_ > 0)  // it ran
     for (auto& undone : timeline_->left_undone(time_)) notes.push_back(std::move(undone));
-  for (auto& speed : contradicting_speeds()) notes.push_back(std::move(speed));
+  for (auto& told : contradicting_parameters()) notes.push_back(std::move(told));
   if (directions_)
     for (const auto& found : directions_->found()) notes.push_back(found.text);
   if (standing_ && time_ > 0)
@@ -391,9 +397,11 @@ record::Outcome Simulation::run(const std::function<void(Time)>& progress) {
   return outcome();
 }
 
-std::vector<std::string> Simulation::contradicting_speeds() const {
+std::vector<std::string> Simulation::contradicting_parameters() const {
   if (!controller_ || time_ == 0) return {};
-  return loop::contradicting_speeds(scenario_, *controller_, named_);
+  auto found = strange_units(scenario_, *controller_, named_);
+  for (auto& speed : contradicting_speeds(scenario_, *controller_, named_)) found.push_back(std::move(speed));
+  return found;
 }
 
 std::string Simulation::unpressed() const {
@@ -414,12 +422,16 @@ std::string Simulation::unpressed() const {
   return unpressed;
 }
 
-Causes::Known Simulation::known() {
+Causes::Known Simulation::known(const std::vector<CamDoubt>& cams) {
   Causes::Known known;
   known.contradictions = contradictions_;
+  for (const auto& cam : cams)
+    if (cam.is_slip) known.contradictions.push_back(cam.text);
+  known.contradictions.insert(known.contradictions.end(), doubts_of_program_.begin(),
+                              doubts_of_program_.end());
   for (const auto* open : {&open_->moving, &open_->others})
     known.contradictions.insert(known.contradictions.end(), open->begin(), open->end());
-  for (auto& speed : contradicting_speeds()) known.contradictions.push_back(std::move(speed));
+  for (auto& told : contradicting_parameters()) known.contradictions.push_back(std::move(told));
   for (const auto& found : directions_ ? directions_->found() : std::vector<Directions::Found>())
     known.astray.emplace_back(found.at, found.text);
   if (hunting_) known.hunting = hunting_->found();
@@ -449,6 +461,11 @@ Causes::Known Simulation::known() {
     for (auto& text : whereabouts_ ? whereabouts_->texts() : std::vector<std::string>())
       known.doubts.push_back(std::move(text));
     for (auto& doubt : doubtful_wires(scenario_, *controller_)) known.doubts.push_back(std::move(doubt));
+    for (auto& units : different_units(scenario_, *controller_, named_))
+      known.doubts.push_back(std::move(units));
+    for (auto& odd : odd_parameters(*controller_)) known.doubts.push_back(std::move(odd));
+    for (const auto& cam : cams)
+      if (!cam.is_slip) known.cautions.push_back(cam.text);
   }
   if (auto first = unpressed(); !first.empty())
     known.hindrances.push_back(first + (standing.empty() ? "" : "; " + standing));
@@ -487,9 +504,12 @@ record::Outcome Simulation::outcome() {
     for (const auto& drive : outcome.drives)
       outcome.warnings.insert(outcome.warnings.end(), drive.warnings.begin(), drive.warnings.end());
   if (controller_ && time_ > 0) warn_of_program(outcome.warnings);
+  const auto cams = cams_ && judge_cams_ ? judge_cams_(cams_->played()) : std::vector<CamDoubt>();
+  for (const auto& cam : cams)
+    if (cam.is_slip) outcome.warnings.push_back(cam.text);
   outcome.alarms = causes_.alarms();
   if (outcome.failure.empty() && !outcome.passed()) {
-    auto known = this->known();
+    auto known = this->known(cams);
     if (!missed) known.hindrances.clear();  // only ratings, or what no check asks about
     outcome.cause = causes_.of(outcome.checks, known);
   }

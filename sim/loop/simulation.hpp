@@ -11,6 +11,7 @@
 #include "plants/plant.hpp"
 #include "plants/world.hpp"
 #include "sim/loop/bus.hpp"
+#include "sim/loop/cam_doubt.hpp"
 #include "sim/loop/causes.hpp"
 #include "sim/record/recording.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -55,8 +56,9 @@ class Simulation {
   void write_to(std::unique_ptr<record::Observer> files, const std::filesystem::path& folder);
   /// Keeps nothing for pictures of the run: no rows, no events, no poses. Before run().
   void keep_nothing();
-  /// Keeps what the controller's cams play, for pictures of it; before run().
-  void follow_cams();
+  /// Keeps what the controller's cams play, for pictures of it; before run(). What `judge` has against them
+  /// is part of the outcome.
+  void follow_cams(CamJudge judge = {});
   /// What was kept; nullptr if nothing was asked for.
   [[nodiscard]] const CamRecorder* cams() const { return cams_.get(); }
 
@@ -145,9 +147,9 @@ class Simulation {
   void compare_with_machine();
   void look_after_program();
   /// What the run knows besides of why it failed.
-  [[nodiscard]] Causes::Known known();
+  [[nodiscard]] Causes::Known known(const std::vector<CamDoubt>& cams);
   /// Of the parameters that the program has set.
-  [[nodiscard]] std::vector<std::string> contradicting_speeds() const;
+  [[nodiscard]] std::vector<std::string> contradicting_parameters() const;
   /// What may be a slip in a run that was sound else: tasks that ended at once, values set in vain.
   void warn_of_program(std::vector<std::string>& warnings);
   /// Switches that nobody pressed.
@@ -180,6 +182,7 @@ class Simulation {
   record::Recording recording_;
   std::unique_ptr<record::Observer> files_;
   std::unique_ptr<CamRecorder> cams_;
+  CamJudge judge_cams_;
   std::size_t events_seen_ = 0;
   Time next_record_ = 0;
   std::unique_ptr<Shutter> shutter_;
@@ -199,6 +202,7 @@ class Simulation {
   std::string failure_;
   std::vector<std::string> notes_of_setup_;
   std::unique_ptr<OpenTerminals> open_;
+  std::vector<std::string> doubts_of_program_;
   std::vector<std::string> warnings_;
   std::vector<std::string> contradictions_;  ///< of controller and machine; among those notes too
   std::string program_error_;                ///< first run-time error of the controller's program

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "renders/gltf.hpp"
+#include "sim/cams/judged.hpp"
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/shutter.hpp"
 #include "sim/record/hdf5_file.hpp"
@@ -48,10 +49,8 @@ void RunFolder::begin() {
 RunLeft RunFolder::run(const scenario::Scenario& scenario, loop::Simulation& simulation,
                        const PartMeshes& meshes, const RunRequest& request, RunResult& result) {
   const bool is_drawn = request.pictures || request.gltf;
-  if (request.pictures) {
-    simulation.follow_cams();
-    follow_torques(simulation);
-  }
+  simulation.follow_cams(cams::cam_doubts);
+  if (request.pictures) follow_torques(simulation);
   if (!is_drawn && !request.in_memory) simulation.keep_nothing();
   std::filesystem::path hdf5;
   if (scenario.record.format == scenario::RecordSection::Format::csv) {

@@ -237,6 +237,19 @@ ScenePlace Text::at(std::size_t offset) const {
   return base;
 }
 
+bool sets(const Scenario& scenario, std::string_view value) {
+  const auto names_it = [&](const auto& list) {
+    return std::any_of(list.begin(), list.end(), [&](const auto& entry) {
+      const std::string_view name = entry.first.text;
+      return same_word(name, value) || same_word(name.substr(name.rfind('.') + 1), value);
+    });
+  };
+  return (scenario.controller && names_it(scenario.controller->set)) ||
+         std::any_of(scenario.timeline.begin(), scenario.timeline.end(), [&](const Stimulus& stimulus) {
+           return names_it(stimulus.set) || names_it(stimulus.ramp);
+         });
+}
+
 Problem problem_at(const Scenario& scenario, const ScenePlace& place, std::string what, std::string remedy) {
   const auto source = static_cast<std::size_t>(place.source);
   const auto name = source < scenario.sources.size() ? scenario.sources[source] : scenario.file.string();

@@ -422,6 +422,10 @@ struct Trial {
   std::string value;
 };
 
+/// Whether it sets the controller's value, before power-up or in its timeline; a name alone is that of any
+/// program.
+bool sets(const Scenario& scenario, std::string_view value);
+
 /// A problem at a place of the scenario, with the right file name.
 Problem problem_at(const Scenario& scenario, const ScenePlace& place, std::string what, std::string remedy);
 

@@ -122,6 +122,20 @@ TEST(WhyItFailed, TenVoltsThatAreAnotherSpeedForTheAxisAreTold) {
       "axis.reference and axis.encoder 200000");
 }
 
+// 4 times the lines: a unit of the master is a quarter of 0.1 mm.
+TEST(WhyItFailed, AWheelWithOtherLinesThanTheProgramTakesIsTold) {
+  const auto outcome = outcome_of(lines / "rotary_knife_qmove.yaml",
+                                  {{"plants.web.wheel.lines", "10000"}, {"scene.duration", "8 s"}});
+  EXPECT_THAT(outcome.cause, StartsWith("because AxisX: measurem, pulsem make a unit of web.wheel that is "
+                                        "0.025 mm"));
+}
+
+TEST(WhyItFailed, AParameterThatHardlyAnAxisHasIsTold) {
+  EXPECT_THAT(cause_of(replaced(studies::tuning::program, "AxisX:setvel = 30000\n",
+                                "AxisX:setvel = 30000\nAxisX:feedfw = 90\n")),
+              HasSubstr("AxisX.feedfw is 90: 1000 is feed forward of the whole speed"));
+}
+
 TEST(WhyItFailed, ForwardAndBackwardSwappedAreTold) {
   TestFolder folder;
   const auto press = (lines / "vertical_press_qmove.yaml").string();

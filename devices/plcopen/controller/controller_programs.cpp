@@ -175,6 +175,13 @@ std::vector<ProgramWait> PlcopenController::waits() {
   return waits;
 }
 
+std::vector<Controller::ProgramDoubt> PlcopenController::doubts() const {
+  std::vector<ProgramDoubt> found;
+  for (const auto& [line, column, text, value] : program_.compiled().doubts)
+    found.push_back({fmt::format("{}:{}:{}: {}", file_, line, column, text), value});
+  return found;
+}
+
 std::vector<Controller::PositionLoop> PlcopenController::position_loops() {
   std::vector<PositionLoop> loops;
   for (std::size_t i = 0; i < plugs_.size(); ++i) {

@@ -226,6 +226,15 @@ struct Compiled {
   std::vector<StSymbol> symbols;
   std::vector<SymbolPlace> places;
 
+  /// What is no fault and hardly meant.
+  struct Doubt {
+    int line = 0;
+    int column = 0;
+    std::string text;
+    std::string value;  ///< which it holds for unless that is set from outside; "" = always
+  };
+  std::vector<Doubt> doubts;
+
   // For whoever watches it.
   std::string text;
   std::size_t user_nodes = 0;  ///< so many are of the text, those behind them of standard blocks

@@ -250,6 +250,21 @@ class Compiler : public Statements {
   void check_instances();
   void connect_instances();
 
+  // doubts.cpp
+  struct NameUse;
+  struct AxisPair {
+    Place place;
+    std::string master;
+    std::string slave;
+  };
+  void find_doubts();
+  [[nodiscard]] NameUse use_of(const Variable& variable, const Unit& unit) const;
+  [[nodiscard]] bool goes_out(std::size_t at, const Unit& unit) const;
+  [[nodiscard]] bool is_initialised(const Variable& variable) const;
+  void doubt_variable(const Variable& variable, const Type& owner, const NameUse& use);
+  [[nodiscard]] std::vector<AxisPair> axis_pairs(const Unit& unit, std::string_view block) const;
+  void doubt_selections(const Unit& unit);
+
   // layout.cpp
   void place_memory();
   void place_located();

@@ -45,6 +45,7 @@ std::shared_ptr<const Compiled> Compiler::run() {
   connect_instances();
   unit_ = nullptr;
   check_calls();
+  if (told() == 0) find_doubts();
   finish();
   sort();
   return code_;

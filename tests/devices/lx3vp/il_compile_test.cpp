@@ -317,5 +317,19 @@ TEST(IlDoubts, ATypeOfCamThatThereIsNot) {
               ::testing::ElementsAre("p.il:2:12: ECAMTBX has no type K102; write K0, K1, K100 or K101"));
 }
 
+TEST(IlDoubts, ABlockThatNothingMakes) {
+  const auto told = [](const std::string& made, const std::string& run) {
+    Problems problems;
+    const auto program = compile(
+        "LD M8002\nECAMTBX D0 K101 " + made + " D50\nLD M8000\nDECAM C251 " + run + " M15 Y0 Y4\nEND\n",
+        "p.il", problems);
+    EXPECT_TRUE(problems.empty());
+    return strange_block(program);
+  };
+  EXPECT_EQ(told("D1000", "D1000"), "");
+  EXPECT_EQ(told("D1000", "D1100"),
+            "p.il:4:12: DECAM runs the cam block at D1100, and ECAMTBX makes the one at D1000");
+}
+
 }  // namespace
 }  // namespace drycut::devices::lx3vp::il

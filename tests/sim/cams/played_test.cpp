@@ -7,6 +7,7 @@
 
 #include "devices/lx3vp/ecamtbx.hpp"
 #include "sim/cams/overlay.hpp"
+#include "sim/cams/judged.hpp"
 #include "sim/cams/page.hpp"
 #include "sim/cams/study.hpp"
 #include "sim/loop/played_cams.hpp"

@@ -1,0 +1,77 @@
+// What programs ask that nobody gives: variables that are read and never set, timers that never start.
+#include <map>
+#include <set>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "devices/qmove/qmove_controller.hpp"
+
+namespace drycut::devices::qmove {
+
+namespace {
+
+/// Who reads a cell or a timer first: "cycle.mod:12".
+using Readers = std::map<int, std::string>;
+
+struct Uses {
+  Readers read;
+  std::set<int> written;
+  Readers asked;
+  std::set<int> started;
+};
+
+/// An index that is a number names one cell; else all of the array may be read or written.
+void take_element(const QclProgram& program, std::size_t at, const std::string& place, Uses& uses) {
+  const Instruction& index = program.code[at];
+  const bool reads = at + 1 < program.code.size() && program.code[at + 1].op == QclOp::load_at;
+  const bool plain = at > 0 && program.code[at - 1].op == QclOp::push;
+  const int first = plain ? index.a + program.code[at - 1].a - 1 : index.a;
+  const int end = plain ? first + 1 : index.a + index.b;
+  for (int cell = first; cell < end; ++cell) {
+    if (!reads)
+      uses.written.insert(cell);
+    else if (plain)
+      uses.read.emplace(cell, place);
+  }
+}
+
+void take_uses(const QclProgram& program, Uses& uses) {
+  for (std::size_t i = 0; i < program.code.size(); ++i) {
+    const auto& [op, a, b] = program.code[i];
+    const auto place = fmt::format("{}:{}", program.file, program.lines[i]);
+    if (op == QclOp::load) uses.read.emplace(a, place);
+    if (op == QclOp::store) uses.written.insert(a);
+    if (op == QclOp::load_timer) uses.asked.emplace(a, place);
+    if (op == QclOp::store_timer) uses.started.insert(a);
+    if (op == QclOp::index) take_element(program, i, place, uses);
+  }
+}
+
+}  // namespace
+
+// Retentive values and recipes come from the panel.
+std::vector<Controller::ProgramDoubt> QmoveController::doubts() const {
+  Uses uses;
+  for (const QclProgram& program : programs_) take_uses(program, uses);
+  std::vector<ProgramDoubt> found;
+  for (const NamedThing& thing : names_.things()) {
+    const bool array = thing.kind == NamedThing::Kind::array;
+    if (thing.kind == NamedThing::Kind::timer && uses.asked.contains(thing.index) &&
+        !uses.started.contains(thing.index))
+      found.push_back({fmt::format("{}: the timer {} is asked, and no task starts it",
+                                   uses.asked[thing.index], thing.name),
+                       thing.name});
+    if ((thing.kind != NamedThing::Kind::scalar && !array) || thing.index >= names_.volatile_cells())
+      continue;
+    for (int cell = thing.index; cell < thing.index + cell_count(thing); ++cell) {
+      if (!uses.read.contains(cell) || uses.written.contains(cell)) continue;
+      const auto name = array ? fmt::format("{}[{}]", thing.name, cell - thing.index + 1) : thing.name;
+      found.push_back(
+          {fmt::format("{}: {} is read, and no task sets it: it stays 0", uses.read[cell], name), name});
+    }
+  }
+  return found;
+}
+
+}  // namespace drycut::devices::qmove

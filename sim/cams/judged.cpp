@@ -1,0 +1,94 @@
+#include "sim/cams/judged.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace drycut::sim::cams {
+
+namespace {
+
+/// Its four first digits, as a person would give it.
+double rounded(double speed) { return std::strtod(fmt::format("{:.4g}", speed).c_str(), nullptr); }
+
+MasterRange range_of(const loop::PlayedCam& played) {
+  MasterRange range;
+  for (std::size_t i = 0; i < played.samples.size(); ++i) {
+    const double master = played.samples[i].master;
+    range.first = i == 0 ? master : std::min(range.first, master);
+    range.last = i == 0 ? master : std::max(range.last, master);
+  }
+  return range;
+}
+
+}  // namespace
+
+double fastest_master(const loop::PlayedCam& played) {
+  constexpr Time window = 20 * millisecond;
+  double fastest = 0;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < played.samples.size(); ++i) {
+    const auto& last = played.samples[i];
+    if (last.begins) first = i;
+    while (first + 1 < i && last.time - played.samples[first + 1].time >= window) ++first;
+    if (first == i) continue;
+    const double way = std::abs(last.master - played.samples[first].master);
+    const Time span = last.time - played.samples[first].time;
+    // Two samples that are near to each other tell more of the device's sampling than of the master.
+    if (span >= window) fastest = std::max(fastest, way / seconds(span));
+  }
+  return fastest;
+}
+
+JudgedCam judged(const loop::PlayedCam& played, const std::string& name) {
+  JudgedCam cam{played.text, {}, {}};
+  const auto file = name + ".csv";
+  if (played.table) {
+    cam.table = *played.table;
+    cam.text = cam_file(cam.table, file);
+  }
+  // Also of a table that was written just now: will drycut cam take the file?
+  auto read = read_cam(played.table ? played.table->kind() : "mc_camin", cam.text, file, cam.problems);
+  if (!played.table) cam.table = std::move(read);
+  if (!cam.problems.empty()) return cam;
+  cam.ideal = ideal_cam(cam.table, range_of(played));
+  CamRequest request;
+  request.plot_name = "cam_" + name;
+  if (!gives_master_speed(cam.table))
+    cam.master_speed = rounded(fastest_master(played) * cam.ideal.speed_scale);
+  if (cam.master_speed > 0) request.duty.master_speed = cam.master_speed;
+  cam.study = study_cam(cam.table, request, cam.problems);
+  return cam;
+}
+
+std::vector<loop::CamDoubt> cam_doubts(const std::vector<loop::PlayedCam>& played) {
+  constexpr std::size_t most = 3;  // of a cam
+  std::vector<loop::CamDoubt> doubts;
+  for (const auto& one : played) {
+    const auto cam = judged(one, "cam");
+    if (!cam.problems.empty()) continue;
+    // What is wrong at any speed is wrong with the table; else its master may have been too fast.
+    constexpr double slow = 1e-3;
+    CamRequest slowly;
+    if (cam.master_speed > 0) slowly.duty.master_speed = slow * cam.master_speed;
+    Problems none;
+    const auto at_slow_speed = study_cam(cam.table, slowly, none);
+    const auto is_of_table = [&](const CamFinding& finding) {
+      return is_unsound({finding}, false) &&
+             std::any_of(at_slow_speed.findings.begin(), at_slow_speed.findings.end(),
+                         [&](const CamFinding& other) {
+                           return other.grade == finding.grade && other.where == finding.where &&
+                                  other.text == finding.text;
+                         });
+    };
+    std::size_t told = 0;
+    for (const auto& finding : cam.study.findings)
+      if (finding.grade != CamFinding::Grade::remark && ++told <= most)
+        doubts.push_back({fmt::format("cam of {}, {}", one.axis, to_string(finding)), is_of_table(finding)});
+  }
+  return doubts;
+}
+
+}  // namespace drycut::sim::cams

@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "base/problem.hpp"
+#include "sim/cams/course.hpp"
+#include "sim/cams/study.hpp"
+#include "sim/loop/cam_doubt.hpp"
+#include "sim/loop/played_cams.hpp"
+
+namespace drycut::sim::cams {
+
+/// A cam that a run played, judged as drycut cam judges a table.
+struct JudgedCam {
+  std::string text;  ///< the table, for `drycut cam`
+  devices::CamTable table;
+  Problems problems;        ///< drycut cam does not take the table; then the rest means nothing
+  IdealCam ideal = {};      ///< over what the master went
+  CamStudy study = {};      ///< at the fastest that the master was ...
+  double master_speed = 0;  ///< ... 0 = it did not move, or the table itself says how fast it is
+};
+/// `name` is that of its file and its plot.
+JudgedCam judged(const loop::PlayedCam& played, const std::string& name);
+
+/// The fastest that the master was while the cam was played, over 20 ms or a record period [its unit/s]; 0 if
+/// it cannot be told.
+double fastest_master(const loop::PlayedCam& played);
+
+/// What speaks against the cams: errors and passed limits of the tables themselves are slips; what is only
+/// too much at the speed that the master had, warnings and cautions are none.
+std::vector<loop::CamDoubt> cam_doubts(const std::vector<loop::PlayedCam>& played);
+
+}  // namespace drycut::sim::cams

@@ -1,0 +1,52 @@
+// The cam of a run, judged in the run: a row that stands twice makes its speed jump.
+#include "sim/cams/judged.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "base/text.hpp"
+#include "sim/file.hpp"
+#include "sim/loop/simulation.hpp"
+#include "tests/test_folder.hpp"
+
+namespace drycut::sim::cams {
+namespace {
+
+record::Outcome outcome_with(const std::string& table) {
+  TestFolder folder;
+  const auto shipped = std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/flying_saw_mc_camin.yaml";
+  const auto cam = folder.file("saw.csv", table);
+  const auto file = folder.file(
+      "line.yaml", fmt::format("extends: {}\ncontroller: {{plcopen: {{tables: [{{file: {}, id: 1}}]}}}}\n"
+                               "scene: {{duration: 5 s}}\n",
+                               shipped.string(), cam.string()));
+  Problems problems;
+  const auto scenario = scenario::read_scenario(file, {}, problems);
+  loop::Simulation simulation(scenario, problems);
+  EXPECT_TRUE(problems.empty()) << (problems.empty() ? "" : to_string(problems.front()));
+  if (!problems.empty()) return {};
+  simulation.follow_cams(cam_doubts);
+  return simulation.run();
+}
+
+TEST(JudgedCams, ARowThatStandsTwiceIsAWarningAndTheCause) {
+  Problems problems;
+  const auto text =
+      read_file(std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/cams/mc_flying_saw.csv", problems);
+  ASSERT_TRUE(text);
+  EXPECT_THAT(outcome_with(*text).warnings, testing::IsEmpty());
+  const std::string row = "11111.111111111,16666.666666667,8333.333333333,0\n";
+  const auto at = text->find(row);
+  ASSERT_NE(at, std::string::npos);
+  auto twice = *text;
+  twice.insert(at, row);
+  const auto outcome = outcome_with(twice);
+  EXPECT_THAT(outcome.warnings, testing::Contains(testing::StartsWith("cam of Saw, row 4 (line ")));
+  EXPECT_THAT(outcome.cause, testing::StartsWith("because cam of Saw, row 4 (line "));
+}
+
+}  // namespace
+}  // namespace drycut::sim::cams
