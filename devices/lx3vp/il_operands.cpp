@@ -90,16 +90,16 @@ const OperandFamily* family_of(char letter) {
 }
 const OperandFamily* family_of(OperandType kind) { return family_of(letter_of(kind)); }
 
-std::string number_text(const OperandFamily& family, int number) {
+std::string numbered(const OperandFamily& family, int number) {
   return family.octal ? fmt::format("{}{:o}", family.letter, number)
                       : fmt::format("{}{}", family.letter, number);
 }
 std::string range_text(const OperandFamily& family) {
-  auto text = fmt::format("{} to {}", number_text(family, family.ranges[0].first),
-                          number_text(family, family.ranges[0].last));
+  auto text = fmt::format("{} to {}", numbered(family, family.ranges[0].first),
+                          numbered(family, family.ranges[0].last));
   if (family.ranges[1].last >= 0)
-    text += fmt::format(" and {} to {}", number_text(family, family.ranges[1].first),
-                        number_text(family, family.ranges[1].last));
+    text += fmt::format(" and {} to {}", numbered(family, family.ranges[1].first),
+                        numbered(family, family.ranges[1].last));
   return text;
 }
 bool exists(const OperandFamily& family, int first, int count = 1) {
@@ -346,11 +346,11 @@ std::string to_string(const Operand& operand) {
     case OperandType::real:
       return fmt::format("E{}", operand.real);
     case OperandType::bits:
-      return fmt::format("K{}{}", operand.count, number_text(*family_of(operand.of), operand.number));
+      return fmt::format("K{}{}", operand.count, numbered(*family_of(operand.of), operand.number));
     case OperandType::word_bit:
       return fmt::format("D{}.{:X}", operand.number, operand.count);
     default:
-      return number_text(*family_of(operand.kind), operand.number);
+      return numbered(*family_of(operand.kind), operand.number);
   }
 }
 
