@@ -9,18 +9,18 @@ namespace drycut::devices {
 
 namespace {
 
-struct Spelling {
+struct KindSpelling {
   std::string_view text;
   Kind kind;
 };
 
 // First spelling of a kind is the one that we print. "IN" is found in some of the manuals' records.
-constexpr std::array<Spelling, 6> spellings{{{"CNT", Kind::counter},
-                                             {"INP", Kind::input},
-                                             {"IN", Kind::input},
-                                             {"OUT", Kind::output},
-                                             {"AN", Kind::analogue},
-                                             {"INT", Kind::interrupt}}};
+constexpr std::array<KindSpelling, 6> spellings{{{"CNT", Kind::counter},
+                                                 {"INP", Kind::input},
+                                                 {"IN", Kind::input},
+                                                 {"OUT", Kind::output},
+                                                 {"AN", Kind::analogue},
+                                                 {"INT", Kind::interrupt}}};
 
 // Terminals of a base unit, which have no slot; numbers from 0.
 struct BaseSpelling {
@@ -59,7 +59,7 @@ std::string take_letters(std::string_view& text) {
 }
 
 std::optional<Kind> kind_of(std::string_view letters) {
-  for (const Spelling& spelling : spellings)
+  for (const KindSpelling& spelling : spellings)
     if (spelling.text == letters) return spelling.kind;
   return std::nullopt;
 }
@@ -103,7 +103,7 @@ std::string to_string(const Address& address) {
     if (address.slot == 0 && spelling.kind == address.kind)
       return spelling.base == 8 ? fmt::format("{}{:o}", spelling.text, address.number)
                                 : fmt::format("{}{}", spelling.text, address.number);
-  for (const Spelling& spelling : spellings)
+  for (const KindSpelling& spelling : spellings)
     if (spelling.kind == address.kind)
       return fmt::format("{}.{}{:02}", address.slot, spelling.text, address.number);
   return {};

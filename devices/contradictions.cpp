@@ -33,7 +33,7 @@ bool ends(std::string_view end, std::string_view movement) {
                              [&](const auto& row) { return row.first == movement && row.second == end; });
 }
 
-bool contradict(const Command& a, const Command& b) {
+bool contradict(const DeviceCommand& a, const DeviceCommand& b) {
   if (a.effect.state >= 0 && a.effect.state == b.effect.state && a.effect.on != b.effect.on) return true;
   return ends(a.name, b.name) || ends(b.name, a.name) || (a.name != b.name && moves(a.name) && moves(b.name));
 }

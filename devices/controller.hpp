@@ -1,20 +1,141 @@
 #pragma once
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "base/problem.hpp"
-#include "devices/cam_axis.hpp"
 #include "devices/cards.hpp"
-#include "devices/modbus_face.hpp"
-#include "devices/program_text.hpp"
 #include "devices/value_range.hpp"
 
 namespace drycut::devices {
+
+struct CamTable;  // devices/cam/table.hpp
+
+/// The slave of a cam at an instant, in the units of the cam's table, to be compared with its law.
+struct CamMoment {
+  bool follows = false;               ///< a cam runs and its slave is on it; else the rest says nothing
+  double master = 0;                  ///< as the cam counts it, on and on from cycle to cycle
+  double set = 0;                     ///< where the device wants the slave, from where the cam has its zero
+  double turn = 0;                    ///< `set` is known but for whole turns of this length; 0 = it is known
+  std::optional<double> behind = {};  ///< set less measured position; absent: the device does not measure
+};
+
+/// An axis of a controller that can play cams, as a simulation looks at it. Stays valid as long as the
+/// controller.
+struct CamAxis {
+  std::string name;  ///< "AxisX", "Y0", "Knife"
+  std::optional<Address> pulses =
+      {};  ///< output whose drive knows where the slave is, if the device does not
+  /// Another number with each start and with each change of the table that the device takes over; 0 = no cam
+  /// was started yet.
+  std::function<std::uint64_t()> start;
+  std::function<CamMoment()> moment;
+  /// The table that it plays, or would play, with all that its law needs; null = it has none.
+  std::function<std::shared_ptr<const CamTable>()> table;
+};
+
+/// The four tables of Modbus' data model, which functions 1, 2, 3 and 4 read.
+enum class ModbusTable : std::uint8_t { coils, discrete_inputs, holding_registers, input_registers };
+
+/// Whether an address of the table is a bit; else it is a word of 16.
+constexpr bool has_bits(ModbusTable table) {
+  return table == ModbusTable::coils || table == ModbusTable::discrete_inputs;
+}
+
+/// How a value of a controller lies in bits.
+enum class ModbusFormat : std::uint8_t { bit, int16, uint16, int32, uint32, real32, real64 };
+
+/// 1, 16, 32 or 64.
+int width_of(ModbusFormat format);
+/// A whole number is rounded, what is beyond the format's ends becomes the end, no number becomes 0.
+std::uint64_t to_bits(ModbusFormat format, double value);
+double from_bits(ModbusFormat format, std::uint64_t bits);
+
+/// What stands at an address: a bit or a word of one of the controller's values.
+struct ModbusPlace {
+  std::string value;  ///< as Controller::find knows it; "" = memory that nothing stands in: reads 0
+  ModbusFormat format = ModbusFormat::int16;
+  int shift = 0;                ///< the bit, or the lowest one of the word, in the value
+  std::int64_t settles_ns = 0;  ///< what is written has been taken that much later
+};
+
+/// What a controller shows to Modbus, and what it lets it write. The registers are device knowledge; frames,
+/// functions and sockets are not.
+class ModbusFace {
+ public:
+  ModbusFace() = default;
+  virtual ~ModbusFace() = default;
+  ModbusFace(const ModbusFace&) = delete;
+  ModbusFace& operator=(const ModbusFace&) = delete;
+
+  /// Nullopt where nothing can be read.
+  [[nodiscard]] virtual std::optional<ModbusPlace> read(ModbusTable table, std::uint16_t address) const = 0;
+  /// Nullopt where nothing can be written; of coils and holding registers.
+  [[nodiscard]] virtual std::optional<ModbusPlace> written(ModbusTable table,
+                                                           std::uint16_t address) const = 0;
+  /// Whether it answers as this unit, now. Most take any: over TCP the address of the socket says who is
+  /// meant.
+  [[nodiscard]] virtual bool answers(std::uint8_t unit) const {
+    (void)unit;
+    return true;
+  }
+};
+
+// What one sees of a controller's programs while they run.
+
+/// A text that a controller runs, or is set up by.
+struct ProgramText {
+  std::string name;      ///< the file's, without its folder
+  std::string file;      ///< as messages name it
+  std::string language;  ///< "qcl", "cnf", "il", "st"
+  std::string text;      ///< UTF-8
+  /// What of Controller::find() each line names, by the line's number from 1, in its order.
+  std::map<int, std::vector<std::string>> values = {};
+
+  ProgramText(const std::string& in_file, std::string in_language, std::string of)
+      : name(in_file.substr(in_file.find_last_of("/\\") + 1)),
+        file(in_file),
+        language(std::move(in_language)),
+        text(std::move(of)) {}
+  /// A line names a value, once.
+  void add_value(int line, const std::string& value) {
+    auto& names = values[line];
+    if (std::find(names.begin(), names.end(), value) == names.end()) names.push_back(value);
+  }
+};
+
+/// A place at which a program stands until something comes, or for ever.
+struct ProgramWait {
+  std::string program;        ///< ProgramText::name
+  int line = 0;               ///< from 1
+  std::int64_t since_ns = 0;  ///< it has stood there all the time
+  bool ended = false;         ///< it came to its end: nothing comes any more
+};
+
+/// What programs do at a moment.
+struct ProgramPositions {
+  /// Where one of them stands.
+  struct Task {
+    std::string name;
+    std::size_t program = 0;      ///< of Controller::programs()
+    int line = 0;                 ///< from 1; 0: nowhere, as between two scans
+    std::string doing;            ///< "waits", "runs", "ended", "error 6: division by zero"
+    std::vector<int> calls = {};  ///< lines of the calls that led there, the outermost first
+  };
+  std::vector<Task> tasks;
+  /// For each program what its last scan did, a letter a line: '+' executed, with power or with a condition
+  /// that held; '-' come by, without; ' ' not come by. "" of what is not scanned, or was not watched yet.
+  std::vector<std::string> scanned;
+};
 
 /// A value inside the controller that scenarios record, check and set: "AxisX.posit", "slLength".
 struct ControllerValue {
@@ -154,5 +275,11 @@ class Controller {
   [[nodiscard]] virtual bool has_events() const = 0;
   virtual std::vector<ControllerEvent> take_events() = 0;
 };
+
+/// Terminals of cards in slots: wiring may name those that the configuration uses, and every interrupt line.
+std::variant<Address, TerminalFault> find_slot_terminal(const Cards& cards, const std::string& text);
+
+/// False for the CPU's simulated counters: nothing is wired to them.
+bool slot_takes_wire(const Address& address);
 
 }  // namespace drycut::devices

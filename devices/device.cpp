@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "devices/contradictions.hpp"
+#include "devices/controller.hpp"
 
 namespace drycut::devices {
 namespace {
@@ -26,7 +27,7 @@ std::optional<int> row_of(std::string_view name, std::string_view base, int rows
 
 std::optional<Symbol> find_exact(const DeviceType& type, std::string_view name) {
   for (std::size_t i = 0; i < type.variables.size(); ++i) {
-    const Variable& variable = type.variables[i];
+    const DeviceVariable& variable = type.variables[i];
     if (variable.rows == 1) {
       if (same_word(name, variable.name)) return Symbol{Symbol::Kind::variable, static_cast<int>(i), 0};
     } else if (const auto row = row_of(name, variable.name, variable.rows)) {
@@ -57,7 +58,7 @@ std::optional<int> find_command(const DeviceType& type, std::string_view name) {
 
 std::vector<std::string> symbol_names(const DeviceType& type) {
   std::vector<std::string> names;
-  for (const Variable& variable : type.variables)
+  for (const DeviceVariable& variable : type.variables)
     names.push_back(std::string(variable.name) + (variable.rows > 1 ? "1" : ""));
   for (const State& state : type.states) names.emplace_back(state.name);
   return names;
@@ -65,7 +66,7 @@ std::vector<std::string> symbol_names(const DeviceType& type) {
 
 std::string name_of(const DeviceType& type, Symbol symbol) {
   if (symbol.kind == Symbol::Kind::state) return std::string(type.states[symbol.index].name);
-  const Variable& variable = type.variables[symbol.index];
+  const DeviceVariable& variable = type.variables[symbol.index];
   if (variable.rows == 1) return std::string(variable.name);
   return fmt::format("{}{}", variable.name, symbol.row + 1);
 }
@@ -88,7 +89,7 @@ std::int32_t wrap(Size size, std::int64_t value) {
 Device::Device(const DeviceType& type) : type_(type) {
   assert(type.states.size() <= 64 && type.commands.size() <= 64);
   int total = 0;
-  for (const Variable& variable : type.variables) {
+  for (const DeviceVariable& variable : type.variables) {
     offsets_.push_back(total);
     total += variable.rows;
   }
@@ -100,7 +101,7 @@ Device::Device(const DeviceType& type) : type_(type) {
 
 void Device::reset_values() {
   for (std::size_t i = 0; i < type_.variables.size(); ++i) {
-    const Variable& variable = type_.variables[i];
+    const DeviceVariable& variable = type_.variables[i];
     if (variable.retention == Retention::retentive) continue;
     std::fill_n(values_.begin() + offsets_[i], variable.rows, reset_value(variable.retention));
   }
@@ -193,7 +194,7 @@ void Device::apply(const PendingWrite& pending) {
     report({Diagnostic::Kind::write_refused, name, "read only"});
     return;
   }
-  const Variable& variable = type_.variables[symbol.index];
+  const DeviceVariable& variable = type_.variables[symbol.index];
   if (std::string failed = unmet(variable.write); !failed.empty()) {
     report({Diagnostic::Kind::write_refused, name, std::move(failed)});
     return;
@@ -215,7 +216,7 @@ void Device::apply(const PendingWrite& pending) {
 }
 
 void Device::run(int command) {
-  const Command& entry = type_.commands[command];
+  const DeviceCommand& entry = type_.commands[command];
   const Effect& effect = entry.effect;
   if (state(init_state) && effect.quiet && state(effect.state) == effect.on) return;
   std::string failed = unmet(entry.condition);
@@ -273,5 +274,7 @@ std::string Device::unmet(const Condition& condition) const {
   }
   return text;
 }
+
+std::optional<CamAxis> Device::cam_axis() { return std::nullopt; }
 
 }  // namespace drycut::devices

@@ -1,16 +1,19 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "devices/cam_axis.hpp"
 #include "devices/cards.hpp"
 
 namespace drycut::devices {
+
+struct CamAxis;  // devices/controller.hpp
 
 // A device is a table plus a step. The table (DeviceType) is its public face: QCL programs, scenario files,
 // the recorder and `drycut devices` all use it, and nothing about a variable is written twice.
@@ -31,7 +34,7 @@ struct Condition {
 };
 
 /// One parameter or variable. Values outside min..max are taken and reported, as the manuals say.
-struct Variable {
+struct DeviceVariable {
   std::string_view name;  ///< the manual's spelling; rows > 1: without the row number ("codeG")
   Size size = Size::L;
   std::string_view unit;  ///< "Um", "bits x4", "speed", "1/100 s", "" for a code or a number
@@ -61,7 +64,7 @@ struct Effect {
 };
 
 /// One command. Row order is execution order among commands of the same sample (priority).
-struct Command {
+struct DeviceCommand {
   std::string_view name;
   Condition condition = {};
   std::string_view meaning = {};
@@ -86,7 +89,7 @@ struct Alias {
 };
 
 /// A reading of ours, where the manual is silent, contradicts itself or lost its print.
-struct Reading {
+struct ManualReading {
   std::string_view of;      ///< a row of the tables (a cam table's without number), "" for the whole device
   std::string_view text;    ///< what the device does here
   std::string_view manual;  ///< the place that leaves it open, and how
@@ -95,12 +98,12 @@ struct Reading {
 struct DeviceType {
   std::string_view name;  ///< "CAMMING4"
   std::string_view summary;
-  std::span<const Variable> variables;
-  std::span<const State> states;      ///< row 0 is st_init
-  std::span<const Command> commands;  ///< row 0 is INIT
+  std::span<const DeviceVariable> variables;
+  std::span<const State> states;            ///< row 0 is st_init
+  std::span<const DeviceCommand> commands;  ///< row 0 is INIT
   std::span<const Field> fields;
   std::span<const Alias> aliases;
-  std::span<const Reading> readings = {};
+  std::span<const ManualReading> readings = {};
 };
 
 /// Something a device has that can be read by name: a variable (with its row, 0-based) or a state.
@@ -174,7 +177,7 @@ class Device {
   virtual void power_up();
 
   /// Its cam, if it has one; the owner gives it its name.
-  [[nodiscard]] virtual std::optional<CamAxis> cam_axis() { return std::nullopt; }
+  [[nodiscard]] virtual std::optional<CamAxis> cam_axis();
   /// Of an analogue axis: what its parameters take for the speed at 10 V [bits x4/s], 0 = nothing.
   [[nodiscard]] virtual double bits_at_10v() const { return 0; }
 
@@ -235,5 +238,165 @@ class Device {
   std::vector<std::uint64_t> told_contradictions_;  ///< by command: told when it last ran
   std::vector<Diagnostic> diagnostics_;
 };
+
+// What every device's tables are written with and found in by name; all of it is done while compiling.
+
+// constexpr where a consteval function hands its own parameters on: Clang 14 takes no consteval call there.
+
+/// Number of the row called `name`; a name that is not in the table does not compile.
+template <typename Rows>
+constexpr int find_row(const Rows& rows, std::string_view name) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].name == name) return static_cast<int>(i);
+  throw "no such row";
+}
+
+/// The rows of `first`, then those of `then`.
+template <typename Row, std::size_t N, std::size_t M>
+consteval std::array<Row, N + M> joined(const std::array<Row, N>& first, const std::array<Row, M>& then) {
+  std::array<Row, N + M> rows{};
+  for (std::size_t i = 0; i < N; ++i) rows[i] = first[i];
+  for (std::size_t i = 0; i < M; ++i) rows[N + i] = then[i];
+  return rows;
+}
+
+/// The rows, in the manual's section where they name none.
+template <typename Row, std::size_t N>
+constexpr std::array<Row, N> in_section(std::string_view section, std::array<Row, N> rows) {
+  for (Row& row : rows)
+    if (row.section.empty()) row.section = section;
+  return rows;
+}
+/// A row that the manual defines elsewhere than those around it.
+template <typename Row>
+constexpr Row elsewhere(std::string_view section, Row row) {
+  row.section = section;
+  return row;
+}
+/// Variables of a table that has so many rows.
+template <std::size_t N>
+constexpr std::array<DeviceVariable, N> of_rows(int number, std::array<DeviceVariable, N> variables) {
+  for (DeviceVariable& variable : variables) variable.rows = number;
+  return variables;
+}
+
+// The ends of a variable of size L.
+inline constexpr double lowest = -2147483648.0;
+inline constexpr double highest = 2147483647.0;
+
+/// A parameter: programs write it where `write` holds, the retentive memory keeps it.
+constexpr DeviceVariable kept(std::string_view name, Size size, std::string_view unit, double min, double max,
+                              Condition write, std::string_view meaning) {
+  return {name, size, unit, min, max, Access::read_write, Retention::retentive, write, meaning};
+}
+constexpr DeviceVariable kept(std::string_view name, Size size, std::string_view unit, double min, double max,
+                              std::string_view meaning) {
+  return kept(name, size, unit, min, max, {}, meaning);
+}
+/// The same of a value that begins at 0 with each power-up.
+constexpr DeviceVariable zeroed(std::string_view name, Size size, std::string_view unit, double min,
+                                double max, Condition write, std::string_view meaning) {
+  return {name, size, unit, min, max, Access::read_write, Retention::zero, write, meaning};
+}
+constexpr DeviceVariable zeroed(std::string_view name, Size size, std::string_view unit, double min,
+                                double max, std::string_view meaning) {
+  return zeroed(name, size, unit, min, max, {}, meaning);
+}
+/// What the device shows; without a range any value of size L.
+constexpr DeviceVariable shown(std::string_view name, Size size, std::string_view unit, double min,
+                               double max, std::string_view meaning) {
+  return {name, size, unit, min, max, Access::read, Retention::zero, {}, meaning};
+}
+constexpr DeviceVariable shown(std::string_view name, std::string_view unit, std::string_view meaning) {
+  return shown(name, Size::L, unit, lowest, highest, meaning);
+}
+
+/// A command, and what it does to a state.
+constexpr DeviceCommand command(std::string_view name, Condition condition, std::string_view meaning,
+                                Effect effect = {}) {
+  return {name, condition, meaning, {}, effect};
+}
+
+/// needs({"st_init", "!st_emrg"}): the condition that these rows of `states` are 1, or 0 where the name
+/// begins with '!'.
+template <const auto& states>
+struct Needs {
+  consteval Condition operator()(std::initializer_list<std::string_view> names,
+                                 std::string_view also = {}) const {
+    Condition condition{0, 0, also};
+    for (std::string_view name : names) {
+      const bool off = name.starts_with('!');
+      const std::uint64_t bit = std::uint64_t{1} << find_row(states, off ? name.substr(1) : name);
+      condition.mask |= bit;
+      if (!off) condition.value |= bit;
+    }
+    return condition;
+  }
+};
+
+/// turns("st_emrg"): the effect that this row of `states` becomes 1, or 0 where the name begins with '!'.
+/// `quiet`: see Effect.
+template <const auto& states, bool quiet>
+struct Turns {
+  consteval Effect operator()(std::string_view name) const {
+    const bool off = name.starts_with('!');
+    return {find_row(states, off ? name.substr(1) : name), !off, quiet};
+  }
+};
+
+/// Number of a row of `type`, which its name stands for; a name that is not in the table does not compile.
+template <const DeviceType& type, auto rows>
+class NamedRow {
+ public:
+  consteval NamedRow(const char* name) : number_(find_row(type.*rows, name)) {}
+  constexpr explicit NamedRow(int number) : number_(number) {}
+  constexpr operator int() const { return number_; }
+  friend constexpr bool operator==(NamedRow a, NamedRow b) = default;
+
+ private:
+  int number_;
+};
+
+/// A device whose rows go by their names in `table`: value("pgain"), state("st_still").
+template <const DeviceType& table>
+class TableDevice : public Device {
+ protected:
+  using VariableRow = NamedRow<table, &DeviceType::variables>;
+  using StateRow = NamedRow<table, &DeviceType::states>;
+  using CommandRow = NamedRow<table, &DeviceType::commands>;
+  using FieldRow = NamedRow<table, &DeviceType::fields>;
+
+  /// `type` has at least the rows of `table`, in the same places.
+  explicit TableDevice(const DeviceType& type = table) : Device(type) {}
+
+  [[nodiscard]] bool state(StateRow row) const { return Device::state(row); }
+  void set_state(StateRow row, bool on) { Device::set_state(row, on); }
+  [[nodiscard]] std::int32_t& value(VariableRow variable, int row = 0) {
+    return Device::value(variable, row);
+  }
+  [[nodiscard]] std::int32_t value(VariableRow variable, int row = 0) const {
+    return Device::value(variable, row);
+  }
+  [[nodiscard]] std::string_view name_of(VariableRow variable) const {
+    return type().variables[variable].name;
+  }
+  void report_outside(VariableRow variable, std::int32_t low, VariableRow high) {
+    Device::report_outside(variable, low, high);
+  }
+};
+
+// How devices take hold of the terminals that their .CNF record names.
+
+/// The terminal of `resource` in `terminals`, added if it is not there; nullptr if the field is unused (X.X).
+template <typename Terminal>
+Terminal* connect(std::map<Address, Terminal>& terminals, const Resource& resource) {
+  return resource.address ? &terminals[*resource.address] : nullptr;
+}
+
+/// Count of a counter [bits x4]; 0 without one.
+inline std::int64_t count_of(const Counter* counter) { return counter ? counter->count : 0; }
+
+/// Level of an input; off without one.
+inline bool is_on(const DigitalInput* input) { return input && input->level; }
 
 }  // namespace drycut::devices

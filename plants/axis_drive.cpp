@@ -240,9 +240,9 @@ void AxisDrive::offer_faults(std::vector<Fault>& faults) {
   if (data_.brake.torque > 0) brake_.offer_faults(faults);
 }
 
-std::vector<Event> AxisDrive::take_events(const Shaft& rotor) {
-  std::vector<Event> events = power().take_events();
-  for (Event& event : switched_) events.push_back(std::move(event));
+std::vector<MachineEvent> AxisDrive::take_events(const Shaft& rotor) {
+  std::vector<MachineEvent> events = power().take_events();
+  for (MachineEvent& event : switched_) events.push_back(std::move(event));
   switched_.clear();
   if (just_tripped_) events.push_back({"trip", 0, {{"speed", rotor.speed_before * units::rpm, "rpm"}}});
   if (just_against_brake_)

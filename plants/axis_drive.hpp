@@ -65,7 +65,7 @@ class AxisDrive {
   /// Neither the drive moves the motor nor may the brake be open.
   [[nodiscard]] bool at_rest() const { return !moves_ && brake_.commanded_to_hold(); }
   /// What happened to it since it was asked last.
-  [[nodiscard]] std::vector<Event> take_events(const Shaft& rotor);
+  [[nodiscard]] std::vector<MachineEvent> take_events(const Shaft& rotor);
 
   /// For Plant::drives(), with what it turns, seen at the motor [kg m2].
   [[nodiscard]] std::vector<DriveOfPlant> drives(double load_inertia) {
@@ -98,7 +98,7 @@ class AxisDrive {
   bool just_tripped_ = false;
   double against_brake_ = 0;  // how long it has worked against its brake [s]
   bool just_against_brake_ = false;
-  std::vector<Event> switched_;
+  std::vector<MachineEvent> switched_;
 };
 
 }  // namespace drycut::plants

@@ -1,4 +1,4 @@
-#include "plants/axis_transducers.hpp"
+#include "plants/transducers.hpp"
 
 #include <utility>
 

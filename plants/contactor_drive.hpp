@@ -3,7 +3,6 @@
 
 #include "plants/delayed_contact.hpp"
 #include "plants/induction_motor.hpp"
-#include "plants/pullout_watch.hpp"
 #include "plants/world.hpp"
 
 namespace drycut::plants {

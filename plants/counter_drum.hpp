@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "plants/friction.hpp"
-#include "plants/parameters.hpp"
+#include "plants/motor_load.hpp"
+#include "plants/plant.hpp"
 
 namespace drycut::plants {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "plants/friction.hpp"
+#include "plants/motor_load.hpp"
 #include "plants/world.hpp"
 
 namespace drycut::plants {

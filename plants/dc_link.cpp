@@ -1,10 +1,8 @@
-#include "plants/dc_link.hpp"
+#include "plants/power_stage.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "plants/motor_heat.hpp"
 
 namespace drycut::plants {
 

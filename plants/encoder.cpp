@@ -1,4 +1,4 @@
-#include "plants/encoder.hpp"
+#include "plants/transducers.hpp"
 
 #include <fmt/format.h>
 

@@ -53,7 +53,7 @@ class EndStop {
   }
 
   /// The last hit as an event: side, speed, impulse, force.
-  [[nodiscard]] Event hit(std::string_view name) const {
+  [[nodiscard]] MachineEvent hit(std::string_view name) const {
     return {name,
             fraction_,
             {{"side", side_, ""},

@@ -91,7 +91,7 @@ void FlyingSaw::sense(double h) {
   tell_motor_load(h);
   screw_.sense(h);
   servo_.sense(rotor());
-  for (Event& event : servo_.take_events(rotor())) happened(std::move(event));
+  for (MachineEvent& event : servo_.take_events(rotor())) happened(std::move(event));
   head_.sense(h);
   const Slide& material = this->material();
   clamp_.sense(carriage(), material, h);
@@ -140,19 +140,19 @@ void FlyingSaw::report(const SawCut::Outcome& outcome) {
   last_slant_ = outcome.slant;
   last_pinch_ = outcome.pinch;
   ++cuts_;
-  Event cut = {"cut",
-               outcome.fraction,
-               {{"length", station_.length() * units::millimetres, "mm"},
-                {"slant", outcome.slant * units::millimetres, "mm"},
-                {"mismatch", hold_.mismatch * units::millimetres, "mm/s"},
-                {"slip", hold_.slip * units::millimetres, "mm"},
-                {"pinch", outcome.pinch, "N"},
-                {"force", outcome.force, "N"},
-                {"time", outcome.time * units::milliseconds, "ms"},
-                {"number", static_cast<double>(cuts_), ""}}};
+  MachineEvent cut = {"cut",
+                      outcome.fraction,
+                      {{"length", station_.length() * units::millimetres, "mm"},
+                       {"slant", outcome.slant * units::millimetres, "mm"},
+                       {"mismatch", hold_.mismatch * units::millimetres, "mm/s"},
+                       {"slip", hold_.slip * units::millimetres, "mm"},
+                       {"pinch", outcome.pinch, "N"},
+                       {"force", outcome.force, "N"},
+                       {"time", outcome.time * units::milliseconds, "ms"},
+                       {"number", static_cast<double>(cuts_), ""}}};
   station_.describe(cut);
   happened(std::move(cut));
-  for (Event& scrap : station_.take_events()) happened(std::move(scrap));
+  for (MachineEvent& scrap : station_.take_events()) happened(std::move(scrap));
   hold_ = {.on = true};
 }
 

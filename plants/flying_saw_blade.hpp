@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "plants/parameters.hpp"
+#include "plants/plant.hpp"
 #include "plants/section.hpp"
 #include "plants/world.hpp"
 

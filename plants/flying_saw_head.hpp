@@ -4,8 +4,8 @@
 
 #include "plants/end_stop.hpp"
 #include "plants/plant.hpp"
-#include "plants/position_switch.hpp"
 #include "plants/stiff_pair.hpp"
+#include "plants/transducers.hpp"
 #include "plants/world.hpp"
 
 namespace drycut::plants {

@@ -1,10 +1,9 @@
 #pragma once
 #include <array>
 
-#include "plants/encoder.hpp"
 #include "plants/exact_sum.hpp"
 #include "plants/plant.hpp"
-#include "plants/position_switch.hpp"
+#include "plants/transducers.hpp"
 
 namespace drycut::plants {
 

@@ -4,7 +4,6 @@
 
 #include "plants/delayed_contact.hpp"
 #include "plants/induction_motor.hpp"
-#include "plants/pullout_watch.hpp"
 #include "plants/world.hpp"
 
 namespace drycut::plants {

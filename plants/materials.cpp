@@ -10,7 +10,7 @@ constexpr double metal = 2e-6;
 constexpr std::string_view fibre_loss = "estimate: loss factor of 3 % at 100 Hz";
 constexpr std::string_view metal_loss = "estimate: loss factor of 0.1 % at 100 Hz";
 
-struct Values {
+struct MaterialValues {
   double density;  ///< [kg/m3]
   std::string_view density_from;
   double shear;  ///< [Pa]
@@ -19,7 +19,7 @@ struct Values {
   std::string_view elasticity_from;
 };
 
-Preset material(std::string_view name, std::string_view meaning, const Values& of, bool is_metal) {
+Preset material(std::string_view name, std::string_view meaning, const MaterialValues& of, bool is_metal) {
   return {name,
           meaning,
           {{"density", of.density, of.density_from},

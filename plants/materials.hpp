@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "plants/parameters.hpp"
+#include "plants/plant.hpp"
 
 namespace drycut::plants {
 

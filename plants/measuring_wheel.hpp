@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "plants/encoder.hpp"
 #include "plants/plant.hpp"
+#include "plants/transducers.hpp"
 
 namespace drycut::plants {
 

@@ -1,4 +1,4 @@
-#include "plants/motor_heat.hpp"
+#include "plants/power_stage.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -39,7 +39,8 @@ Parameters motor_heat_parameters(MotorHeatData& data, std::string_view source) {
           data.winding_time_constant, 1, 1e5, source),
       row("housing_time_constant", "s", "thermal time constant of the housing against the air",
           data.housing_time_constant, 1, 1e6, source),
-      row("temperature_rise", "K", "temperature rise of the winding over an ambient of 40 degC, at continuous stall torque",
+      row("temperature_rise", "K",
+          "temperature rise of the winding over an ambient of 40 degC, at continuous stall torque",
           data.temperature_rise, 1, 300, "insulation class F"),
       row("temperature_limit", "degC", "of the winding: its sensor trips the drive", data.temperature_limit,
           41, 400, "insulation class F"),

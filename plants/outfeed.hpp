@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "plants/part.hpp"
+#include "plants/plant.hpp"
 #include "plants/world.hpp"
 
 namespace drycut::plants {

@@ -1,5 +1,9 @@
 #pragma once
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -10,11 +14,224 @@
 #include <vector>
 
 #include "base/severity.hpp"
-#include "plants/parameters.hpp"
-#include "plants/part.hpp"
-#include "plants/ports.hpp"
 
 namespace drycut::plants {
+
+/// The word by which a reference parameter names no plant, where its default does.
+inline constexpr std::string_view no_plant = "none";
+
+/// The word by which a group of a motor's values names no model of a catalogue.
+inline constexpr std::string_view no_model = "none";
+
+/// A choice of a word that stands for values of other parameters of the same table, "steel" for its density
+/// and more. Whoever fills the table takes these values first, then those that are given beside it.
+struct Preset {
+  struct Value {
+    std::string_view parameter;
+    double value;             ///< [SI]
+    std::string_view source;  ///< where it is from
+  };
+  std::string_view name;
+  std::string_view meaning;
+  std::vector<Value> values;
+};
+
+/// One parameter of a plant, bound to the member that holds it. A plain struct with defaults is the schema:
+/// this table over it is what the scenario reader fills, `drycut check --expand` writes and `drycut plants`
+/// prints.
+struct Parameter {
+  std::string name;          ///< as in the scenario; a dot is a nested map ("servo.rated_torque")
+  std::string_view unit;     ///< unit in which it is printed and in which min and max are given; "" = pure
+                             ///< number. The bound member always holds SI (m, kg, s, rad, N m, V).
+  std::string_view meaning;  ///< one sentence
+  /// What it is bound to: a quantity or number, an integer, a switch, a word.
+  std::variant<double*, int*, bool*, std::string*> value;
+  double min = 0;  ///< smallest and largest legal value, in `unit`
+  double max = 0;
+  std::vector<std::string> choices = {};  ///< of a word; empty = free
+  std::string_view reference = {};        ///< of a word: it names another plant of this type
+  std::string_view source = {};           ///< where the default is from ("data sheet ...", "estimate")
+  bool sole = false;                      ///< of a reference: no other plant may refer to the same one so
+  const std::vector<Preset>* presets = nullptr;  ///< of a word: what each choice stands for
+  bool live = false;                             ///< of a quantity: the running machine takes another one
+};
+using Parameters = std::vector<Parameter>;
+
+// The rows of a table: a quantity, a whole number, a switch, a word of `choices`, the name of a plant of
+// `type`. `source`: where the default is from.
+
+inline Parameter row(std::string name, std::string_view unit, std::string_view meaning, double& value,
+                     double min, double max, std::string_view source) {
+  return {std::move(name), unit, meaning, &value, min, max, {}, {}, source};
+}
+inline Parameter row(std::string name, std::string_view meaning, int& value, double min, double max,
+                     std::string_view source) {
+  return {std::move(name), "", meaning, &value, min, max, {}, {}, source};
+}
+inline Parameter row(std::string name, std::string_view meaning, bool& value, std::string_view source) {
+  return {std::move(name), "", meaning, &value, 0, 1, {}, {}, source};
+}
+inline Parameter row(std::string name, std::string_view meaning, std::string& value,
+                     std::vector<std::string> choices, std::string_view source) {
+  return {std::move(name), "", meaning, &value, 0, 0, std::move(choices), {}, source};
+}
+inline Parameter row(std::string name, std::string_view meaning, std::string& value, std::string_view type,
+                     std::string_view source, bool sole) {
+  return {std::move(name), "", meaning, &value, 0, 0, {}, type, source, sole};
+}
+
+/// A word whose choices are the names of `presets`, which outlive the table.
+inline Parameter preset_row(std::string name, std::string_view meaning, std::string& value,
+                            const std::vector<Preset>& presets, std::string_view source) {
+  std::vector<std::string> names;
+  names.reserve(presets.size());
+  for (const Preset& preset : presets) names.emplace_back(preset.name);
+  Parameter made = row(std::move(name), meaning, value, std::move(names), source);
+  made.presets = &presets;
+  return made;
+}
+
+/// The model of a motor, "servo.model", before its group: whoever fills the table knows a catalogue, plants
+/// know none.
+inline Parameter model_row(std::string name, std::string& value) {
+  return row(std::move(name),
+             "motor of the catalogue, whose values are the defaults of this group: drycut plants --motors",
+             value, {}, "none: the defaults are those below");
+}
+/// The same row of a parameter that may change in mid-run: see Plant::live_parameters.
+inline Parameter live(Parameter row) {
+  row.live = true;
+  return row;
+}
+/// Those rows of a table alone.
+inline Parameters live_rows(Parameters rows) {
+  std::erase_if(rows, [](const Parameter& row) { return !row.live; });
+  return rows;
+}
+
+/// The rows of a group, "gear.": each name with the prefix.
+inline Parameters group(std::string_view prefix, Parameters rows) {
+  for (Parameter& row : rows) row.name.insert(0, prefix);
+  return rows;
+}
+/// One table after the other.
+template <class... Tables>
+Parameters joined(Parameters first, Tables... more) {
+  (first.insert(first.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end())),
+   ...);
+  return first;
+}
+
+/// A rigid pose in the world [m], quaternion x y z w. World axes: x along the line in web direction, y up,
+/// z across the line towards the operator.
+struct Pose {
+  std::array<double, 3> position = {0, 0, 0};
+  std::array<double, 4> rotation = {0, 0, 0, 1};
+};
+
+/// Where a part is now. Parts that come and go (cut pieces) are of a fixed set and hidden while unused.
+struct PartPose {
+  PartPose(const Pose& where = {}, bool shown = true, const std::array<double, 3>& stretch = {1, 1, 1})
+      : pose(where), visible(shown), scale(stretch) {}
+  Pose pose;
+  bool visible;
+  std::array<double, 3> scale;  ///< of the part along its own axes
+};
+
+/// What parts are fastened to, a carriage or a drum: tells where it is now, and whether and how stretched its
+/// parts are seen. Empty: the floor, which is the world.
+using Frame = std::function<PartPose()>;
+
+/// What a machine part looks like: a primitive, or a model of scenes/meshes/ stretched to the same size. For
+/// pictures only, physics never reads it.
+struct Part {
+  enum class Shape { box, cylinder, wedge };  ///< cylinder axis: z; wedge: a blade, edge towards -y
+  std::string name;                           ///< unique in its plant: "drum", "blade 1"
+  Shape shape = Shape::box;
+  std::array<double, 3> size = {1, 1,
+                                1};  ///< box: x y z; cylinder: diameter, diameter, length; wedge: x y z [m]
+  std::array<float, 3> colour = {0.6F, 0.6F, 0.6F};
+  std::string material = "steel";  ///< "steel", "paint", "rubber", "web", "blade"
+  std::string model = {};          ///< drawn in place of the shape: "servo_motor"; "" = none
+  Frame frame = {};
+  Pose offset = {};  ///< of its middle in the frame
+  std::optional<std::array<double, 3>> tip =
+      {};                  ///< in its own coordinates [m]: what leaves a trail in pictures
+  bool ends_kept = false;  ///< one long across the line (z) stretches its model in the middle only
+  double pitch = 0;  ///< it looks the same again after this angle, as a drum after one of its blades [rad];
+                     ///< 0 = a film need not show how it turns
+
+  [[nodiscard]] PartPose now() const;
+};
+
+/// What a picture points out on the machine at this instant.
+struct Callout {
+  enum class Kind { length, force, speed };
+  Kind kind = Kind::length;
+  std::string text;  ///< a length: "800.0 mm"; a force: what it is, "cut"; a speed: what moves, "tube"
+  std::array<double, 3> at = {0, 0, 0};  ///< one end of the length, or where the arrow begins [m, world]
+  std::array<double, 3> to = {0, 0, 0};  ///< the other end [m, world], the force [N], the speed [m/s]
+};
+
+/// Where an axis is to go, as a picture shows it: a line across it [m, world].
+struct QuotaLine {
+  std::array<double, 3> left = {0, 0, 0};
+  std::array<double, 3> right = {0, 0, 0};
+  double miss = 0;  ///< where the axis is now less the quota [m]
+};
+
+// The plugs of a plant, named from the plant's side. The bus (sim) copies between these and the controller's
+// terminals once a step; a plant never knows what is plugged in.
+
+/// A quadrature transducer, after its faults: what a counter input sees.
+struct EncoderPort {
+  std::int64_t count = 0;  ///< bits x4 since the start
+  double before = 0;       ///< exact position at the start of the last step [bits x4]
+  double now = 0;          ///< exact position at its end [bits x4]
+  /// The count at a fraction 0..1 of the last step. Edges lie half-way between whole positions, so that a
+  /// machine that stands on a whole position, an index pulse for one, counts the same whatever the last digit
+  /// says.
+  [[nodiscard]] std::int64_t count_at(double fraction) const {
+    return static_cast<std::int64_t>(std::floor(before + (now - before) * fraction + 0.5));
+  }
+};
+
+/// A signal that the plant gives: sensor, index pulse, in-position.
+struct SignalPort {
+  struct Edge {
+    bool rising = false;
+    double fraction = 0;  ///< when in the last step, 0..1
+    double width = 0;     ///< of the zero pulse that begins here, in steps; 0 = as its falling edge says
+  };
+  bool level = false;       ///< at the end of the last step
+  std::vector<Edge> edges;  ///< of the last step, in order of time
+  void add_edge(bool rising, double fraction, double width = 0) {
+    edges.push_back({rising, fraction, width});
+  }
+  /// Takes the level, with an edge at `fraction` of the step where it changes; true then.
+  bool show(bool now, double fraction = 1) {
+    if (now == level) return false;
+    level = now;
+    add_edge(now, fraction);
+    return true;
+  }
+};
+
+/// A signal that the plant takes: enable, forward, brake release.
+struct CommandPort {
+  bool level = false;
+};
+
+/// An analogue reference that the plant takes [V].
+struct ReferencePort {
+  double volts = 0;
+};
+
+/// A pulse train that the plant takes: pulses since the start, each one counted whatever its direction, which
+/// is a signal of its own as on the cable. Never decreases; the pulses of a step come evenly within it.
+struct PulsePort {
+  std::int64_t pulses = 0;
+};
 
 class World;
 class PowerStage;
@@ -87,7 +304,7 @@ inline Fault fault_value(std::string component, std::string name, std::string_vi
 }
 
 /// Something that happened in the machine, at an exact time inside the step.
-struct Event {
+struct MachineEvent {
   struct Value {
     std::string_view name;
     double number;
@@ -112,6 +329,37 @@ struct EventType {
 
 /// What severs the web tells so with an event of this name: its plant is a cutter.
 inline constexpr std::string_view cut_event = "cut";
+
+/// What a motor and its drive are rated for, over the speed of the motor [rad/s, either sign].
+struct DriveRatings {
+  double rotor_inertia = 0;        ///< [kg m2]
+  double stall_torque = 0;         ///< for ever, at standstill [N m]
+  double rated_torque = 0;         ///< for ever, at rated speed [N m]
+  double peak_torque = 0;          ///< up to rated speed [N m]
+  double torque_at_max_speed = 0;  ///< largest there, falling linearly from rated speed [N m]
+  double rated_speed = 0;          ///< [rad/s]
+  double max_speed = 0;            ///< [rad/s]; no driving torque is left 5 % above
+  /// The torque limit acts in normal work: an inverter's ramp waits at it, a motor on the mains passes its
+  /// pull-out torque whenever it starts.
+  bool works_at_limit = false;
+
+  [[nodiscard]] double continuous(double speed) const;  ///< torque for ever: S1 [N m]
+  [[nodiscard]] double peak(double speed) const;        ///< largest driving torque [N m]
+
+  bool operator==(const DriveRatings&) const = default;
+  /// Names every member to `archive`, as archive(key, member).
+  template <typename Archive, typename Self>
+  static void visit(Archive& archive, Self& self) {
+    archive("rotor_inertia", self.rotor_inertia);
+    archive("stall_torque", self.stall_torque);
+    archive("rated_torque", self.rated_torque);
+    archive("peak_torque", self.peak_torque);
+    archive("torque_at_max_speed", self.torque_at_max_speed);
+    archive("rated_speed", self.rated_speed);
+    archive("max_speed", self.max_speed);
+    archive("works_at_limit", self.works_at_limit);
+  }
+};
 
 /// A drive of a plant, for whoever judges it.
 struct DriveOfPlant {
@@ -174,13 +422,13 @@ class Plant {
   [[nodiscard]] virtual std::optional<QuotaLine> quota_line(double /*quota*/) const { return {}; }
 
   [[nodiscard]] bool has_events() const { return !events_.empty(); }
-  [[nodiscard]] std::vector<Event> take_events() { return std::exchange(events_, {}); }
+  [[nodiscard]] std::vector<MachineEvent> take_events() { return std::exchange(events_, {}); }
 
  protected:
-  void happened(Event event) { events_.push_back(std::move(event)); }
+  void happened(MachineEvent event) { events_.push_back(std::move(event)); }
 
  private:
-  std::vector<Event> events_;
+  std::vector<MachineEvent> events_;
 };
 
 /// The definition of one plant in a scenario: parameters with defaults, then the machine built from them.

@@ -1,5 +1,5 @@
 #pragma once
-#include "plants/part.hpp"
+#include "plants/plant.hpp"
 
 namespace drycut::plants {
 

@@ -1,4 +1,4 @@
-#include "plants/position_switch.hpp"
+#include "plants/transducers.hpp"
 
 #include <algorithm>
 #include <cmath>

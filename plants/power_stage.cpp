@@ -157,7 +157,7 @@ void PowerStage::settle(double h) {
   steps_ = 0;
 }
 
-void PowerStage::trip(std::string_view event, std::vector<Event::Value> values) {
+void PowerStage::trip(std::string_view event, std::vector<MachineEvent::Value> values) {
   tripped_ = true;
   events_.push_back({event, 1, std::move(values)});
 }

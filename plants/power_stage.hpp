@@ -6,12 +6,125 @@
 #include <utility>
 #include <vector>
 
-#include "plants/dc_link.hpp"
-#include "plants/motor_heat.hpp"
 #include "plants/plant.hpp"
 #include "plants/world.hpp"
 
 namespace drycut::plants {
+
+/// What a winding and its housing bear. Ambient is the 40 degC for which data sheets rate motors.
+struct MotorHeatData {
+  double winding_time_constant = 60;    ///< of the winding against its housing [s]
+  double housing_time_constant = 2400;  ///< of the housing against the air [s]
+  double temperature_rise = 100;        ///< of the winding over ambient, at stall torque for ever [K]
+  double temperature_limit = 428.15;    ///< of the winding: its sensor trips the drive [K]
+};
+
+/// Rows of the groups `servo.` and `induction_motor.`.
+Parameters motor_heat_parameters(MotorHeatData& data, std::string_view source);
+
+/// Temperatures of a motor: winding, housing, air in a row. Of the thermal resistance from winding to air
+/// 35 % lie before the housing (usual for flanged servo motors); capacities follow from the time constants.
+class MotorHeat {
+ public:
+  static constexpr double ambient = 313.15;         ///< [K]
+  static constexpr double copper = 0.00393;         ///< more resistance a kelvin over 20 degC
+  static constexpr double reference = 293.15;       ///< 20 degC, at which resistances are given [K]
+  static constexpr double share_of_winding = 0.35;  ///< of the thermal resistance
+
+  /// At stall torque, the loss in the cold winding (20 degC) and what the rotor loses [W].
+  MotorHeat(const MotorHeatData& data, double cold_loss, double rotor_loss);
+
+  /// `seconds` with such a mean loss in the winding [W]. Short against the time constants.
+  void warm(double loss, double seconds);
+
+  [[nodiscard]] double winding() const { return winding_; }  ///< [K]
+  [[nodiscard]] double housing() const { return housing_; }  ///< [K]
+  /// Resistance of the winding now over that at 20 degC.
+  [[nodiscard]] double resistance() const { return 1 + copper * (winding_ - reference); }
+  /// Where the winding ends that has this loss when cold (20 degC) and `other` besides for ever [W]: [K],
+  /// infinite where its resistance grows faster than it cools.
+  [[nodiscard]] double steady(double cold_loss, double other) const;
+  /// The inverse: loss in the cold winding that ends at `winding` [K], at least 0.
+  [[nodiscard]] double cold_loss_for(double winding, double other) const;
+
+ private:
+  double to_housing_;  // thermal resistance [K/W]
+  double to_air_;
+  double winding_capacity_;  // [J/K]
+  double housing_capacity_;
+  double winding_ = ambient;
+  double housing_ = ambient;
+};
+
+/// Mains, rectifier, capacitor and brake resistor of a drive. Voltages of the link in shares of the rectified
+/// mains (root 2 times the voltage between two phases), as they are alike in the classes of 200 and 400 V.
+struct SupplyData {
+  double voltage = 400;                ///< of the mains between two phases, rms [V]
+  double frequency = 50;               ///< of the mains [Hz]
+  double capacitance = 1e-3;           ///< of the link [F]
+  double brake_voltage = 1.30;         ///< the resistor is switched on here
+  double brake_hysteresis = 0.02;      ///< and off so far below
+  double overvoltage = 1.45;           ///< trips
+  double undervoltage = 0.70;          ///< trips
+  double resistor = 40;                ///< brake resistor [ohm], 0 = none
+  double resistor_power = 100;         ///< that it bears for ever [W]
+  double resistor_time_constant = 60;  ///< thermal [s]
+  double resistor_rise = 300;          ///< over ambient, at resistor_power for ever [K]
+};
+
+/// Rows of the groups `servo.supply.` and `inverter.supply.`.
+Parameters supply_parameters(SupplyData& data);
+
+/// The energy of a DC link. The rectifier is ideal: the link never stands below the mains' peak while they
+/// feed it, and nothing goes back. Of three phases the ripple is left out; with one lost, two phases leave
+/// the half waves of one voltage.
+class DcLink {
+ public:
+  explicit DcLink(const SupplyData& data);
+
+  /// `seconds` in which the drive takes `energy` [J] out of the link; negative: braking puts it in.
+  void carry(double energy, double seconds);
+
+  [[nodiscard]] double voltage() const;  ///< [V]
+  /// Voltage over that of the rectified mains at their nominal voltage, at most 1: what is left of the
+  /// motor's speeds at which torque falls.
+  [[nodiscard]] double speed_share() const;
+  [[nodiscard]] double stored() const { return energy_; }                  ///< in the capacitor [J]
+  [[nodiscard]] double from_mains() const { return mains_; }               ///< since the start [J]
+  [[nodiscard]] double in_resistor() const { return burnt_; }              ///< since the start [J]
+  [[nodiscard]] double mains_power() const { return mains_power_; }        ///< now [W]
+  [[nodiscard]] double resistor_power() const { return resistor_power_; }  ///< now [W]
+  [[nodiscard]] double resistor_load() const { return load_; }   ///< thermal, 1 = all that it bears for ever
+  [[nodiscard]] double resistor_temperature() const;             ///< [K]
+  [[nodiscard]] bool over() const { return energy_ > over_; }    ///< overvoltage
+  [[nodiscard]] bool under() const { return energy_ < under_; }  ///< undervoltage
+  [[nodiscard]] bool mains_well() const;  ///< three phases of at least 85 % of their voltage
+  [[nodiscard]] const SupplyData& data() const { return data_; }
+
+  /// dip, phase_lost and outage of the mains, under the component name "mains". 0 clears each.
+  void offer_faults(std::vector<Fault>& faults);
+
+ private:
+  [[nodiscard]] double rectified(double time) const;  // energy up to which the mains fill the link [J]
+
+  SupplyData data_;
+  double nominal_;  // energies at the voltages of the data [J]
+  double brake_on_;
+  double brake_off_;
+  double over_;
+  double under_;
+  double energy_;
+  double mains_ = 0;
+  double burnt_ = 0;
+  double mains_power_ = 0;
+  double resistor_power_ = 0;
+  double load_ = 0;
+  double time_ = 0;
+  bool braking_ = false;
+  double dip_ = 0;  // share of the voltage that is missing
+  bool phase_lost_ = false;
+  bool outage_ = false;
+};
 
 /// What an amplifier or inverter bears.
 struct AmplifierData {
@@ -36,37 +149,6 @@ struct MotorCurrent {
   double no_load = 0;             ///< [A]
   double resistance = 1;          ///< loss in the cold windings (20 degC) over I^2 [ohm]
   double rated_rotor_loss = 0;    ///< at stall torque [W]
-};
-
-/// What a motor and its drive are rated for, over the speed of the motor [rad/s, either sign].
-struct DriveRatings {
-  double rotor_inertia = 0;        ///< [kg m2]
-  double stall_torque = 0;         ///< for ever, at standstill [N m]
-  double rated_torque = 0;         ///< for ever, at rated speed [N m]
-  double peak_torque = 0;          ///< up to rated speed [N m]
-  double torque_at_max_speed = 0;  ///< largest there, falling linearly from rated speed [N m]
-  double rated_speed = 0;          ///< [rad/s]
-  double max_speed = 0;            ///< [rad/s]; no driving torque is left 5 % above
-  /// The torque limit acts in normal work: an inverter's ramp waits at it, a motor on the mains passes its
-  /// pull-out torque whenever it starts.
-  bool works_at_limit = false;
-
-  [[nodiscard]] double continuous(double speed) const;  ///< torque for ever: S1 [N m]
-  [[nodiscard]] double peak(double speed) const;        ///< largest driving torque [N m]
-
-  bool operator==(const DriveRatings&) const = default;
-  /// Names every member to `archive`, as archive(key, member).
-  template <typename Archive, typename Self>
-  static void visit(Archive& archive, Self& self) {
-    archive("rotor_inertia", self.rotor_inertia);
-    archive("stall_torque", self.stall_torque);
-    archive("rated_torque", self.rated_torque);
-    archive("peak_torque", self.peak_torque);
-    archive("torque_at_max_speed", self.torque_at_max_speed);
-    archive("rated_speed", self.rated_speed);
-    archive("max_speed", self.max_speed);
-    archive("works_at_limit", self.works_at_limit);
-  }
 };
 
 /// What a drive has done since the start.
@@ -187,7 +269,7 @@ class PowerStage {
   void offer_faults(std::vector<Fault>& faults);
   static void offer_events(std::vector<EventType>& types);
   [[nodiscard]] bool has_events() const { return !events_.empty(); }
-  [[nodiscard]] std::vector<Event> take_events() { return std::exchange(events_, {}); }
+  [[nodiscard]] std::vector<MachineEvent> take_events() { return std::exchange(events_, {}); }
 
  private:
   void prepare(double h);
@@ -196,7 +278,7 @@ class PowerStage {
   void settle(double h);
   void end_saturation();
   void watch(bool energised);
-  void trip(std::string_view event, std::vector<Event::Value> values);
+  void trip(std::string_view event, std::vector<MachineEvent::Value> values);
   void show();
   void clear_edges();
 
@@ -239,7 +321,7 @@ class PowerStage {
     double end = 0;    // so far [s]
     double asked = 0;  // largest
   } saturation_;
-  std::vector<Event> events_;
+  std::vector<MachineEvent> events_;
 };
 
 }  // namespace drycut::plants

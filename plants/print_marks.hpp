@@ -6,8 +6,8 @@
 
 #include "plants/exact_sum.hpp"
 #include "plants/plant.hpp"
-#include "plants/position_switch.hpp"
 #include "plants/random.hpp"
+#include "plants/transducers.hpp"
 
 namespace drycut::plants {
 

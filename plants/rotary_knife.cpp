@@ -76,7 +76,7 @@ void RotaryKnife::sense(double h) {
   tell_motor_load(h);
   gear_.sense(rotor_, drum_, h);
   servo_.sense(rotor_);
-  for (Event& event : servo_.take_events(rotor_)) happened(std::move(event));
+  for (MachineEvent& event : servo_.take_events(rotor_)) happened(std::move(event));
   encoder_.sense(data_.encoder_on_drum ? drum_ : rotor_, h);
   home_.sense(drum_.part_before, drum_.part, h);
   const Cutter::Outcome outcome = cutter_.sense(drum_, station_.under(0, drum_.speed * along_web_), h);
@@ -90,16 +90,16 @@ void RotaryKnife::report(const Cutter::Outcome& outcome) {
     last_mismatch_ = outcome.mismatch;
     last_skew_ = outcome.skew;
     ++cuts_;
-    Event cut = {"cut",
-                 outcome.fraction,
-                 {{"length", station_.length() * units::millimetres, "mm"},
-                  {"mismatch", last_mismatch_ * units::millimetres, "mm/s"},
-                  {"force", outcome.force, "N"},
-                  {"number", static_cast<double>(cuts_), ""}}};
+    MachineEvent cut = {"cut",
+                        outcome.fraction,
+                        {{"length", station_.length() * units::millimetres, "mm"},
+                         {"mismatch", last_mismatch_ * units::millimetres, "mm/s"},
+                         {"force", outcome.force, "N"},
+                         {"number", static_cast<double>(cuts_), ""}}};
     if (data_.helix > 0) cut.values.push_back({"skew", last_skew_ * units::millimetres, "mm"});
     station_.describe(cut);
     happened(std::move(cut));
-    for (Event& scrap : station_.take_events()) happened(std::move(scrap));
+    for (MachineEvent& scrap : station_.take_events()) happened(std::move(scrap));
   }
   if (outcome.tore || outcome.buckled)
     happened(

@@ -3,12 +3,11 @@
 
 #include "plants/counter_drum.hpp"
 #include "plants/cutting.hpp"
-#include "plants/encoder.hpp"
 #include "plants/motor_load.hpp"
 #include "plants/plant.hpp"
-#include "plants/position_switch.hpp"
 #include "plants/servo_axis.hpp"
 #include "plants/station.hpp"
+#include "plants/transducers.hpp"
 #include "plants/transmission.hpp"
 #include "plants/web.hpp"
 

@@ -2,10 +2,9 @@
 #include <array>
 #include <string>
 
-#include "plants/axis_transducers.hpp"
 #include "plants/end_stop.hpp"
-#include "plants/friction.hpp"
 #include "plants/motor_load.hpp"
+#include "plants/transducers.hpp"
 #include "plants/transmission.hpp"
 #include "plants/world.hpp"
 

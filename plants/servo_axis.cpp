@@ -21,8 +21,8 @@ void ServoAxis::sense(const Shaft& rotor) {
   if (pulses_) pulses_->sense(rotor);
 }
 
-std::vector<Event> ServoAxis::take_events(const Shaft& rotor) {
-  std::vector<Event> events = amplifier_.power().take_events();
+std::vector<MachineEvent> ServoAxis::take_events(const Shaft& rotor) {
+  std::vector<MachineEvent> events = amplifier_.power().take_events();
   if (pulses_ && pulses_->just_tripped())
     events.push_back({"following_error",
                       1,

@@ -53,7 +53,7 @@ class ServoAxis {
   void offer_faults(std::vector<Fault>& faults);
   static void offer_events(std::vector<EventType>& types);
   /// What happened to it since it was asked last.
-  [[nodiscard]] std::vector<Event> take_events(const Shaft& rotor);
+  [[nodiscard]] std::vector<MachineEvent> take_events(const Shaft& rotor);
 
  private:
   ServoDrive amplifier_;

@@ -12,8 +12,8 @@ Parameters station_parameters(StationData& data) {
           "the first one"),
       row("scrap.shorter", "mm", "a shorter piece that it cuts off drops out; 0: none", data.scrap_shorter, 0,
           100000, "nothing drops out"),
-      row("scrap.every", "every n-th piece is dropped; 0 = none", data.scrap_every, 0,
-          1000, "nothing drops out"),
+      row("scrap.every", "every n-th piece is dropped; 0 = none", data.scrap_every, 0, 1000,
+          "nothing drops out"),
   };
 }
 
@@ -61,7 +61,7 @@ void Station::cut(double fraction, double mark) {
                       {"total", dropped_length_ * units::millimetres, "mm"}}});
 }
 
-void Station::describe(Event& cut) const {
+void Station::describe(MachineEvent& cut) const {
   if (data_.place > 0) cut.values.push_back({"rest", rest_ * units::millimetres, "mm"});
   if (web_.marks().printed())
     cut.values.push_back({"register", web_.register_error() * units::millimetres, "mm"});

@@ -44,17 +44,17 @@ class Station {
 
   [[nodiscard]] double length() const { return length_; }  ///< of the piece that came off last [m]
   /// What the event `cut` says of it: rest, of a station behind the first one; register, of a printed web.
-  void describe(Event& cut) const;
+  void describe(MachineEvent& cut) const;
   void describe(EventType& cut) const;
   void offer_events(std::vector<EventType>& types) const;
-  [[nodiscard]] std::vector<Event> take_events() { return std::exchange(events_, {}); }
+  [[nodiscard]] std::vector<MachineEvent> take_events() { return std::exchange(events_, {}); }
 
  private:
   StationData data_;
   Web& web_;
   Slide air_ = {.mass = 1e-9};  // yields to everything
   Slide* material_;
-  std::vector<Event> events_;
+  std::vector<MachineEvent> events_;
   double length_ = 0;
   double rest_ = 0;  // of the piece, behind the cut [m]
   int cuts_ = 0;

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "plants/parameters.hpp"
+#include "plants/plant.hpp"
 #include "plants/world.hpp"
 
 namespace drycut::plants {

@@ -55,14 +55,14 @@ void VerticalPress::sense(double h) {
   screw_.sense(h);
   report_contacts();
   watch_for_sag(h);
-  for (Event& event : drive_.take_events(rotor())) happened(std::move(event));
+  for (MachineEvent& event : drive_.take_events(rotor())) happened(std::move(event));
 }
 
 void VerticalPress::report_contacts() {
   for (EndStop& stop : screw_.stops)
     if (stop.stopped(ram())) happened(stop.hit("end_stop"));
   if (data_.workpiece.stiffness <= 0 || !workpiece_.stopped(ram())) return;
-  Event pressed = workpiece_.hit("pressed");
+  MachineEvent pressed = workpiece_.hit("pressed");
   pressed.values.erase(pressed.values.begin());  // it has no side
   happened(std::move(pressed));
 }

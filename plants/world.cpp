@@ -10,6 +10,7 @@
 
 #include "base/units.hpp"
 #include "plants/exact_sum.hpp"
+#include "plants/random.hpp"
 
 namespace drycut::plants {
 

@@ -7,10 +7,11 @@
 #include <string>
 #include <string_view>
 
-#include "plants/part.hpp"
-#include "plants/random.hpp"
+#include "plants/plant.hpp"
 
 namespace drycut::plants {
+
+class Random;
 
 /// A body that turns about an axis parallel to z: rotor, drum. The angle is whole turns plus a part of a
 /// turn, so that it neither wraps nor loses digits over millions of turns. A plant adds torques before the

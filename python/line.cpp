@@ -6,16 +6,18 @@
 #include <stdexcept>
 #include <string>
 
+#include "devices/controller.hpp"
 #include "python/shared.hpp"
+#include "sim/loop/names.hpp"
 
 namespace drycut::python {
 
 namespace {
 
 /// A simulation that one thread at a time works on. Whoever asks holds the interpreter's lock.
-class Line {
+class PythonLine {
  public:
-  Line(const std::filesystem::path& file, const Settings& set) : simulation_(file, set) {}
+  PythonLine(const std::filesystem::path& file, const Settings& set) : simulation_(file, set) {}
 
   Simulation& own() {
     if (busy_) throw std::runtime_error("another thread steps this simulation now");
@@ -50,9 +52,9 @@ class Line {
   bool busy_ = false;
 };
 
-Line& line_of(PyObject* self) {
+PythonLine& line_of(PyObject* self) {
   auto* const instance = reinterpret_cast<py::detail::instance*>(self);
-  auto* const line = static_cast<Line*>(instance->get_value_and_holder().value_ptr());
+  auto* const line = static_cast<PythonLine*>(instance->get_value_and_holder().value_ptr());
   if (line == nullptr) throw std::runtime_error("Simulation.__init__ was not called");
   return *line;
 }
@@ -180,7 +182,7 @@ std::array methods = {
                 "step($self)\n--\n\nOne step of the machine, `step_length` [s] long. Raises Diverged."},
 };
 
-py::list events_of(Line& line) {
+py::list events_of(PythonLine& line) {
   py::list events;
   for (const auto& e : line.own().take_events())
     events.append(py::make_tuple(e.time, e.source, e.name, e.values, e.text));
@@ -191,17 +193,18 @@ py::list events_of(Line& line) {
 
 void add_line(py::module_& module) {
   const auto type =
-      py::class_<Line>(module, "Simulation")
+      py::class_<PythonLine>(module, "Simulation")
           .def(py::init<const std::filesystem::path&, const Settings&>(), "file"_a, "set"_a,
                py::call_guard<py::gil_scoped_release>())
-          .def_property_readonly("time", [](Line& line) { return line.own().time(); })
-          .def_property_readonly("step_length", [](Line& line) { return line.own().step_length(); })
-          .def_property_readonly("duration", [](Line& line) { return line.own().duration(); })
-          .def("names", [](Line& line) { return line.own().names(); })
+          .def_property_readonly("time", [](PythonLine& line) { return line.own().time(); })
+          .def_property_readonly("step_length", [](PythonLine& line) { return line.own().step_length(); })
+          .def_property_readonly("duration", [](PythonLine& line) { return line.own().duration(); })
+          .def("names", [](PythonLine& line) { return line.own().names(); })
           .def(
-              "unit", [](Line& line, const std::string& name) { return line.own().unit(name); }, "name"_a)
+              "unit", [](PythonLine& line, const std::string& name) { return line.own().unit(name); },
+              "name"_a)
           .def("take_events", events_of)
-          .def("checks", [](Line& line) { return python_of(line.own().checks()); });
+          .def("checks", [](PythonLine& line) { return python_of(line.own().checks()); });
   for (auto& each : methods) {
     const auto made = py::reinterpret_steal<py::object>(
         PyDescr_NewMethod(reinterpret_cast<PyTypeObject*>(type.ptr()), &each));

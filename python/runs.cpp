@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "python/shared.hpp"
-#include "sim/library.hpp"
+#include "sim/loop/library.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/report/part_meshes.hpp"
 #include "sim/report/run_folder.hpp"

@@ -33,7 +33,7 @@ const ArgumentNames argument_names = {
     {"--figure", "figures"}, {"--constraint", "constraints"}, {"--from", "start"}};
 
 /// Where the files of a study go.
-struct Place {
+struct StudyPlace {
   std::filesystem::path folder;
   bool kept = false;  ///< with the command's report; else the folder is a temporary one
   int jobs = 1;
@@ -113,7 +113,8 @@ class Asked {
   std::vector<studies::SweepPoint> points;
   std::optional<sim::OutputFolder> folder;
 
-  Asked(const SweepCall& call, const Sought& sought, std::optional<std::size_t> sample, const Place& place) {
+  Asked(const SweepCall& call, const Sought& sought, std::optional<std::size_t> sample,
+        const StudyPlace& place) {
     Problems problems;
     check_jobs(place.jobs, problems);
     auto text = sim::read_file(call.file, problems);
@@ -185,7 +186,7 @@ py::dict answer(const Asked& asked, const std::string& csv, std::size_t simulate
 /// its report.
 template <typename Work>
 py::dict studied(const SweepCall& call, const Sought& sought, std::optional<std::size_t> sample,
-                 const Place& place, const Work& work) {
+                 const StudyPlace& place, const Work& work) {
   std::optional<Asked> asked;
   std::string csv;
   std::size_t simulated = 0;
@@ -205,7 +206,7 @@ py::dict studied(const SweepCall& call, const Sought& sought, std::optional<std:
   return answer(*asked, csv, simulated);
 }
 
-py::dict sweep(const SweepCall& call, std::optional<std::size_t> sample, const Place& place,
+py::dict sweep(const SweepCall& call, std::optional<std::size_t> sample, const StudyPlace& place,
                const py::object& progress) {
   Teller teller(progress);
   return studied(call, {}, sample, place, [&](Asked& asked, studies::PointStore& store) {
@@ -218,7 +219,7 @@ py::dict sweep(const SweepCall& call, std::optional<std::size_t> sample, const P
   });
 }
 
-py::dict envelope(const SweepCall& call, const Sought& bound, const Place& place,
+py::dict envelope(const SweepCall& call, const Sought& bound, const StudyPlace& place,
                   const py::object& progress) {
   Teller teller(progress);
   return studied(call, bound, std::nullopt, place, [&](Asked& asked, studies::PointStore& store) {

@@ -11,21 +11,21 @@ namespace drycut::renders {
 namespace {
 
 /// An edge of the grid: from its corner to the right, or up.
-struct Edge {
+struct CellEdge {
   std::size_t corner;
   bool up;
-  auto operator<=>(const Edge&) const = default;
+  auto operator<=>(const CellEdge&) const = default;
 };
 
-class Grid {
+class ValueGrid {
  public:
-  Grid(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& values,
-       double level)
+  ValueGrid(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& values,
+            double level)
       : x_(x), y_(y), values_(values), level_(level) {}
 
   /// The pieces of the lines in all cells, each from an edge to an edge.
-  [[nodiscard]] std::vector<std::pair<Edge, Edge>> pieces() const {
-    std::vector<std::pair<Edge, Edge>> found;
+  [[nodiscard]] std::vector<std::pair<CellEdge, CellEdge>> pieces() const {
+    std::vector<std::pair<CellEdge, CellEdge>> found;
     for (std::size_t row = 0; row + 1 < y_.size(); ++row)
       for (std::size_t column = 0; column + 1 < x_.size(); ++column)
         add_cell(row * x_.size() + column, found);
@@ -33,7 +33,7 @@ class Grid {
   }
 
   /// Where a line crosses an edge.
-  [[nodiscard]] std::pair<double, double> place(const Edge& edge) const {
+  [[nodiscard]] std::pair<double, double> place(const CellEdge& edge) const {
     const std::size_t other = edge.corner + (edge.up ? x_.size() : 1);
     const double from = values_[edge.corner];
     const double share = (level_ - from) / (values_[other] - from);
@@ -44,14 +44,14 @@ class Grid {
   }
 
  private:
-  void add_cell(std::size_t corner, std::vector<std::pair<Edge, Edge>>& found) const {
+  void add_cell(std::size_t corner, std::vector<std::pair<CellEdge, CellEdge>>& found) const {
     const std::size_t above = corner + x_.size();
     const std::array<double, 4> corners = {values_[corner], values_[corner + 1], values_[above + 1],
                                            values_[above]};
     if (!std::all_of(corners.begin(), corners.end(), [](double v) { return std::isfinite(v); })) return;
-    const std::array<Edge, 4> edges = {Edge{corner, false}, Edge{corner + 1, true}, Edge{above, false},
-                                       Edge{corner, true}};
-    std::vector<Edge> crossed;
+    const std::array<CellEdge, 4> edges = {CellEdge{corner, false}, CellEdge{corner + 1, true},
+                                           CellEdge{above, false}, CellEdge{corner, true}};
+    std::vector<CellEdge> crossed;
     for (std::size_t i = 0; i < 4; ++i)
       if (over(corners[i]) != over(corners[(i + 1) % 4])) crossed.push_back(edges[i]);
     if (crossed.size() == 2) found.emplace_back(crossed[0], crossed[1]);
@@ -74,15 +74,15 @@ class Grid {
 
 std::vector<Polyline> contours(const std::vector<double>& x, const std::vector<double>& y,
                                const std::vector<double>& values, double level) {
-  const Grid grid(x, y, values, level);
+  const ValueGrid grid(x, y, values, level);
   const auto pieces = grid.pieces();
-  std::multimap<Edge, std::size_t> at;  // an edge has one piece in each of its two cells
+  std::multimap<CellEdge, std::size_t> at;  // an edge has one piece in each of its two cells
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     at.emplace(pieces[i].first, i);
     at.emplace(pieces[i].second, i);
   }
   std::vector<bool> used(pieces.size());
-  const auto follow = [&](Edge edge, const auto& add) {
+  const auto follow = [&](CellEdge edge, const auto& add) {
     while (true) {
       const auto [begin, end] = at.equal_range(edge);
       const auto next = std::find_if(begin, end, [&](const auto& entry) { return !used[entry.second]; });
@@ -97,12 +97,12 @@ std::vector<Polyline> contours(const std::vector<double>& x, const std::vector<d
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (used[i]) continue;
     used[i] = true;
-    std::deque<Edge> edges = {pieces[i].first, pieces[i].second};
-    follow(pieces[i].second, [&](const Edge& edge) { edges.push_back(edge); });
-    follow(pieces[i].first, [&](const Edge& edge) { edges.push_front(edge); });
+    std::deque<CellEdge> edges = {pieces[i].first, pieces[i].second};
+    follow(pieces[i].second, [&](const CellEdge& edge) { edges.push_back(edge); });
+    follow(pieces[i].first, [&](const CellEdge& edge) { edges.push_front(edge); });
     auto& line = lines.emplace_back();
     line.reserve(edges.size());
-    for (const Edge& edge : edges) line.push_back(grid.place(edge));
+    for (const CellEdge& edge : edges) line.push_back(grid.place(edge));
   }
   return lines;
 }

@@ -133,7 +133,7 @@ Points thinned_path(const Curve& curve, const PixelGrid& grid) {
   return kept;
 }
 
-void Envelope::add(double x, double y) {
+void Extremes::add(double x, double y) {
   if (stretch_ == 1) {
     kept_.x.push_back(x);
     kept_.y.push_back(y);
@@ -144,7 +144,7 @@ void Envelope::add(double x, double y) {
   if (++count_ == stretch_) close();
 }
 
-void Envelope::close() {
+void Extremes::close() {
   const bool falls = high_.x < low_.x;
   for (const Sample& sample : {falls ? high_ : low_, falls ? low_ : high_}) {
     if (!kept_.x.empty() && low_.x == high_.x && kept_.x.back() == sample.x) continue;
@@ -154,14 +154,14 @@ void Envelope::close() {
   count_ = 0;
 }
 
-Points Envelope::take() {
+Points Extremes::take() {
   if (count_ > 0) close();
   return std::move(kept_);
 }
 
 void thin(std::vector<double>& x, std::vector<double>& y) {
   if (x.size() <= kMostSamples) return;
-  Envelope envelope(x.size());
+  Extremes envelope(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) envelope.add(x[i], y[i]);
   Points kept = envelope.take();
   x = std::move(kept.x);

@@ -37,10 +37,10 @@ inline constexpr std::size_t kStretches = 10'000;
 
 /// Takes the samples of a curve from left to right and keeps a bounded number of them, so that every peak
 /// stays: see kMostSamples.
-class Envelope {
+class Extremes {
  public:
   /// `samples`: how many are to come.
-  explicit Envelope(std::size_t samples)
+  explicit Extremes(std::size_t samples)
       : stretch_(samples <= kMostSamples ? 1 : (samples + kStretches - 1) / kStretches) {}
   /// Samples in a stretch; 1: all are kept.
   [[nodiscard]] std::size_t stretch() const { return stretch_; }

@@ -19,7 +19,7 @@ namespace {
 constexpr double kFloorReach = 8;  ///< from the middle, in radii of the mechanism; it fades on the way
 
 /// Texture units.
-enum Unit : int { kScratch, kKeyMap, kSkyMap, kPaints, kNormals, kHall };
+enum TextureUnit : int { kScratch, kKeyMap, kSkyMap, kPaints, kNormals, kHall };
 
 /// Floor squares of 1, 2 or 5 times a power of ten metres, about twelve over the mechanism.
 double floor_spacing(double radius) {
@@ -65,7 +65,7 @@ GlRenderer::GlRenderer(const Stage& stage, const GlTurn& turn)
     program->set_texture("normals", kNormals);
     program->set_texture("hall", kHall);
   }
-  const auto bind = [](Unit unit, Name texture) {
+  const auto bind = [](TextureUnit unit, Name texture) {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     glBindTexture(GL_TEXTURE_2D, texture);
   };

@@ -90,7 +90,7 @@ Item** owned(const std::vector<Item*>& items) {
 using Look =
     std::tuple<SolidPart::Shape, double, double, double, std::array<float, 3>, std::string, const Mesh*>;
 
-class Builder {
+class GltfBuilder {
  public:
   void add(const SolidPart& part, const Track& track) {
     auto* node = new aiNode(part.name);
@@ -176,7 +176,7 @@ std::string gltf(const Film& film, int slow) {
   require_drawable(film);
   if (film.frames.empty()) throw std::invalid_argument("glTF: the film has no frames");
   aiScene scene;
-  Builder builder;
+  GltfBuilder builder;
   for (std::size_t part = 0; part < film.parts.size(); ++part) {
     const bool seen = std::any_of(film.frames.begin(), film.frames.end(),
                                   [&](const Frame& frame) { return frame.placements[part].visible; });

@@ -75,7 +75,7 @@ constexpr std::size_t most_skipped = 40;  // keys in a row: so long it is worth 
 
 Eigen::Quaterniond turn_of(const Placement& placement) { return Eigen::Quaterniond(placement.rotation); }
 
-Placement between(const Key& a, const Key& b, double time_s) {
+Placement between(const TrackKey& a, const TrackKey& b, double time_s) {
   const double stretch = b.time_s - a.time_s;
   const double share = stretch > 0 ? (time_s - a.time_s) / stretch : 1;
   const auto& [from, to] = std::pair<const Placement&, const Placement&>(a.placement, b.placement);
@@ -103,7 +103,7 @@ bool tells(const Track& track, std::size_t from, std::size_t to) {
 
 Placement placement_at(const Track& track, double time_s) {
   const auto after = std::upper_bound(track.begin(), track.end(), time_s,
-                                      [](double at, const Key& key) { return at < key.time_s; });
+                                      [](double at, const TrackKey& key) { return at < key.time_s; });
   if (after == track.begin()) return track.front().placement;
   if (after == track.end()) return track.back().placement;
   return between(*(after - 1), *after, time_s);

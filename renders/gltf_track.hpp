@@ -6,12 +6,12 @@
 namespace drycut::renders {
 
 /// Where a part is at a time of an animation, which goes straight from one key to the next.
-struct Key {
+struct TrackKey {
   double time_s = 0;    ///< from the first frame, at the film's pace
   Placement placement;  ///< scale 0 = not visible; rotation of unit length
 };
 /// At least one key; only one for a part that stays where it is.
-using Track = std::vector<Key>;
+using Track = std::vector<TrackKey>;
 
 /// The keys of part number `part` over the film, which must have frames: a key a frame and a waypoint, at
 /// `slow` times the time that has passed since the first frame. Rotations turn the short way; stretches

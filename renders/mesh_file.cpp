@@ -27,23 +27,23 @@ constexpr float smooth_up_to = 30;  // [deg]
 constexpr double millimetre = 1e-3;
 
 /// Kinds of files, and how long their unit is [m].
-struct Kind {
+struct MeshKind {
   std::string_view extension;
   double unit;
 };
-constexpr std::array<Kind, 7> kinds = {{{".stl", millimetre},
-                                        {".obj", millimetre},
-                                        {".ply", millimetre},
-                                        {".off", millimetre},
-                                        {".gltf", 1},
-                                        {".glb", 1},
-                                        {".dae", 1}}};
+constexpr std::array<MeshKind, 7> kinds = {{{".stl", millimetre},
+                                            {".obj", millimetre},
+                                            {".ply", millimetre},
+                                            {".off", millimetre},
+                                            {".gltf", 1},
+                                            {".glb", 1},
+                                            {".dae", 1}}};
 
-const Kind* kind_of(const std::filesystem::path& file) {
+const MeshKind* kind_of(const std::filesystem::path& file) {
   auto extension = file.extension().string();
   for (auto& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const auto* const found =
-      std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return kind.extension == extension; });
+  const auto* const found = std::find_if(kinds.begin(), kinds.end(),
+                                         [&](const MeshKind& kind) { return kind.extension == extension; });
   return found == kinds.end() ? nullptr : found;
 }
 

@@ -29,7 +29,7 @@ constexpr double kSeenArrow = 2;        ///< what is shorter is a ring [pixels]
 using Point = std::array<double, 2>;  // pixels
 
 /// What every mark on what a camera sees needs to know.
-struct Sheet {
+struct OverlaySheet {
   cairo_t* pen;
   const Camera& camera;
   int width;
@@ -45,7 +45,7 @@ struct Sheet {
 
 /// Words on a dark plate with their middle at `wanted`, or, where others stand there or the plate would hide
 /// a line of that `length`, beside it with a thin line back. Left out where there is no room.
-void plate(const Sheet& sheet, const Point& wanted, const std::string& words, double length) {
+void plate(const OverlaySheet& sheet, const Point& wanted, const std::string& words, double length) {
   const double size = 12 * sheet.scale;
   cairo_set_font_size(sheet.pen, size);
   const double half = text_width(sheet.pen, words) / 2 + 0.4 * size;
@@ -67,7 +67,7 @@ void plate(const Sheet& sheet, const Point& wanted, const std::string& words, do
 }
 
 /// A line with a dark border, so that it shows on bright and dark parts alike.
-void stroke(const Sheet& sheet, double red, double green, double blue) {
+void stroke(const OverlaySheet& sheet, double red, double green, double blue) {
   cairo_set_line_cap(sheet.pen, CAIRO_LINE_CAP_ROUND);
   cairo_set_source_rgba(sheet.pen, 0.05, 0.06, 0.08, 0.8);
   cairo_set_line_width(sheet.pen, 4.5 * sheet.scale);
@@ -77,7 +77,7 @@ void stroke(const Sheet& sheet, double red, double green, double blue) {
   cairo_stroke(sheet.pen);
 }
 
-void line(const Sheet& sheet, const Point& from, const Point& to) {
+void line(const OverlaySheet& sheet, const Point& from, const Point& to) {
   cairo_move_to(sheet.pen, from[0], from[1]);
   cairo_line_to(sheet.pen, to[0], to[1]);
 }
@@ -90,7 +90,7 @@ struct Marked {
 };
 
 /// A line between the two ends with a stroke up and down at each, which is where it was cut.
-std::optional<Marked> draw_length(const Sheet& sheet, const Callout& callout) {
+std::optional<Marked> draw_length(const OverlaySheet& sheet, const DrawnCallout& callout) {
   if (!sheet.before_eye(callout.at) || !sheet.before_eye(callout.to)) return std::nullopt;
   const Point from = sheet.at(callout.at);
   const Point to = sheet.at(callout.to);
@@ -104,7 +104,7 @@ std::optional<Marked> draw_length(const Sheet& sheet, const Callout& callout) {
 }
 
 /// The path of an arrow from `at` along `way`, so many pixels long; its end. None where it points at the eye.
-std::optional<Point> arrow(const Sheet& sheet, const Vec3& at, const Vec3& way, double pixels) {
+std::optional<Point> arrow(const OverlaySheet& sheet, const Vec3& at, const Vec3& way, double pixels) {
   if (!sheet.before_eye(at)) return std::nullopt;
   const double reach = (at - sheet.camera.eye).norm();
   const Point from = sheet.at(at);
@@ -120,7 +120,7 @@ std::optional<Point> arrow(const Sheet& sheet, const Vec3& at, const Vec3& way, 
   return to;
 }
 
-std::optional<Marked> draw_force(const Sheet& sheet, const Callout& callout, double largest) {
+std::optional<Marked> draw_force(const OverlaySheet& sheet, const DrawnCallout& callout, double largest) {
   const double force = callout.to.norm();
   if (force < 1e-3 * largest) return std::nullopt;
   const double pixels =
@@ -136,7 +136,7 @@ std::optional<Marked> draw_force(const Sheet& sheet, const Callout& callout, dou
 
 /// As long as what moves is fast, so that two arrows can be compared, with words below; a ring where it is
 /// too short. Nothing else is written on it.
-std::optional<Marked> draw_speed(const Sheet& sheet, const Callout& callout, double fastest) {
+std::optional<Marked> draw_speed(const OverlaySheet& sheet, const DrawnCallout& callout, double fastest) {
   if (!sheet.before_eye(callout.at)) return std::nullopt;
   const double speed = callout.to.norm();
   const Point from = sheet.at(callout.at);
@@ -154,7 +154,7 @@ std::optional<Marked> draw_speed(const Sheet& sheet, const Callout& callout, dou
   return Marked{{(from[0] + (*end)[0]) / 2, (from[1] + (*end)[1]) / 2 + 16 * sheet.scale}, words};
 }
 
-Marked draw_quota(const Sheet& sheet, const Quota& quota) {
+Marked draw_quota(const OverlaySheet& sheet, const DrawnQuota& quota) {
   const Point right = sheet.at(quota.right);
   line(sheet, sheet.at(quota.left), right);
   stroke(sheet, 1.0, 0.85, 0.20);
@@ -204,7 +204,7 @@ std::vector<std::vector<TipPlace>> ways_of_tip(const Film& film, std::size_t par
 }
 
 /// Where the tip of a part was in the last frames; older is fainter.
-void draw_trail(const Sheet& sheet, const Film& film, std::size_t part, std::size_t frame) {
+void draw_trail(const OverlaySheet& sheet, const Film& film, std::size_t part, std::size_t frame) {
   const std::size_t first = frame - std::min(frame, kTrailFrames);
   const double now_s = film.frames[frame].time_s;
   const double oldest_s = (now_s - film.frames[first].time_s) * (1 + 1.0 / kTrailFrames);
@@ -249,9 +249,9 @@ Overlays::Overlays(const Film& film, int caption_height)
       empty_(!film.trails && film.live.empty() && film.beside.empty()) {
   for (const Frame& frame : film.frames) {
     empty_ = empty_ && frame.callouts.empty() && !frame.quota;
-    for (const Callout& callout : frame.callouts) {
-      if (callout.kind == Callout::Kind::force) largest_ = std::max(largest_, callout.to.norm());
-      if (callout.kind == Callout::Kind::speed) fastest_ = std::max(fastest_, callout.to.norm());
+    for (const DrawnCallout& callout : frame.callouts) {
+      if (callout.kind == DrawnCallout::Kind::force) largest_ = std::max(largest_, callout.to.norm());
+      if (callout.kind == DrawnCallout::Kind::speed) fastest_ = std::max(fastest_, callout.to.norm());
     }
   }
 }
@@ -284,29 +284,29 @@ void Overlays::draw_view(std::size_t frame, std::size_t view, cairo_t* pen) cons
     room.take(box);
   };
   keep_free(live_.box(height_));
-  const std::optional<Quota>& quota = film_.frames[frame].quota;
+  const std::optional<DrawnQuota>& quota = film_.frames[frame].quota;
   if (quota) keep_free(gauge_box(film_));
-  const Sheet sheet = {pen, camera, tile.width, tile.height, picture_scale(film_.height), room};
+  const OverlaySheet sheet = {pen, camera, tile.width, tile.height, picture_scale(film_.height), room};
   if (tiles_.size() > 1) {
     const std::string& name = view == 0 ? film_.camera_name : film_.beside[view - 1].name;
     if (!name.empty()) plate(sheet, {0, 0}, name, 1e9);
   }
   for (std::size_t part = 0; film_.trails && part < film_.parts.size(); ++part)
     if (film_.parts[part].tip) draw_trail(sheet, film_, part, frame);
-  const auto draw_all = [&](Callout::Kind kind, auto&& draw_one) {
+  const auto draw_all = [&](DrawnCallout::Kind kind, auto&& draw_one) {
     std::vector<Marked> marked;
-    for (const Callout& callout : film_.frames[frame].callouts) {
+    for (const DrawnCallout& callout : film_.frames[frame].callouts) {
       if (callout.kind != kind) continue;
       if (auto one = draw_one(callout)) marked.push_back(std::move(*one));
     }
     return marked;
   };
   const auto lengths =
-      draw_all(Callout::Kind::length, [&](const Callout& one) { return draw_length(sheet, one); });
-  const auto forces =
-      draw_all(Callout::Kind::force, [&](const Callout& one) { return draw_force(sheet, one, largest_); });
-  const auto speeds =
-      draw_all(Callout::Kind::speed, [&](const Callout& one) { return draw_speed(sheet, one, fastest_); });
+      draw_all(DrawnCallout::Kind::length, [&](const DrawnCallout& one) { return draw_length(sheet, one); });
+  const auto forces = draw_all(DrawnCallout::Kind::force,
+                               [&](const DrawnCallout& one) { return draw_force(sheet, one, largest_); });
+  const auto speeds = draw_all(DrawnCallout::Kind::speed,
+                               [&](const DrawnCallout& one) { return draw_speed(sheet, one, fastest_); });
   if (quota && sheet.before_eye(quota->left) && sheet.before_eye(quota->right)) {
     const Marked one = draw_quota(sheet, *quota);
     plate(sheet, one.at, one.words, one.length);

@@ -19,7 +19,7 @@ constexpr double kRightMargin = 26;
 constexpr double kEntryGap = 24;
 constexpr double kLaneHeight = 34;
 
-class Span {
+class AxisSpan {
  public:
   void add(double value) {
     if (!std::isfinite(value)) return;
@@ -45,7 +45,7 @@ class Span {
 };
 
 Range x_range(const Plot& plot) {
-  Span span;
+  AxisSpan span;
   for (const Panel& panel : plot.panels) {
     for (const Curve& curve : panel.curves) {
       for (std::size_t i = 0; i < curve.x.size(); ++i) {
@@ -65,7 +65,7 @@ Range x_range(const Plot& plot) {
 
 Range y_range(const Panel& panel) {
   if (panel.y_range) return *panel.y_range;
-  Span span;
+  AxisSpan span;
   for (const Curve& curve : panel.curves) {
     for (std::size_t i = 0; i < curve.y.size(); ++i) {
       if (std::isfinite(curve.x[i])) span.add(curve.y[i]);

@@ -79,7 +79,7 @@ int spawn(pid_t& child, std::vector<std::string> words, const posix_spawn_file_a
   return posix_spawnp(&child, words.front().c_str(), &actions, attributes, arguments.data(), environ);
 }
 
-pid_t start(const Command& command, int out, int error) {
+pid_t start(const ProcessCommand& command, int out, int error) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -181,7 +181,7 @@ std::string fate(int status, const WorkLimits& limits) {
 
 }  // namespace
 
-Finished run_process(const Command& command) {
+Finished run_process(const ProcessCommand& command) {
   auto [from_child, child_out] = connection();
   auto [errors, child_error] = connection();
   const pid_t child = start(command, child_out.get(), child_error.get());

@@ -9,7 +9,7 @@
 namespace drycut::renders {
 
 /// A program to run.
-struct Command {
+struct ProcessCommand {
   std::string program;                   ///< looked for in PATH
   std::string package;                   ///< that brings it, for the message where there is none
   std::vector<std::string> arguments;    ///< as they are: no shell reads them
@@ -29,7 +29,7 @@ struct Finished {
 
 /// Runs a program to its end; it has nothing to read from its standard input. Throws HelperFailed if it
 /// cannot be started.
-Finished run_process(const Command& command);
+Finished run_process(const ProcessCommand& command);
 
 /// A program that runs beside this one, in a group of its own: the terminal's Ctrl-C comes to us alone.
 struct Companion {

@@ -26,7 +26,7 @@ Box gauge_box(const Film& film) {
   return {right - 104 * scale, 10 * scale, right, 230 * scale};
 }
 
-void draw_gauge(cairo_t* pen, const Film& film, const Quota& quota) {
+void draw_gauge(cairo_t* pen, const Film& film, const DrawnQuota& quota) {
   const double scale = picture_scale(film.height);
   const Box box = gauge_box(film);
   set_ink(pen, kGround, 0.85);

@@ -10,6 +10,6 @@ namespace drycut::renders {
 /// band of the tolerance in the middle, four tolerances to either end; what lies beyond is shown there. Its
 /// place, in the upper right corner of what the first camera sees [pixels of a frame].
 Box gauge_box(const Film& film);
-void draw_gauge(cairo_t* pen, const Film& film, const Quota& quota);
+void draw_gauge(cairo_t* pen, const Film& film, const DrawnQuota& quota);
 
 }  // namespace drycut::renders

@@ -21,7 +21,7 @@ namespace {
 const char* state(bool passed) { return passed ? "pass" : "fail"; }
 
 /// The page as it grows, with the list of what is on it.
-struct Page {
+struct ReportPage {
   std::string text;
   std::string contents;
   std::set<std::string> places = {"machine", "plot-data"};  ///< names of anchors that are taken
@@ -114,7 +114,7 @@ std::vector<bool> number_columns(const ReportTable& table) {
   return numbers;
 }
 
-void write_head(Page& page, const Report& report) {
+void write_head(ReportPage& page, const Report& report) {
   page += "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
   page += fmt::format("<title>{}: {}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
@@ -125,7 +125,7 @@ void write_head(Page& page, const Report& report) {
                       verdict_state(report), html_text(verdict_word(report)), html_text(report.verdict));
 }
 
-void write_keys(Page& page, const std::vector<ReportKey>& keys) {
+void write_keys(ReportPage& page, const std::vector<ReportKey>& keys) {
   if (keys.empty()) return;
   page += "<dl class=\"keys\">\n";
   for (const ReportKey& key : keys) {
@@ -138,7 +138,7 @@ void write_keys(Page& page, const std::vector<ReportKey>& keys) {
   page += "</dl>\n";
 }
 
-void write_facts(Page& page, const std::vector<ReportRow>& facts) {
+void write_facts(ReportPage& page, const std::vector<ReportRow>& facts) {
   if (facts.empty()) return;
   page += "<dl class=\"facts\">\n";
   for (const ReportRow& fact : facts) {
@@ -154,7 +154,7 @@ void write_facts(Page& page, const std::vector<ReportRow>& facts) {
 }
 
 /// Those that failed come first.
-void write_checks(Page& page, const std::vector<ReportCheck>& checks) {
+void write_checks(ReportPage& page, const std::vector<ReportCheck>& checks) {
   if (checks.empty()) return;
   page.heading("Checks");
   page +=
@@ -174,7 +174,7 @@ void write_checks(Page& page, const std::vector<ReportCheck>& checks) {
   page += "</tbody>\n</table>\n</div>\n";
 }
 
-void write_notes(Page& page, const std::vector<std::string>& notes) {
+void write_notes(ReportPage& page, const std::vector<std::string>& notes) {
   if (notes.empty()) return;
   page.heading("Notes");
   page += "<ul class=\"notes\">\n";
@@ -183,7 +183,7 @@ void write_notes(Page& page, const std::vector<std::string>& notes) {
 }
 
 /// The film itself, or where it is if it would make the report too heavy to mail.
-void write_video(Page& page, const Report& report) {
+void write_video(ReportPage& page, const Report& report) {
   constexpr std::size_t kHeaviest = 24 << 20;
   if (report.video.empty()) return;
   const std::string bytes = read_file(report.video);
@@ -206,7 +206,7 @@ void write_video(Page& page, const Report& report) {
       poster, base64(bytes));
 }
 
-void write_frames(Page& page, const Report& report) {
+void write_frames(ReportPage& page, const Report& report) {
   const std::vector<ReportFigure>& frames = report.frames;
   if (frames.empty()) return;
   page.heading("The run in pictures");
@@ -222,7 +222,7 @@ void write_frames(Page& page, const Report& report) {
 constexpr int narrowest_alone = 800;  // [pixels] a plot up to here stands beside another
 
 /// Figures whose data, if they have any, begin at `first` in the report's.
-void write_figures(Page& page, const Report& report, const std::vector<ReportFigure>& plots,
+void write_figures(ReportPage& page, const Report& report, const std::vector<ReportFigure>& plots,
                    std::size_t first) {
   for (std::size_t i = 0; i < plots.size(); ++i) {
     const std::size_t data = first + i;
@@ -236,7 +236,7 @@ void write_figures(Page& page, const Report& report, const std::vector<ReportFig
 }
 
 /// The machine stays in sight while one reads the plots.
-void write_plots(Page& page, const Report& report) {
+void write_plots(ReportPage& page, const Report& report) {
   if (report.plots.empty() && !report.view) return;
   page.heading("Measured");
   for (const std::string& unit : report.units)
@@ -267,7 +267,7 @@ std::string column_name(const ReportTable& table, std::size_t column) {
   return fmt::format(" data-of=\"{}\"", html_text(table.headings[column]));
 }
 
-void write_rows(Page& page, const ReportTable& table) {
+void write_rows(ReportPage& page, const ReportTable& table) {
   const std::vector<bool> numbers = number_columns(table);
   const auto kind = [&](std::size_t column) -> std::string {
     return column < numbers.size() && numbers[column] ? " class=\"number\"" : "";
@@ -294,7 +294,7 @@ void write_rows(Page& page, const ReportTable& table) {
   page += "</tbody>\n</table>\n</div>\n";
 }
 
-void write_table(Page& page, const ReportTable& table) {
+void write_table(ReportPage& page, const ReportTable& table) {
   const std::string count = fmt::format("{} {}", table.rows.size(), table.rows.size() == 1 ? "row" : "rows");
   if (table.folded) {
     page += fmt::format("<details><summary>{}<small>{}</small></summary>\n", html_text(table.title), count);
@@ -305,7 +305,7 @@ void write_table(Page& page, const ReportTable& table) {
   if (table.folded) page += "</details>\n";
 }
 
-void write_sections(Page& page, const Report& report) {
+void write_sections(ReportPage& page, const Report& report) {
   std::size_t data = report.plots.size();
   for (const ReportSection& section : report.sections) {
     page.heading(section.title);
@@ -317,18 +317,18 @@ void write_sections(Page& page, const Report& report) {
   }
 }
 
-void write_text(Page& page, const ReportText& text) {
+void write_text(ReportPage& page, const ReportText& text) {
   page.heading(text.title);
   page += fmt::format("{}<pre>{}</pre></div>\n", scroll_box(text.title), html_text(text.text));
 }
 
 /// Links to all that has a heading; none where all is seen at a glance.
-std::string contents_of(const Page& page) {
+std::string contents_of(const ReportPage& page) {
   if (std::count(page.contents.begin(), page.contents.end(), '\n') < 3) return "";
   return fmt::format("<nav class=\"contents\" aria-label=\"Contents\"><ul>\n{}</ul></nav>\n", page.contents);
 }
 
-void write_scenario(Page& page, const std::string& expanded) {
+void write_scenario(ReportPage& page, const std::string& expanded) {
   if (expanded.empty()) return;
   page += fmt::format(
       "<details><summary>Scenario with every default in force</summary>\n{}<pre>{}</pre></div>\n</details>\n",
@@ -344,7 +344,7 @@ std::string rows_text(const ReportTable& table, std::size_t width) {
 }
 
 void write_report(const Report& report, const std::filesystem::path& file) {
-  Page page;
+  ReportPage page;
   write_head(page, report);
   write_keys(page, report.keys);
   write_facts(page, report.facts);

@@ -66,7 +66,7 @@ std::string bytes_of(const std::vector<double>& numbers) {
 }
 
 /// Columns of numbers; the same column is kept once, however many curves it belongs to.
-class Columns {
+class DataColumns {
  public:
   std::size_t x(const std::vector<double>& numbers) { return index(numbers, true); }
   std::size_t y(const std::vector<double>& numbers) { return index(numbers, false); }
@@ -118,7 +118,7 @@ std::string_view style_name(Curve::Style style) {
   return style == Curve::Style::steps ? "steps" : "line";
 }
 
-ordered_json panel_json(const Panel& panel, Columns& columns) {
+ordered_json panel_json(const Panel& panel, DataColumns& columns) {
   const auto curve = [&](const Curve& one, std::size_t i) -> ordered_json {
     return {{"label", one_line(one.label)},       {"style", style_name(one.style)}, {"faint", one.faint},
             {"look", look_json(look_of(one, i))}, {"x", columns.x(one.x)},          {"y", columns.y(one.y)}};
@@ -146,7 +146,7 @@ ordered_json panel_json(const Panel& panel, Columns& columns) {
           {"bands", list_of(panel.bands, band)}, {"lanes", list_of(panel.lanes, lane)}};
 }
 
-ordered_json plot_json(const Plot& plot, Columns& columns) {
+ordered_json plot_json(const Plot& plot, DataColumns& columns) {
   const auto mark = [](const Mark& one, std::size_t /*i*/) -> ordered_json {
     return {{"x", one.x}, {"label", one_line(one.label)}, {"strong", one.strong}};
   };
@@ -185,7 +185,7 @@ bool can_be_live(const Plot& plot) {
 }
 
 std::string plot_data(const std::vector<Plot>& plots) {
-  Columns columns;
+  DataColumns columns;
   auto list = list_of(plots, [&](const Plot& plot, std::size_t /*i*/) -> ordered_json {
     return can_be_live(plot) ? plot_json(plot, columns) : nullptr;
   });

@@ -53,7 +53,7 @@ struct CaptionItem {
 };
 
 /// Something pointed out in the picture: a length between two points, a force, or a speed.
-struct Callout {
+struct DrawnCallout {
   enum class Kind { length, force, speed };
   Kind kind = Kind::length;
   std::string text;     ///< a length: "800.0 mm"; a force: what it is; a speed: what moves
@@ -62,7 +62,7 @@ struct Callout {
 };
 
 /// Where an axis is to go: a line across it, and how far off it is.
-struct Quota {
+struct DrawnQuota {
   Vec3 left = {0, 0, 0};   ///< ends of the line [m]
   Vec3 right = {0, 0, 0};  ///< the one with the words
   double place = 0;        ///< [m]
@@ -90,8 +90,8 @@ struct Frame {
   std::vector<Placement> placements;  ///< one a part, same order
   std::vector<Waypoint> before = {};  ///< since the frame before, those of each part in order of time
   std::vector<CaptionItem> caption;
-  std::vector<Callout> callouts;
-  std::optional<Quota> quota = {};
+  std::vector<DrawnCallout> callouts;
+  std::optional<DrawnQuota> quota = {};
 };
 
 struct Camera {

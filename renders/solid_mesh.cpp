@@ -26,22 +26,23 @@ Colour shaded(const Colour& colour, float factor) {
   return {colour[0] * factor, colour[1] * factor, colour[2] * factor};
 }
 
-struct Corner {
+struct MeshCorner {
   Vec3 position;
   Vec3 normal;
 };
 
 /// Collects a part's triangles.
-class Builder {
+class MeshBuilder {
  public:
-  Builder(std::vector<Vertex>& triangles, const Material& material)
+  MeshBuilder(std::vector<Vertex>& triangles, const Material& material)
       : triangles_(triangles), surface_{material.reflection, material.gloss} {}
 
-  void triangle(const Corner& a, const Corner& b, const Corner& c, const Colour& colour) {
-    for (const Corner* corner : {&a, &b, &c}) add(*corner, colour);
+  void triangle(const MeshCorner& a, const MeshCorner& b, const MeshCorner& c, const Colour& colour) {
+    for (const MeshCorner* corner : {&a, &b, &c}) add(*corner, colour);
   }
 
-  void quad(const Corner& a, const Corner& b, const Corner& c, const Corner& d, const Colour& colour) {
+  void quad(const MeshCorner& a, const MeshCorner& b, const MeshCorner& c, const MeshCorner& d,
+            const Colour& colour) {
     triangle(a, b, c, colour);
     triangle(a, c, d, colour);
   }
@@ -55,7 +56,7 @@ class Builder {
   }
 
  private:
-  void add(const Corner& corner, const Colour& colour) {
+  void add(const MeshCorner& corner, const Colour& colour) {
     triangles_.push_back({as_floats(corner.position), as_floats(corner.normal), colour, surface_});
   }
 
@@ -66,7 +67,7 @@ class Builder {
 /// How far edges are broken: a few per cent of the thinnest side, at most 4 mm.
 double edge_break(const Vec3& half) { return std::min(0.004, 0.12 * half.minCoeff()); }
 
-void box(Builder& build, const Vec3& half, const Colour& colour) {
+void box(MeshBuilder& build, const Vec3& half, const Colour& colour) {
   const double bevel = edge_break(half);
   // The corner (sx, sy, sz) as it belongs to the face of `axis`: on that face, set in by the bevel elsewhere.
   const auto corner = [&](std::size_t axis, const std::array<int, 3>& sign) {
@@ -113,12 +114,12 @@ void box(Builder& build, const Vec3& half, const Colour& colour) {
 }
 
 /// One end of a cylinder: hub, face with the index mark, rim. `side` is the sign of z.
-void cylinder_end(Builder& build, const Vec3& half, double rim, int side, const Colour& colour) {
+void cylinder_end(MeshBuilder& build, const Vec3& half, double rim, int side, const Colour& colour) {
   const Vec3 normal = {0, 0, static_cast<double>(side)};
   const auto point = [&](int segment, double share) {
     const double angle = 2 * std::numbers::pi * segment / kSegments;
-    return Corner{{share * half[0] * std::cos(angle), share * half[1] * std::sin(angle), side * half[2]},
-                  normal};
+    return MeshCorner{{share * half[0] * std::cos(angle), share * half[1] * std::sin(angle), side * half[2]},
+                      normal};
   };
   const std::array<double, 5> rings = {0, 0.22, 0.34, 0.86, rim};
   for (int i = 0; i < kSegments; ++i) {
@@ -133,14 +134,14 @@ void cylinder_end(Builder& build, const Vec3& half, double rim, int side, const 
   }
 }
 
-void cylinder(Builder& build, const Vec3& half, const Colour& colour) {
+void cylinder(MeshBuilder& build, const Vec3& half, const Colour& colour) {
   const double bevel = edge_break(half);
   const double rim = 1 - bevel / std::min(half[0], half[1]);
   const auto point = [&](int segment, double share, double z, double slope) {
     const double angle = 2 * std::numbers::pi * segment / kSegments;
     const Vec3 radial = Vec3(std::cos(angle) / half[0], std::sin(angle) / half[1], 0).normalized();
-    return Corner{{share * half[0] * std::cos(angle), share * half[1] * std::sin(angle), z},
-                  (radial + Vec3(0, 0, slope)).normalized()};
+    return MeshCorner{{share * half[0] * std::cos(angle), share * half[1] * std::sin(angle), z},
+                      (radial + Vec3(0, 0, slope)).normalized()};
   };
   const double shoulder = half[2] - bevel;
   for (int i = 0; i < kSegments; ++i) {
@@ -155,7 +156,7 @@ void cylinder(Builder& build, const Vec3& half, const Colour& colour) {
   cylinder_end(build, half, rim, -1, colour);
 }
 
-void wedge(Builder& build, const Vec3& half, const Colour& colour) {
+void wedge(MeshBuilder& build, const Vec3& half, const Colour& colour) {
   const Vec3 left_back = {-half[0], half[1], -half[2]};
   const Vec3 left_front = {-half[0], half[1], half[2]};
   const Vec3 right_back = {half[0], half[1], -half[2]};
@@ -191,7 +192,7 @@ std::vector<Vertex> solid_surface(const SolidPart& part) {
           {corner.position, corner.normal, part.colour, {material->reflection, material->gloss}});
     return triangles;
   }
-  Builder build(triangles, *material);
+  MeshBuilder build(triangles, *material);
   const Vec3 half = 0.5 * part.size;
   switch (part.shape) {
     case SolidPart::Shape::box:

@@ -29,8 +29,8 @@ std::size_t character_size(std::string_view text) {
 }
 
 /// A pen that only measures.
-struct Measure {
-  Measure(double font_size, bool bold) { set_font(pen.get(), font_size, bold); }
+struct TextMeasure {
+  TextMeasure(double font_size, bool bold) { set_font(pen.get(), font_size, bold); }
   CairoSurface surface = cairo_surface(1, 1);
   Cairo pen = cairo_pen(surface.get());
 };
@@ -60,12 +60,12 @@ void drop_last_character(std::string& text) {
 }
 
 double text_width(const std::string& text, double font_size, bool bold) {
-  const Measure measure(font_size, bold);
+  const TextMeasure measure(font_size, bold);
   return text_width(measure.pen.get(), text);
 }
 
 std::string fitted_text(std::string text, double font_size, double room, bool bold) {
-  const Measure measure(font_size, bold);
+  const TextMeasure measure(font_size, bold);
   return fitted_text(measure.pen.get(), std::move(text), room);
 }
 

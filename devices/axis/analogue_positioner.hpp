@@ -7,10 +7,8 @@
 
 #include "devices/axis/analogue_axis.hpp"
 #include "devices/axis/limits.hpp"
-#include "devices/axis/preset.hpp"
-#include "devices/axis/speed.hpp"
-#include "devices/table.hpp"
-#include "devices/terminals.hpp"
+#include "devices/axis/position.hpp"
+#include "devices/device.hpp"
 
 namespace drycut::devices::axis {
 

@@ -1,5 +1,7 @@
 #pragma once
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace drycut::devices::axis {
@@ -108,6 +110,56 @@ struct Theoretical {
   [[nodiscard]] double minus(const Theoretical& other) const {
     return static_cast<double>(difference(whole, other.whole)) + (part - other.part);
   }
+};
+
+/// Um/s of one unit of a speed parameter: whole units of measure per second or minute (spec 1.5).
+/// decpt 0..3, others taken as the nearest; unitvel 1 = per second, else per minute.
+inline double um_per_second(std::int32_t decpt, std::int32_t unitvel) {
+  constexpr std::array<double, 4> powers = {1, 10, 100, 1000};
+  const double um = powers[static_cast<std::size_t>(std::clamp(decpt, 0, 3))];
+  return unitvel == 1 ? um : um / 60;
+}
+
+/// Bits x4 of one Um.
+inline double bits_per_um(Resolution r) {
+  return static_cast<double>(r.pulse) / static_cast<double>(r.measure);
+}
+
+/// A value as a 32-bit variable shows it: nearest, held at the ends of the range.
+inline std::int32_t to_long(double value) {
+  constexpr double limit = 2147483647.0;
+  if (!(value > -limit)) return -2147483647;
+  if (value >= limit) return 2147483647;
+  return static_cast<std::int32_t>(value < 0 ? value - 0.5 : value + 0.5);
+}
+
+/// Measuring window of the time base `tbf` 0..3 [ms] (spec 1.7, 000 1.9.2); other values count as 0.
+inline int frequency_window_ms(std::int32_t tbf) {
+  constexpr std::array<int, 4> windows = {240, 480, 24, 120};
+  return windows[tbf >= 0 && tbf <= 3 ? static_cast<std::size_t>(tbf) : 0];
+}
+
+/// Counts bits x4 over a window; the rate changes at the window's end only.
+class FrequencyMeter {
+ public:
+  /// One sample of `period_ms` in which `bits` x4 were counted; true when a window ended.
+  bool sample(std::int64_t bits, int period_ms, int window_ms) {
+    bits_ += bits;
+    elapsed_ms_ += period_ms;
+    if (elapsed_ms_ < window_ms) return false;
+    const auto counted = static_cast<double>(bits_ < 0 ? -bits_ : bits_);
+    bits_per_second_ = counted * 1000.0 / elapsed_ms_;
+    bits_ = 0;
+    elapsed_ms_ = 0;
+    return true;
+  }
+  /// Magnitude of the rate over the last whole window [bits x4/s]; one phase has a quarter of it [Hz].
+  [[nodiscard]] double bits_per_second() const { return bits_per_second_; }
+
+ private:
+  std::int64_t bits_ = 0;
+  int elapsed_ms_ = 0;
+  double bits_per_second_ = 0;
 };
 
 }  // namespace drycut::devices::axis

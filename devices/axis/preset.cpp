@@ -1,4 +1,4 @@
-#include "devices/axis/preset.hpp"
+#include "devices/axis/analogue_axis.hpp"
 
 namespace drycut::devices::axis {
 

@@ -1,4 +1,4 @@
-#include "devices/axis/ramp.hpp"
+#include "devices/axis/profile.hpp"
 
 #include <cmath>
 #include <numbers>

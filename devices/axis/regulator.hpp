@@ -1,10 +1,67 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <string_view>
 
 #include "devices/cards.hpp"
 
 namespace drycut::devices::axis {
+
+/// A DAC word and whether the value asked for was beyond full scale: +1 above +10 V, -1 below -10 V.
+struct DacOutput {
+  std::int16_t word = 0;
+  int saturated = 0;
+};
+
+/// Rounds to the nearest bit and holds at +-32767 (spec 1.8).
+inline DacOutput to_dac(double bits) {
+  if (!(bits < dac_full_scale + 0.5)) return {static_cast<std::int16_t>(dac_full_scale), 1};
+  if (bits <= -dac_full_scale - 0.5) return {static_cast<std::int16_t>(-dac_full_scale), -1};
+  return {static_cast<std::int16_t>(bits < 0 ? bits - 0.5 : bits + 0.5), 0};
+}
+
+/// A device's turn on a DAC that several devices may name.
+class DacTurn {
+ public:
+  /// Puts a word out. True once if another device regulates on the DAC too.
+  bool put(AnalogueOutput& dac, std::int16_t word) {
+    dac.word = word;
+    return turn_.take(dac.driver);
+  }
+  /// Leaves the DAC, as it stands, to the others.
+  void release(AnalogueOutput& dac) { turn_.release(dac.driver); }
+
+ private:
+  OutputTurn turn_;
+};
+
+/// What a device says when DacTurn::put finds another one on its DAC.
+inline constexpr std::string_view shared_dac_text =
+    "another device regulates on the same analogue output; of devices that share one, all but one need "
+    "REGOFF";
+
+/// DAC bits of `tenths` of a volt (parameter vout).
+inline double dac_bits_of_tenths(std::int32_t tenths) {
+  return tenths * (dac_full_scale / (10.0 * dac_full_scale_volts));
+}
+
+/// Keeps the report of a following error for 500 ms after it was last too large (st_foller, 000 1.9.6).
+class FollowingErrorHold {
+ public:
+  static constexpr int hold_ms = 500;
+  /// One sample; true while the report stands.
+  bool sample(bool too_large, int period_ms) {
+    if (too_large) {
+      remaining_ms_ = hold_ms;
+      return true;
+    }
+    remaining_ms_ = remaining_ms_ > period_ms ? remaining_ms_ - period_ms : 0;
+    return remaining_ms_ > 0;
+  }
+
+ private:
+  int remaining_ms_ = 0;
+};
 
 /// Gains of the PID with feed-forward (000 1.1.12).
 struct Gains {

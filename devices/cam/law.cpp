@@ -78,14 +78,14 @@ CamExtremes extremes_of(const CamArc& law, CamOrder order) {
 // Transitions.
 
 /// A transition at u: w, its integral from 0, its first two derivatives.
-struct Shape {
+struct PieceShape {
   double w = 0;
   double integral = 0;
   double slope = 0;
   double bend = 0;
 };
 
-Shape shape_at(Transition law, double u) {
+PieceShape shape_at(Transition law, double u) {
   using std::numbers::pi;
   switch (law) {
     case Transition::constant:

@@ -1,4 +1,4 @@
-#include "devices/camming4/arc.hpp"
+#include "devices/camming4/laws.hpp"
 
 #include <algorithm>
 #include <cmath>

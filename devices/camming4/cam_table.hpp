@@ -10,7 +10,7 @@
 namespace drycut::devices::camming4 {
 
 /// A cam of CAMMING4 with what its law needs of the axes, as a file or the device itself holds it.
-struct CamTable {
+struct CamSectors {
   static constexpr std::string_view kind = "camming4";
   std::string file;  ///< as the user named it
   // The axes.
@@ -36,7 +36,7 @@ struct CamTable {
     return number >= 1 && number <= cam_rows && sector(number).line > 0;
   }
   [[nodiscard]] int count() const;
-  bool operator==(const CamTable&) const = default;
+  bool operator==(const CamSectors&) const = default;
 };
 
 }  // namespace drycut::devices::camming4

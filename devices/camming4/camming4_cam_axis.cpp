@@ -1,9 +1,10 @@
 // The cam of a CAMMING4 as a simulation compares it with its law.
 #include <algorithm>
 
-#include "devices/axis/speed.hpp"
+#include "devices/axis/position.hpp"
 #include "devices/camming4/cam_table.hpp"
 #include "devices/camming4/camming4.hpp"
+#include "devices/controller.hpp"
 
 namespace drycut::devices::camming4 {
 
@@ -29,7 +30,7 @@ CamMoment Camming4::cam_moment() const {
 }
 
 std::shared_ptr<const devices::CamTable> Camming4::cam_table() const {
-  CamTable table;
+  CamSectors table;
   for (int number = 1; number <= cam_rows; ++number)
     if (const Row& row = cam_.row(number); row.codeG != 0)
       table.sectors[static_cast<std::size_t>(number - 1)] = {row, number};
@@ -45,7 +46,7 @@ std::shared_ptr<const devices::CamTable> Camming4::cam_table() const {
   return std::make_shared<const devices::CamTable>(std::move(table));
 }
 
-int CamTable::count() const {
+int CamSectors::count() const {
   return static_cast<int>(
       std::count_if(sectors.begin(), sectors.end(), [](const Sector& s) { return s.line > 0; }));
 }

@@ -1,4 +1,4 @@
-#include "devices/camming4/codes.hpp"
+#include "devices/camming4/sector.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "devices/camming4/exact.hpp"
+#include "devices/camming4/sector.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ Space carried(std::int64_t grains, double fraction) {
 
 }  // namespace
 
-Resolution usable(Resolution resolution) {
+GrainResolution usable(GrainResolution resolution) {
   constexpr std::int64_t most = std::int64_t{1} << 30;
   return {std::clamp<std::int64_t>(resolution.measure, 1, most),
           std::clamp<std::int64_t>(resolution.pulse, 1, most)};

@@ -1,4 +1,4 @@
-#include "devices/camming4/recalculation.hpp"
+#include "devices/camming4/camming4.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -1,13 +1,119 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <string_view>
 
-#include "devices/camming4/arc.hpp"
-#include "devices/camming4/codes.hpp"
-#include "devices/camming4/exact.hpp"
 #include "devices/camming4/laws.hpp"
 
 namespace drycut::devices::camming4 {
+
+// Exact positions (spec qem.md 1.4, 8.4). An axis has `measure` Um for every `pulse` bits x4. Both a whole Um
+// and a whole bit are whole numbers of the *grain*, 1/(measure*pulse) of `measure` Um: 1 Um = `pulse` grains,
+// 1 bit = `measure` grains. A device's posit is trunc(grains / pulse), its count is grains / measure.
+
+/// Resolution of one axis. Values outside 1..2^30 act as the nearest of the two, so that nothing overflows.
+struct GrainResolution {
+  std::int64_t measure = 1;  ///< [Um], and grains a bit
+  std::int64_t pulse = 1;    ///< [bits x4], and grains a Um
+  bool operator==(const GrainResolution&) const = default;
+};
+GrainResolution usable(GrainResolution resolution);
+
+/// A length in grains. The fraction, 0 <= fraction < 1, is other than 0 only after arcs, whose length is
+/// irrational, and after a change of a gearing's ratio.
+struct Space {
+  std::int64_t grains = 0;
+  double fraction = 0;
+  bool operator==(const Space&) const = default;
+};
+
+/// A position: whole bits x4 and a remainder, 0 <= part < measure, 0 <= fraction < 1 [grains]. Bits and
+/// remainder are apart so that no run, however long, leaves 64 bits.
+struct Point {
+  std::int64_t bits = 0;
+  std::int64_t part = 0;
+  double fraction = 0;
+  bool operator==(const Point&) const = default;
+};
+
+/// Sums, differences and products that stay at +-2^61 where they would pass it: hostile tables are wrong, not
+/// undefined.
+inline constexpr std::int64_t grain_limit = std::int64_t{1} << 61;
+std::int64_t add(std::int64_t a, std::int64_t b);
+std::int64_t subtract(std::int64_t a, std::int64_t b);
+std::int64_t multiply(std::int64_t a, std::int64_t b);
+
+/// A length of `grains`, any real number, limited to +-2^61.
+Space space(double grains);
+Space operator+(Space a, Space b);
+Space operator-(Space a);
+bool operator<(const Space& a, const Space& b);
+double to_double(const Space& length);  ///< [grains]
+
+/// The point `length` further on.
+Point moved(const Point& point, Space length, std::int64_t measure);
+/// The point of a bit count with a fraction of a bit.
+Point point(std::int64_t bits, double fraction, std::int64_t measure);
+/// Length from `from` to `to`.
+Space between(const Point& from, const Point& to, std::int64_t measure);
+
+/// What the cam engine does with a row.
+enum class CodeClass : std::uint8_t {
+  no_operation,      ///< passed over
+  movement,          ///< consumes master space
+  end,               ///< leaves the cam
+  jump,              ///< goes to another row
+  loop,              ///< goes to row 1 and takes the executed spaces off the counts
+  conditional_jump,  ///< jumps a number of times, then goes on
+  count_update,      ///< changes the counts, not the axes
+  start_sync,        ///< waits for a master quota
+  recovery,          ///< asks for a correction beside the cam
+};
+
+/// What a row's column means to a code.
+enum class Use : std::uint8_t {
+  unused,
+  master_space,        ///< [master Um]
+  slave_space,         ///< [slave Um]
+  slave_space_bits,    ///< [slave bits x4]
+  master_coefficient,  ///< ratio's master side, not run
+  slave_coefficient,   ///< ratio's slave side, not run
+  master_count,        ///< new count or count to take off [master Um]
+  slave_count,         ///< [slave Um]
+  master_count_bits,   ///< [master bits x4]
+  slave_count_bits,    ///< [slave bits x4]
+  master_quota,        ///< absolute master position [master Um]
+  target_row,          ///< 1..128
+  times,               ///< number of jumps
+  times_done,          ///< read-out: jumps made
+  radius,              ///< + short arc, - long arc [Um]
+  displacement_x,      ///< [Um]
+  displacement_y,      ///< [Um]
+  master_done,         ///< read-out: master space executed [master Um]
+  softening,           ///< 0 none, 1..4 = 1/2..1/5 of the smaller sector
+  sector_type,         ///< 0 movement follows, 1 axis stationary next, 2 gearing
+};
+/// Unit of a column for tables and messages: "Um", "bits x4", "".
+std::string_view unit_of(Use use);
+
+/// One operating instruction of the cam table (000 1.2.13).
+struct Code {
+  int code = 0;
+  std::string_view mnemonic;
+  CodeClass what = CodeClass::no_operation;
+  bool epicycloidal = false;
+  bool zero_start = false;  ///< starts from slave speed 0: error 2 or warning 6 if the slave moves
+  Use qm = Use::unused;
+  Use qs = Use::unused;
+  Use qma = Use::unused;
+  Use qsa = Use::unused;
+  std::string_view meaning;  ///< one line
+};
+
+/// Every code, ascending: what the engine, `drycut cam`, the documentation and the tests walk.
+extern const std::array<Code, 39> codes;
+/// The row of `codes`, or nullptr if there is no such code.
+const Code* find_code(int code);
 
 /// One row of the cam table, as the program wrote it; any 32-bit values.
 struct Row {
@@ -22,9 +128,9 @@ struct Row {
 
 /// What the laws need besides the table.
 struct CamSettings {
-  Resolution master;  ///< measurem, pulsem
-  Resolution slave;   ///< measure, pulse
-  int decpt = 0;      ///< 0..3: the tangent axis counts 360*10^decpt Um a turn
+  GrainResolution master;  ///< measurem, pulsem
+  GrainResolution slave;   ///< measure, pulse
+  int decpt = 0;           ///< 0..3: the tangent axis counts 360*10^decpt Um a turn
   bool operator==(const CamSettings&) const = default;
 };
 

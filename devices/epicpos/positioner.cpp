@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "devices/eanpos/eanpos.hpp"
 #include "devices/epicpos/epicpos.hpp"
 
 namespace drycut::devices::epicpos {

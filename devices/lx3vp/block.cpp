@@ -1,4 +1,4 @@
-#include "devices/lx3vp/block.hpp"
+#include "devices/lx3vp/registers.hpp"
 
 #include <fmt/format.h>
 
@@ -91,7 +91,7 @@ constexpr BlockFlag flags[] = {
     {4, 1, "stop after cycle", "write", "the cam stops exactly at the end of the present cycle"},
 };
 
-constexpr Reading readings_of_blocks[] = {
+constexpr BlockReading readings_of_blocks[] = {
     {"initial values",
      "the manual gives words 6, 23, 24, 29, 30 and 39 initial values and does not say who writes them: words "
      "that no program, file or scenario has written have them when the cam starts; a 0 that was written "
@@ -195,7 +195,7 @@ std::string served_specials(char letter) {
   return text;
 }
 
-std::span<const Reading> block_readings() { return readings_of_blocks; }
+std::span<const BlockReading> block_readings() { return readings_of_blocks; }
 
 std::string take_initial_values(Registers& registers, int block) {
   std::string given;

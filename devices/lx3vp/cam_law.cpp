@@ -4,7 +4,7 @@
 #include <cassert>
 #include <limits>
 
-#include "devices/lx3vp/block.hpp"
+#include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp {
 

@@ -6,11 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "devices/cam_axis.hpp"
-#include "devices/lx3vp/block.hpp"
+#include "devices/controller.hpp"
 #include "devices/lx3vp/cam_law.hpp"
 #include "devices/lx3vp/instructions.hpp"
-#include "devices/lx3vp/pulse_output.hpp"
 #include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp {

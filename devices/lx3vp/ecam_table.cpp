@@ -2,7 +2,7 @@
 
 #include <tuple>
 
-#include "devices/lx3vp/block.hpp"
+#include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp {
 

@@ -5,8 +5,6 @@
 #include <limits>
 #include <optional>
 
-#include "devices/lx3vp/ecamtbx_rows.hpp"
-
 namespace drycut::devices::lx3vp {
 
 namespace {
@@ -61,12 +59,12 @@ EcamError check_saw(const SawParameters& p) {
 }
 
 /// Pieces in a row, from `in` to the middle of the correction; reversed they lead out of it.
-struct Leg {
+struct ProfileLeg {
   double length = 0;
   double r0 = 0;
   double r1 = 0;
 };
-using Legs = std::vector<Leg>;
+using Legs = std::vector<ProfileLeg>;
 
 Legs reversed(Legs legs) {
   std::reverse(legs.begin(), legs.end());

@@ -1,13 +1,28 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "devices/lx3vp/ecamtbx_profile.hpp"
+#include "devices/cam/law.hpp"
 
 namespace drycut::devices::lx3vp {
+
+/// A cam cycle as ECAMTBX constructs it (003 6.3 and its appendix), before anything is rounded to pulses: the
+/// ratio of the slave to the master over the master's position, as a row of transitions [pulses].
+struct CamProfile : CamLaw {
+  double sync_begin = 0;  ///< of the synchronous zone on the master; equal to `sync_end`: there is none
+  double sync_end = 0;
+  bool stops = false;  ///< midCAMend: the cam stops by itself at the end of the cycle
+
+  [[nodiscard]] bool is_synchronous(double master) const { return master > sync_begin && master < sync_end; }
+  /// Appends a piece; one without length is left out, one that goes on at the same constant ratio is joined.
+  void add(double length, double r0, double r1, Transition shape);
+  /// The same profile run in the opposite direction.
+  void mirror();
+};
 
 // ECAMTBX makes the table of a cam from a list of parameters (003 6.3, appendix). The manual names the laws
 // and shows results; how a table follows from its parameters is our derivation, by the manual's demos.
@@ -100,5 +115,17 @@ EcamResult make_table(EcamType type, const SawParameters& saw, const SCurveParam
 /// Largest distance of the table, played as straight pieces, from the laws [pulses], looked for at 16 points
 /// a piece.
 double largest_deviation(const EcamResult& result);
+
+/// Where a table ends, to the pulse.
+struct TableEnd {
+  std::int32_t master = 0;  ///< above 0
+  std::int32_t slave = 0;
+};
+
+/// The rows of a profile: every boundary of its pieces, and the rest of `resolution` inside the curved ones,
+/// evenly. The master is rounded first and the slave taken there. Rows that round to the same master are one.
+/// Nullopt if a curved piece would be left without a row inside, or the master's end is not above 0.
+std::optional<std::vector<CamTableRow>> sample_rows(const CamProfile& profile, const TableEnd& end,
+                                                    int resolution);
 
 }  // namespace drycut::devices::lx3vp

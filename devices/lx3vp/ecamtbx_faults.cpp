@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "devices/lx3vp/ecamtbx_registers.hpp"
-#include "devices/lx3vp/ecamtbx_words.hpp"
 
 namespace drycut::devices::lx3vp {
 

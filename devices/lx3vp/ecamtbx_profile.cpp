@@ -1,4 +1,4 @@
-#include "devices/lx3vp/ecamtbx_profile.hpp"
+#include "devices/lx3vp/ecamtbx.hpp"
 
 namespace drycut::devices::lx3vp {
 

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-#include "devices/lx3vp/block.hpp"
-#include "devices/lx3vp/ecamtbx_words.hpp"
+#include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp {
 

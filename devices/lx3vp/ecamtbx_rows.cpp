@@ -1,4 +1,4 @@
-#include "devices/lx3vp/ecamtbx_rows.hpp"
+#include "devices/lx3vp/ecamtbx.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,9 +39,9 @@ std::int64_t nearest_pulse(double position) {
   return std::llround(position + std::copysign(noise, position));
 }
 
-class Rows {
+class ProfileRows {
  public:
-  Rows(const CamProfile& profile, const TableEnd& end) : profile_(profile), end_(end) {}
+  ProfileRows(const CamProfile& profile, const TableEnd& end) : profile_(profile), end_(end) {}
 
   /// Adds the row at a master position; false if it is the row before.
   bool add(double master) {
@@ -79,7 +79,7 @@ std::optional<std::vector<CamTableRow>> sample_rows(const CamProfile& profile, c
   if (end.master <= 0) return {};
   const auto inside = share(profile, resolution);
   if (!inside) return {};
-  Rows rows(profile, end);
+  ProfileRows rows(profile, end);
   for (std::size_t i = 0; i < profile.pieces.size(); ++i) {
     const auto& piece = profile.pieces[i];
     rows.add(piece.master);

@@ -1,4 +1,4 @@
-#include "devices/lx3vp/ecamtbx_words.hpp"
+#include "devices/lx3vp/ecamtbx_registers.hpp"
 
 namespace drycut::devices::lx3vp {
 
@@ -34,7 +34,7 @@ constexpr EcamtbxWord s_curve[] = {
     {s_curve_word::result, 1, "P13", "i16", "", "", "ECAMTBX writes it: the result, as in D1"},
 };
 
-constexpr Reading word_readings[] = {
+constexpr BlockReading word_readings[] = {
     {"results", "the manual says only that they are below 0 on an error: the numbers are ours"},
     {"laws", "the manual names them and shows results: the profiles are derived from its demos"},
     {"P6 high 3",
@@ -55,7 +55,7 @@ constexpr Reading word_readings[] = {
 
 }  // namespace
 
-std::span<const Reading> ecamtbx_readings() { return word_readings; }
+std::span<const BlockReading> ecamtbx_readings() { return word_readings; }
 std::span<const EcamtbxWord> saw_words() { return saw; }
 std::span<const EcamtbxWord> s_curve_words() { return s_curve; }
 

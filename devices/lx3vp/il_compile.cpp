@@ -7,8 +7,6 @@
 #include "devices/lx3vp/il_lines.hpp"
 #include "devices/lx3vp/il_operands.hpp"
 #include "devices/lx3vp/il_program.hpp"
-#include "devices/lx3vp/il_rungs.hpp"
-#include "devices/lx3vp/il_structure.hpp"
 #include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp::il {
@@ -23,15 +21,15 @@ bool needs_memory(const Step& step) {
          op == Op::stl || (step.spelling != nullptr && step.spelling->pulse);
 }
 
-class Compiler : private Complaints {
+class IlCompiler : private Complaints {
  public:
-  Compiler(std::string_view text, const std::string& file, Problems& problems)
+  IlCompiler(std::string_view text, const std::string& file, Problems& problems)
       : Complaints(file, problems), text_(text) {
     program_.file = file;
     program_.text = text;
   }
 
-  Program compile() {
+  IlProgram compile() {
     const auto tell = [this](Place place, std::string what, std::string remedy) {
       problem_at(place, std::move(what), std::move(remedy));
       refused_ = true;
@@ -155,7 +153,8 @@ class Compiler : private Complaints {
       step.operands.push_back(*operand);
       const auto place = i - 1;
       // The set value of a timer or a counter.
-      if (place == 0 && step.op() == Op::out && (operand->kind == Kind::T || operand->kind == Kind::C))
+      if (place == 0 && step.op() == Op::out &&
+          (operand->kind == OperandType::T || operand->kind == OperandType::C))
         kinds += 'v';
       if (place >= kinds.size()) continue;
       if (auto wrong = kinds[place] == 'v' ? misfit_of_set_value(step, *operand)
@@ -203,14 +202,14 @@ class Compiler : private Complaints {
   static std::optional<ValueFault> misfit_of_set_value(const Step& step, const Operand& operand) {
     constexpr int most = 32767;
     const auto& coil = step.operands.front();
-    const bool wide = coil.kind == Kind::C && coil.number >= first_wide_counter;
+    const bool wide = coil.kind == OperandType::C && coil.number >= first_wide_counter;
     const auto remedy =
         wide ? "give a set value K or the first D of a pair" : "give a set value K1 to K32767 or a D";
-    const bool is_number = operand.kind == Kind::constant;
+    const bool is_number = operand.kind == OperandType::constant;
     if (coil.index != Operand::no_index || operand.index != Operand::no_index)
       return ValueFault{fmt::format("OUT {} {} has an index register", to_string(coil), to_string(operand)),
                         "timers, counters and their set values take none"};
-    if (!is_number && operand.kind != Kind::D)
+    if (!is_number && operand.kind != OperandType::D)
       return ValueFault{fmt::format("{} is no set value", to_string(operand)), remedy};
     if (is_number && !wide && (operand.value < 1 || operand.value > most))
       return ValueFault{fmt::format("set value {} is out of range", to_string(operand)), remedy};
@@ -233,11 +232,11 @@ class Compiler : private Complaints {
     if (op == Op::rotate) {
       const int width = step.wide() ? 32 : 16;
       const auto& count = operands[1];
-      if (operands[0].kind == Kind::bits && 4 * operands[0].count != width)
+      if (operands[0].kind == OperandType::bits && 4 * operands[0].count != width)
         return ValueFault{fmt::format("{} turns {} bits, not those of {}", step.spelling->text, width,
                                       to_string(operands[0])),
                           fmt::format("group K{}", width / 4)};
-      if (count.kind == Kind::constant && !step.indexed && (count.value < 1 || count.value > width))
+      if (count.kind == OperandType::constant && !step.indexed && (count.value < 1 || count.value > width))
         return ValueFault{fmt::format("{} turns by {} bits", step.spelling->text, to_string(count)),
                           fmt::format("write K1 to K{}", width)};
     }
@@ -256,7 +255,7 @@ class Compiler : private Complaints {
     constexpr int most = 1024;
     const auto& length = step.operands[2];
     const auto& by = step.operands[3];
-    if (length.kind != Kind::constant || by.kind != Kind::constant || step.indexed) return {};
+    if (length.kind != OperandType::constant || by.kind != OperandType::constant || step.indexed) return {};
     if (by.value >= 1 && by.value <= length.value && length.value <= most) return {};
     return ValueFault{fmt::format("{} shifts {} bits by {}", step.spelling->text, length.value, by.value),
                       fmt::format("n1 is up to K{}, n2 K1 up to n1", most)};
@@ -277,7 +276,7 @@ class Compiler : private Complaints {
     if (step.spelling == nullptr) return 1;
     const auto& mnemonic = *step.spelling->mnemonic;
     if (step.op() == Op::out && step.operands.size() == 2)
-      return step.operands[0].kind == Kind::C && step.operands[0].number >= first_wide_counter ? 5 : 3;
+      return step.operands[0].kind == OperandType::C && step.operands[0].number >= first_wide_counter ? 5 : 3;
     return step.wide() && mnemonic.wide_steps > 0 ? mnemonic.wide_steps : mnemonic.steps;
   }
 
@@ -295,7 +294,7 @@ class Compiler : private Complaints {
   std::string_view text_;
   bool full_ = false;
   bool refused_ = false;  ///< an instruction could not be read
-  Program program_;
+  IlProgram program_;
   int line_ = 0;
   bool ended_ = false;
   const TellLine tell_ = [this](Place place, std::string what, std::string remedy) {
@@ -307,8 +306,8 @@ class Compiler : private Complaints {
 
 }  // namespace
 
-Program compile(std::string_view text, const std::string& file, Problems& problems) {
-  return Compiler(text, file, problems).compile();
+IlProgram compile(std::string_view text, const std::string& file, Problems& problems) {
+  return IlCompiler(text, file, problems).compile();
 }
 
 }  // namespace drycut::devices::lx3vp::il

@@ -1,11 +1,11 @@
 // Jumps, loops, subroutines, master contacts and the steps of sequences, as the FX family has them.
 #include <algorithm>
 
-#include "devices/lx3vp/il_rung.hpp"
+#include "devices/lx3vp/il_scan.hpp"
 
 namespace drycut::devices::lx3vp::il {
 
-void Scanner::flow(const Step& step, Rung& rung) {
+void ProgramScan::flow(const Step& step, Rung& rung) {
   const auto nesting = [&] { return static_cast<std::size_t>(step.operands[0].number); };
   switch (step.op()) {
     case Op::mc: {
@@ -59,7 +59,7 @@ void Scanner::flow(const Step& step, Rung& rung) {
 
 /// The instructions of a state run while it is ON and once more, without power, in the scan after. Several
 /// STL in a row are one that needs all its states; the first has them.
-void Scanner::begin_state(const Step& step, Rung& rung) {
+void ProgramScan::begin_state(const Step& step, Rung& rung) {
   const auto& states = step.operands;
   const bool on = std::all_of(states.begin(), states.end(),
                               [&](const Operand& state) { return read_bit(rung.registers, state); });
@@ -74,17 +74,17 @@ void Scanner::begin_state(const Step& step, Rung& rung) {
 }
 
 /// Whether a coil on `device` goes on to another step of the sequence: it is none of an ordinary relay then.
-bool Scanner::transfers(const Operand& device, const Rung& rung) const {
-  return device.kind == Kind::S && rung.state != nullptr &&
+bool ProgramScan::transfers(const Operand& device, const Rung& rung) const {
+  return device.kind == OperandType::S && rung.state != nullptr &&
          program_.states[static_cast<std::size_t>(device.number)];
 }
 
-void Scanner::transfer(const Operand& device, Rung& rung) {
+void ProgramScan::transfer(const Operand& device, Rung& rung) {
   for (const auto& state : rung.state->operands) write_bit(rung.registers, state, false);
   write_bit(rung.registers, device, true);
 }
 
-void Scanner::jump(const Step& step, Rung& rung) {
+void ProgramScan::jump(const Step& step, Rung& rung) {
   if (!executes(step, rung)) return;
   rung.branches.clear();
   rung.next = static_cast<std::size_t>(step.target);
@@ -94,11 +94,11 @@ void Scanner::jump(const Step& step, Rung& rung) {
   if (depth < rung.loops.size()) rung.loops.resize(depth);
 }
 
-void Scanner::call_subroutine(const Step& step, Rung& rung) {
+void ProgramScan::call_subroutine(const Step& step, Rung& rung) {
   constexpr std::size_t most_calls = 5;
   if (!executes(step, rung)) return;
   if (rung.frames.size() == most_calls)
-    return tell_error(step, RuntimeError(calls_too_deep, "five subroutines call each other already"), rung);
+    return tell_error(step, IlError(calls_too_deep, "five subroutines call each other already"), rung);
   rung.frames.push_back({rung.next, rung.loops.size()});
   rung.next = static_cast<std::size_t>(step.target);
 }

@@ -46,13 +46,13 @@ Statement statement_of(std::string_view line, int number, const TellLine& tell) 
 
 // Tables.
 
-struct Cell {
+struct TableCell {
   std::string text;
   int column = 1;
 };
 
-std::vector<Cell> cells_of(std::string_view line, char separator) {
-  std::vector<Cell> cells(1);
+std::vector<TableCell> cells_of(std::string_view line, char separator) {
+  std::vector<TableCell> cells(1);
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     auto& cell = cells.back();
@@ -71,7 +71,7 @@ std::vector<Cell> cells_of(std::string_view line, char separator) {
 }
 
 /// Where a table has what.
-struct Columns {
+struct TableColumns {
   char separator = ',';
   std::size_t heading = 0;  ///< its line, from 0
   std::size_t instruction = 0;
@@ -84,7 +84,7 @@ bool names_operand(std::string_view name) {
 }
 
 /// Operands have a column, or some side by side: named as such, or without a name, also behind the heading.
-std::size_t end_of_operands(const std::vector<Cell>& heading, std::size_t first) {
+std::size_t end_of_operands(const std::vector<TableCell>& heading, std::size_t first) {
   for (std::size_t c = first + 1; c < heading.size(); ++c) {
     const auto name = upper(trimmed(heading[c].text));
     if (!name.empty() && (!names_operand(name) || name.find("COMMENT") != std::string::npos)) return c;
@@ -92,12 +92,12 @@ std::size_t end_of_operands(const std::vector<Cell>& heading, std::size_t first)
   return std::string_view::npos;
 }
 
-std::optional<Columns> columns_of(const std::vector<std::string_view>& lines) {
+std::optional<TableColumns> columns_of(const std::vector<std::string_view>& lines) {
   constexpr std::size_t most = 20;  // titles before the heading
   for (std::size_t i = 0; i < std::min(most, lines.size()); ++i) {
     for (const char separator : {'\t', ',', ';'}) {
       const auto cells = cells_of(lines[i], separator);
-      Columns columns{separator, i, cells.size(), cells.size()};
+      TableColumns columns{separator, i, cells.size(), cells.size()};
       for (std::size_t c = cells.size(); c-- > 0;) {
         const auto name = upper(cells[c].text);
         if (name == "INSTRUCTION") columns.instruction = c;
@@ -111,14 +111,14 @@ std::optional<Columns> columns_of(const std::vector<std::string_view>& lines) {
   return std::nullopt;
 }
 
-std::vector<Statement> rows_of(const std::vector<std::string_view>& lines, const Columns& columns,
+std::vector<Statement> rows_of(const std::vector<std::string_view>& lines, const TableColumns& columns,
                                const TellLine& tell) {
   std::vector<Statement> statements;
   for (std::size_t i = columns.heading + 1; i < lines.size(); ++i) {
     const auto cells = cells_of(lines[i], columns.separator);
     const int line = static_cast<int>(i) + 1;
     Statement words;
-    const auto take = [&](const Cell& cell) {
+    const auto take = [&](const TableCell& cell) {
       const Words more = split_words(cell.text, {line, cell.column}, gaps);
       words.insert(words.end(), more.begin(), more.end());
     };

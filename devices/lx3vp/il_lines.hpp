@@ -1,10 +1,12 @@
 #pragma once
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/text.hpp"
+#include "devices/lx3vp/il_program.hpp"
 
 namespace drycut::devices::lx3vp::il {
 
@@ -24,5 +26,45 @@ std::vector<Statement> statements_of(std::string_view text, const TellLine& tell
 
 /// Whether the text is such a table.
 bool is_table(std::string_view text);
+
+/// Watches how instructions follow each other: a rung begins with LD, its blocks are joined, its branches
+/// taken up, and it ends with a coil or another instruction that needs power.
+class Rungs {
+ public:
+  explicit Rungs(TellLine tell) : tell_(std::move(tell)) {}
+  /// The next instruction; says in the step whether it opens a block.
+  void add(Step& step);
+  /// An instruction was refused: what follows in its rung is not judged.
+  void lose();
+
+ private:
+  void open(Step& step);
+  void branch(const Step& step);
+  void need_contact(const Step& step);
+  void need_one_block(const Step& step);
+  void end_rung(const Step& step);
+  void tell(const Step& step, std::string what, std::string remedy);
+
+  TellLine tell_;
+  int blocks_ = 0;    ///< begun and not joined, in this rung
+  int branches_ = 0;  ///< kept by MPS
+  bool after_output_ = false;
+  bool lost_ = false;
+};
+
+/// Where a label stands.
+struct Label {
+  int line = 0;
+  std::size_t place = 0;  ///< among the steps
+};
+using Labels = std::map<int, Label>;
+
+/// Looks only whether each jump and call has its label.
+void find_labels(IlProgram& program, const Labels& labels, const TellLine& tell);
+
+/// Joins what belongs together in a program that is read: jumps and calls with their labels, FOR with NEXT,
+/// the steps of sequences, subroutines with SRET; sets Step::target, Step::depth and Program::states. Tells
+/// what has no counterpart, stands where it may not, or is jumped into from outside.
+void join_structure(IlProgram& program, const Labels& labels, const TellLine& tell);
 
 }  // namespace drycut::devices::lx3vp::il

@@ -1,4 +1,4 @@
-#include "devices/lx3vp/il_mnemonics.hpp"
+#include "devices/lx3vp/il_program.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -117,8 +117,8 @@ std::span<const Mnemonic> mnemonics() {
   return all;
 }
 
-std::span<const Reading> instruction_readings() {
-  static constexpr Reading readings[] = {
+std::span<const BlockReading> instruction_readings() {
+  static constexpr BlockReading readings[] = {
       {"all",
        "the cam manual has no instruction list: mnemonics, steps, ranges, flags and codes are the FX "
        "family's, which the unit follows"},

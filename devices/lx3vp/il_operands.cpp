@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "base/text.hpp"
-#include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "devices/lx3vp/registers.hpp"
 
@@ -16,16 +15,16 @@ namespace drycut::devices::lx3vp::il {
 namespace {
 
 /// The devices of a kind: the letter, whether numbers are octal, and the ranges that exist.
-struct Range {
+struct OperandRange {
   int first = 0;
   int last = 0;
 };
-struct Family {
+struct OperandFamily {
   char letter;
   bool octal;
-  Range ranges[2];
+  OperandRange ranges[2];
 };
-constexpr Family families[] = {
+constexpr OperandFamily families[] = {
     {'X', true, {{0, 0377}, {0, -1}}},       {'Y', true, {{0, 0377}, {0, -1}}},
     {'M', false, {{0, 3071}, {8000, 8255}}}, {'S', false, {{0, 999}, {0, -1}}},
     {'T', false, {{0, 255}, {0, -1}}},       {'C', false, {{0, 255}, {0, -1}}},
@@ -84,27 +83,27 @@ const OperandKind& operand_kind(char letter) {
                        [&](const OperandKind& kind) { return kind.letter == letter; });
 }
 
-const Family* family_of(char letter) {
+const OperandFamily* family_of(char letter) {
   for (const auto& family : families)
     if (family.letter == letter) return &family;
   return nullptr;
 }
-const Family* family_of(Kind kind) { return family_of(letter_of(kind)); }
+const OperandFamily* family_of(OperandType kind) { return family_of(letter_of(kind)); }
 
-std::string number_text(const Family& family, int number) {
+std::string numbered(const OperandFamily& family, int number) {
   return family.octal ? fmt::format("{}{:o}", family.letter, number)
                       : fmt::format("{}{}", family.letter, number);
 }
-std::string range_text(const Family& family) {
-  auto text = fmt::format("{} to {}", number_text(family, family.ranges[0].first),
-                          number_text(family, family.ranges[0].last));
+std::string range_text(const OperandFamily& family) {
+  auto text = fmt::format("{} to {}", numbered(family, family.ranges[0].first),
+                          numbered(family, family.ranges[0].last));
   if (family.ranges[1].last >= 0)
-    text += fmt::format(" and {} to {}", number_text(family, family.ranges[1].first),
-                        number_text(family, family.ranges[1].last));
+    text += fmt::format(" and {} to {}", numbered(family, family.ranges[1].first),
+                        numbered(family, family.ranges[1].last));
   return text;
 }
-bool exists(const Family& family, int first, int count = 1) {
-  return std::any_of(std::begin(family.ranges), std::end(family.ranges), [&](const Range& range) {
+bool exists(const OperandFamily& family, int first, int count = 1) {
+  return std::any_of(std::begin(family.ranges), std::end(family.ranges), [&](const OperandRange& range) {
     return first >= range.first && first <= range.last - (count - 1);
   });
 }
@@ -120,9 +119,9 @@ bool number_from(std::string_view text, Number& number, auto... base) {
   return read.has_value();
 }
 
-class Reader {
+class OperandReader {
  public:
-  Reader(std::string_view text, ValueFault& fault) : text_(upper(text)), fault_(fault) {}
+  OperandReader(std::string_view text, ValueFault& fault) : text_(upper(text)), fault_(fault) {}
 
   std::optional<Operand> read() {
     const auto at = text_.find_first_of("VZ", 1);
@@ -137,8 +136,9 @@ class Reader {
     auto operand = read_plain();
     text_ = whole;
     if (!operand) return std::nullopt;
-    if (operand->kind == Kind::V || operand->kind == Kind::Z || operand->kind == Kind::real ||
-        operand->kind == Kind::word_bit || operand->kind == Kind::label || operand->kind == Kind::nesting)
+    if (operand->kind == OperandType::V || operand->kind == OperandType::Z ||
+        operand->kind == OperandType::real || operand->kind == OperandType::word_bit ||
+        operand->kind == OperandType::label || operand->kind == OperandType::nesting)
       return refuse("takes no index register", "index a device, bits or a number: D10Z0, K4M0Z0, K5V1");
     operand->index = number;
     return operand;
@@ -175,9 +175,9 @@ class Reader {
 
   std::optional<Operand> read_bits(std::string_view groups, char letter, std::string_view digits) {
     Operand operand;
-    operand.kind = Kind::bits;
+    operand.kind = OperandType::bits;
     const auto& family = *family_of(letter);
-    operand.of = static_cast<Kind>(letter);
+    operand.of = static_cast<OperandType>(letter);
     if (std::string_view("XYMS").find(letter) == std::string_view::npos)
       return refuse("groups no bits", "bits are grouped of X, Y, M or S: K4M0");
     if (!number_from(groups, operand.count) || operand.count < 1 || operand.count > 8)
@@ -199,18 +199,18 @@ class Reader {
 
   std::optional<Operand> read_real(std::string_view digits) {
     Operand operand;
-    operand.kind = Kind::real;
+    operand.kind = OperandType::real;
     if (!number_from(digits, operand.real) || !std::isfinite(operand.real))
       return refuse("is no 32-bit floating-point number", "write E1.5 or E-3.2E4");
     return operand;
   }
 
-  std::optional<Operand> read_device(const Family& family, std::string_view digits) {
+  std::optional<Operand> read_device(const OperandFamily& family, std::string_view digits) {
     Operand operand;
-    operand.kind = static_cast<Kind>(family.letter);
+    operand.kind = static_cast<OperandType>(family.letter);
     const auto dot = digits.find('.');
-    if (operand.kind == Kind::D && dot != std::string_view::npos) {
-      operand.kind = Kind::word_bit;
+    if (operand.kind == OperandType::D && dot != std::string_view::npos) {
+      operand.kind = OperandType::word_bit;
       if (!number_from(digits.substr(dot + 1), operand.count, 16) || operand.count < 0 || operand.count > 15)
         return refuse("has no such bit", "a word has the bits 0 to F: D10.F");
       digits = digits.substr(0, dot);
@@ -219,7 +219,7 @@ class Reader {
     return operand;
   }
 
-  bool read_number(const Family& family, std::string_view digits, int& number) {
+  bool read_number(const OperandFamily& family, std::string_view digits, int& number) {
     if (number_from(digits, number, family.octal ? 8 : 10) && exists(family, number)) return true;
     const bool decimal = family.octal && digits.find_first_of("89") != std::string_view::npos;
     refuse(decimal ? "is not octal" : "does not exist",
@@ -234,7 +234,7 @@ class Reader {
 
 /// Whether a kind of operand takes what the text named.
 bool takes(char kind, const Operand& operand) {
-  if (kind == 'w' && operand.kind == Kind::bits && operand.of == Kind::X) return false;
+  if (kind == 'w' && operand.kind == OperandType::bits && operand.of == OperandType::X) return false;
   if (kind == 'p' && operand.number >= pulse_outputs) return false;
   return operand_kind(kind).takes.find(letter_of(operand.kind)) != std::string_view::npos;
 }
@@ -243,7 +243,7 @@ bool is_word(char kind) { return kind == 'n' || kind == 'w' || kind == 'u'; }
 
 /// V and Z, as devices and as indexes.
 std::optional<ValueFault> misfit_of_index(const Operand& operand, char kind, const Spelling& spelling) {
-  if (operand.kind == Kind::V && spelling.wide)
+  if (operand.kind == OperandType::V && spelling.wide)
     return ValueFault{fmt::format("{} is the upper half of a 32-bit index", to_string(operand)),
                       fmt::format("use Z{0}: a 32-bit instruction takes V{0} with it", operand.number)};
   if (operand.index == Operand::no_index) return {};
@@ -275,20 +275,22 @@ std::optional<ValueFault> misfit_of_constant(const Operand& operand, char kind, 
 }  // namespace
 
 std::optional<Operand> read_operand(std::string_view text, ValueFault& fault) {
-  return Reader(text, fault).read();
+  return OperandReader(text, fault).read();
 }
 
 std::string_view operand_text(char kind) { return operand_kind(kind).text; }
 
 bool exists(const Operand& operand) {
-  const auto* family = family_of(operand.kind == Kind::bits ? operand.of : operand.kind);
+  const auto* family = family_of(operand.kind == OperandType::bits ? operand.of : operand.kind);
   return family == nullptr || exists(*family, operand.number);
 }
 
 std::optional<ValueFault> unserved(const Operand& operand) {
-  const bool grouped = operand.kind == Kind::bits;
-  const auto kind = grouped ? operand.of : operand.kind == Kind::word_bit ? Kind::D : operand.kind;
-  if (kind != Kind::D && kind != Kind::M) return {};
+  const bool grouped = operand.kind == OperandType::bits;
+  const auto kind = grouped                                 ? operand.of
+                    : operand.kind == OperandType::word_bit ? OperandType::D
+                                                            : operand.kind;
+  if (kind != OperandType::D && kind != OperandType::M) return {};
   const int count = grouped ? 4 * operand.count : 1;
   for (int number = operand.number; number < operand.number + count; ++number)
     if (!is_served(letter_of(kind), number))
@@ -302,9 +304,9 @@ std::optional<ValueFault> misfit(const Operand& operand, char kind, const Spelli
     return ValueFault{fmt::format("{} does not take {} here", spelling.text, to_string(operand)),
                       fmt::format("it takes {}", operand_text(kind))};
   if (auto fault = misfit_of_index(operand, kind, spelling)) return fault;
-  if (operand.kind == Kind::V || operand.kind == Kind::Z) return {};
-  if (operand.kind == Kind::constant) return misfit_of_constant(operand, kind, spelling);
-  if (operand.kind == Kind::bits) {
+  if (operand.kind == OperandType::V || operand.kind == OperandType::Z) return {};
+  if (operand.kind == OperandType::constant) return misfit_of_constant(operand, kind, spelling);
+  if (operand.kind == OperandType::bits) {
     if (!exists(*family_of(operand.of), operand.number, 4 * operand.count))
       return ValueFault{fmt::format("{} goes beyond the devices", to_string(operand)),
                         fmt::format("there are {}", range_text(*family_of(operand.of)))};
@@ -314,12 +316,12 @@ std::optional<ValueFault> misfit(const Operand& operand, char kind, const Spelli
   }
   const auto* family = family_of(operand.kind);
   if (family == nullptr) return {};
-  if (operand.kind == Kind::C && operand.number >= first_wide_counter && is_word(kind)) {
+  if (operand.kind == OperandType::C && operand.number >= first_wide_counter && is_word(kind)) {
     if (spelling.wide) return {};
     return ValueFault{fmt::format("{} is 32 bits wide", to_string(operand)), "use the 32-bit instruction"};
   }
   const int count = spelling.wide ? operand_kind(kind).wide_extent : operand_kind(kind).extent;
-  if (operand.kind == Kind::C && is_word(kind) && operand.number + count > first_wide_counter)
+  if (operand.kind == OperandType::C && is_word(kind) && operand.number + count > first_wide_counter)
     return ValueFault{fmt::format("{} takes {} words from {} on", spelling.text, count, to_string(operand)),
                       "the 16-bit counters end at C199"};
   if ((kind == 'a' || kind == 'd') && operand.number + count > first_special)
@@ -338,17 +340,17 @@ std::string to_string(const Operand& operand) {
                        operand.index % Operand::first_z);
   }
   switch (operand.kind) {
-    case Kind::constant:
+    case OperandType::constant:
       return operand.hexadecimal ? fmt::format("H{:X}", static_cast<std::uint32_t>(operand.value))
                                  : fmt::format("K{}", operand.value);
-    case Kind::real:
+    case OperandType::real:
       return fmt::format("E{}", operand.real);
-    case Kind::bits:
-      return fmt::format("K{}{}", operand.count, number_text(*family_of(operand.of), operand.number));
-    case Kind::word_bit:
+    case OperandType::bits:
+      return fmt::format("K{}{}", operand.count, numbered(*family_of(operand.of), operand.number));
+    case OperandType::word_bit:
       return fmt::format("D{}.{:X}", operand.number, operand.count);
     default:
-      return number_text(*family_of(operand.kind), operand.number);
+      return numbered(*family_of(operand.kind), operand.number);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "devices/lx3vp/il_outputs.hpp"
+#include "devices/lx3vp/il_scan.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 #include <tuple>
 
-#include "devices/lx3vp/il_doubts.hpp"
+#include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/il_values.hpp"
 
 namespace drycut::devices::lx3vp::il {
@@ -19,12 +19,12 @@ DecamOperands decam_operands(const Step& step) {
   const auto number = [&](std::size_t i) { return step.operands[i].number; };
   const auto& master = step.operands[0];
   DecamOperands operands;
-  operands.master.kind = master.kind == Kind::C   ? MasterSource::Kind::counter
-                         : master.kind == Kind::D ? MasterSource::Kind::word
-                                                  : MasterSource::Kind::time;
-  operands.master.number = master.kind == Kind::constant ? master.value : master.number;
+  operands.master.kind = master.kind == OperandType::C   ? MasterSource::Kind::counter
+                         : master.kind == OperandType::D ? MasterSource::Kind::word
+                                                         : MasterSource::Kind::time;
+  operands.master.number = master.kind == OperandType::constant ? master.value : master.number;
   operands.block = number(1);
-  operands.start = {step.operands[2].kind == Kind::X, number(2)};
+  operands.start = {step.operands[2].kind == OperandType::X, number(2)};
   operands.output = number(3);
   operands.direction = number(4);
   return operands;
@@ -35,13 +35,14 @@ class CoilUses {
  public:
   explicit CoilUses(std::vector<std::string>& notes) : notes_(notes) {}
 
-  void add(const Program& program, const Step& step) {
+  void add(const IlProgram& program, const Step& step) {
     if (step.op() == Op::label) ++part_;
     if (step.op() == Op::stl || step.op() == Op::ret) in_sequence_ = step.op() == Op::stl;
     const bool drives = step.op() == Op::out || step.op() == Op::set;
     if (!drives || step.indexed || step.operands.empty()) return;
     const auto& coil = step.operands.front();
-    if (coil.kind != Kind::Y && coil.kind != Kind::M && coil.kind != Kind::word_bit) return;
+    if (coil.kind != OperandType::Y && coil.kind != OperandType::M && coil.kind != OperandType::word_bit)
+      return;
     const auto [first, fresh] = uses_.emplace(std::tuple(coil.kind, coil.number, coil.count),
                                               Use{step.op(), step.line, part_, in_sequence_});
     auto& before = first->second;
@@ -65,14 +66,14 @@ class CoilUses {
     bool told = false;
   };
   std::vector<std::string>& notes_;
-  std::map<std::tuple<Kind, int, int>, Use> uses_;
+  std::map<std::tuple<OperandType, int, int>, Use> uses_;
   int part_ = 0;  ///< between labels
   bool in_sequence_ = false;
 };
 
 }  // namespace
 
-std::vector<std::string> doubts(const Program& program) {
+std::vector<std::string> doubts(const IlProgram& program) {
   constexpr std::array types = {0, 1, 100, 101};
   std::vector<std::string> notes;
   CoilUses coils(notes);
@@ -80,14 +81,15 @@ std::vector<std::string> doubts(const Program& program) {
     coils.add(program, step);
     if (step.op() != Op::ecamtbx || step.indexed || step.operands.size() < 2) continue;
     const auto& type = step.operands[1];
-    if (type.kind == Kind::constant && std::find(types.begin(), types.end(), type.value) == types.end())
+    if (type.kind == OperandType::constant &&
+        std::find(types.begin(), types.end(), type.value) == types.end())
       notes.push_back(fmt::format("{}:{}:{}: ECAMTBX has no type {}; write K0, K1, K100 or K101",
                                   program.file, step.line, type.column, to_string(type)));
   }
   return notes;
 }
 
-std::string strange_block(const Program& program) {
+std::string strange_block(const IlProgram& program) {
   const Operand* made = nullptr;
   const Step* running = nullptr;
   for (const auto& step : program.steps) {
@@ -115,7 +117,7 @@ void drive_outputs(const Registers& registers, const Step& step, bool powered, I
   const auto value = [&](std::size_t i, int least = std::numeric_limits<int>::min(), const char* name = "") {
     const auto read = powered || !step.indexed ? read_value(registers, step.operands[i], step.wide()) : 0;
     if (powered && read < least)
-      throw RuntimeError(bad_operand, fmt::format("{} is {}; write {} or more", name, read, least));
+      throw IlError(bad_operand, fmt::format("{} is {}; write {} or more", name, read, least));
     return read;
   };
   const auto give = [&](const PulseOrder& order) { instructions.pulses(step.number, order, powered); };

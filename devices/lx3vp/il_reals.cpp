@@ -1,5 +1,5 @@
 // Instructions on floating-point numbers: what each does, with its row in the table.
-#include "devices/lx3vp/il_call.hpp"
+#include "devices/lx3vp/il_values.hpp"
 
 namespace drycut::devices::lx3vp::il {
 
@@ -11,17 +11,17 @@ void to_integer(Call& call) {
   const auto real = static_cast<double>(call.registers().f32(call.number(0)));
   const double whole = std::trunc(real);
   auto& m = call.registers().m;
-  if (std::isnan(whole)) throw RuntimeError(bad_operand, "S is no floating-point number");
+  if (std::isnan(whole)) throw IlError(bad_operand, "S is no floating-point number");
   m[borrow_flag] = whole < static_cast<double>(smallest(call.wide()));
   m[carry_flag] = whole > static_cast<double>(largest(call.wide()));
   if (m[borrow_flag] || m[carry_flag])
-    throw RuntimeError(bad_operand, fmt::format("{} does not fit the whole number", real));
+    throw IlError(bad_operand, fmt::format("{} does not fit the whole number", real));
   call.set(1, static_cast<std::int32_t>(whole));
   m[zero_flag] = whole == 0;
 }
 
 void divide_reals(Call& call) {
-  if (call.finite(1) == 0) throw RuntimeError(bad_operand, "division by 0");
+  if (call.finite(1) == 0) throw IlError(bad_operand, "division by 0");
   call.set_real(2, call.finite(0) / call.finite(1));
 }
 

@@ -1,4 +1,4 @@
-#include "devices/lx3vp/il_rungs.hpp"
+#include "devices/lx3vp/il_lines.hpp"
 
 #include <fmt/format.h>
 
@@ -13,23 +13,24 @@ constexpr int most_blocks = 8;     // FX: LD without ANB or ORB
 constexpr int most_branches = 11;  // FX: MPS without MPP
 
 /// Where an instruction may stand in a rung.
-enum class Place { opens, contact, joins, branch, output, state, free };
+enum class RungPlace { opens, contact, joins, branch, output, state, free };
 
-Place place_of(const Step& step) {
+RungPlace place_of(const Step& step) {
   const Op op = step.op();
-  if (is_contact(op)) return step.spelling->mnemonic->join() == Join::begins ? Place::opens : Place::contact;
+  if (is_contact(op))
+    return step.spelling->mnemonic->join() == Join::begins ? RungPlace::opens : RungPlace::contact;
   switch (op) {
     case Op::inv:
-      return Place::contact;
+      return RungPlace::contact;
     case Op::anb:
     case Op::orb:
-      return Place::joins;
+      return RungPlace::joins;
     case Op::mps:
     case Op::mrd:
     case Op::mpp:
-      return Place::branch;
+      return RungPlace::branch;
     case Op::stl:
-      return Place::state;
+      return RungPlace::state;
     case Op::mcr:
     case Op::ret:
     case Op::for_:
@@ -39,9 +40,9 @@ Place place_of(const Step& step) {
     case Op::nop:
     case Op::fend:
     case Op::end:
-      return Place::free;
+      return RungPlace::free;
     default:
-      return Place::output;
+      return RungPlace::output;
   }
 }
 
@@ -49,14 +50,14 @@ Place place_of(const Step& step) {
 
 void Rungs::add(Step& step) {
   switch (place_of(step)) {
-    case Place::opens:
+    case RungPlace::opens:
       open(step);
       break;
-    case Place::contact:
+    case RungPlace::contact:
       need_contact(step);
       after_output_ = false;
       break;
-    case Place::joins:
+    case RungPlace::joins:
       if (blocks_ < 2)
         tell(step, fmt::format("{} has no two blocks to join", step.spelling->text),
              "begin each block with LD");
@@ -64,21 +65,21 @@ void Rungs::add(Step& step) {
         --blocks_;
       after_output_ = false;
       break;
-    case Place::branch:
+    case RungPlace::branch:
       branch(step);
       break;
-    case Place::output:
+    case RungPlace::output:
       need_contact(step);
       need_one_block(step);
       after_output_ = true;
       break;
-    case Place::state:
+    case RungPlace::state:
       end_rung(step);
       // A contact that coils and new rungs may follow.
       blocks_ = 1;
       after_output_ = true;
       break;
-    case Place::free:
+    case RungPlace::free:
       if (step.op() != Op::nop) end_rung(step);
       break;
   }

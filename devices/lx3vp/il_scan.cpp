@@ -7,10 +7,8 @@
 
 #include "base/text.hpp"
 #include "devices/lx3vp/ecamtbx_registers.hpp"
-#include "devices/lx3vp/il_call.hpp"
 #include "devices/lx3vp/il_operands.hpp"
-#include "devices/lx3vp/il_outputs.hpp"
-#include "devices/lx3vp/il_rung.hpp"
+#include "devices/lx3vp/il_values.hpp"
 
 namespace drycut::devices::lx3vp::il {
 
@@ -57,13 +55,13 @@ std::int64_t work_of(const Registers& registers, const Step& step) {
 
 }  // namespace
 
-Scanner::Scanner(const Program& program, std::int64_t step_ns)
+ProgramScan::ProgramScan(const IlProgram& program, std::int64_t step_ns)
     : program_(program), step_ns_(step_ns), most_(step_ns > 0 ? watchdog_ns / step_ns : most_work) {
   restart();
 }
-Scanner::~Scanner() = default;
+ProgramScan::~ProgramScan() = default;
 
-void Scanner::restart() {
+void ProgramScan::restart() {
   memories_.assign(static_cast<std::size_t>(program_.memories), false);
   fractions_.assign(timers, 0);
   timed_ns_.assign(timers, -1);
@@ -73,34 +71,34 @@ void Scanner::restart() {
   scanned_.clear();
 }
 
-void Scanner::watch(bool on) {
+void ProgramScan::watch(bool on) {
   watched_ = on;
   scanned_.clear();
   scanning_.clear();  // a scan that is under way is not seen from its beginning
 }
 
-int Scanner::line() const {
+int ProgramScan::line() const {
   if (rung_ == nullptr || rung_->over || rung_->next >= program_.steps.size()) return 0;
   return program_.steps[rung_->next].line;
 }
 
-void Scanner::scan(Registers& registers, Instructions& instructions) {
+void ProgramScan::scan(Registers& registers, Instructions& instructions) {
   Rung rung{registers, instructions};
   start(rung);
   run(rung, most_ + 1);
 }
 
-void Scanner::begin(Registers& registers, Instructions& instructions) {
+void ProgramScan::begin(Registers& registers, Instructions& instructions) {
   rung_ = std::make_unique<Rung>(registers, instructions);
   start(*rung_);
 }
 
-std::optional<std::int64_t> Scanner::go_on(std::int64_t computed_ns) {
+std::optional<std::int64_t> ProgramScan::go_on(std::int64_t computed_ns) {
   if (!run(*rung_, computed_ns / step_ns_) || rung_->work * step_ns_ > computed_ns) return std::nullopt;
   return rung_->work * step_ns_;
 }
 
-void Scanner::start(Rung& rung) {
+void ProgramScan::start(Rung& rung) {
   const Registers& registers = rung.registers;
   rung.passed_ns = has_scanned_ ? registers.time_ns - last_scan_ns_ : 0;
   last_scan_ns_ = registers.time_ns;
@@ -110,7 +108,7 @@ void Scanner::start(Rung& rung) {
 }
 
 // An instruction has power if what is before it lets it through; those that need none are executed.
-void Scanner::mark(const Step& step, const Rung& rung) {
+void ProgramScan::mark(const Step& step, const Rung& rung) {
   const auto line = static_cast<std::size_t>(step.line) - 1;
   if (line >= scanning_.size()) return;
   const Op op = step.op();
@@ -119,7 +117,7 @@ void Scanner::mark(const Step& step, const Rung& rung) {
   if (scanning_[line] != '+') scanning_[line] = on ? '+' : '-';
 }
 
-bool Scanner::run(Rung& rung, std::int64_t work) {
+bool ProgramScan::run(Rung& rung, std::int64_t work) {
   if (!watched_) return run_steps<false>(rung, work);
   const bool done = run_steps<true>(rung, work);
   if (done || rung.work > most_) scanned_ = scanning_;
@@ -128,7 +126,7 @@ bool Scanner::run(Rung& rung, std::int64_t work) {
 
 // Instructions while the work up to their end is within `work`; true when the scan has come to its end.
 template <bool watched>
-bool Scanner::run_steps(Rung& rung, std::int64_t work) {
+bool ProgramScan::run_steps(Rung& rung, std::int64_t work) {
   while (!rung.over && rung.next < program_.steps.size()) {
     if (rung.work >= work) return false;
     const auto& step = program_.steps[rung.next++];
@@ -145,7 +143,7 @@ bool Scanner::run_steps(Rung& rung, std::int64_t work) {
   return true;
 }
 
-const Step* Scanner::indexed(const Step& step, Rung& rung) {
+const Step* ProgramScan::indexed(const Step& step, Rung& rung) {
   if (!step.indexed) return &step;
   scratch_ = step;
   const auto kinds = step.spelling->mnemonic->operands;
@@ -153,33 +151,33 @@ const Step* Scanner::indexed(const Step& step, Rung& rung) {
     auto& operand = scratch_.operands[i];
     if (operand.index == Operand::no_index) continue;
     apply_index(rung.registers, operand, step.wide());
-    if (operand.kind == Kind::constant || (exists(operand) && !misfit(operand, kinds[i], *step.spelling)))
+    if (operand.kind == OperandType::constant ||
+        (exists(operand) && !misfit(operand, kinds[i], *step.spelling)))
       continue;
-    tell_error(
-        step,
-        RuntimeError(bad_operand, fmt::format("{} is no device that it takes: the index register leads "
-                                              "to number {}",
-                                              to_string(step.operands[i]), operand.number)),
-        rung);
+    tell_error(step,
+               IlError(bad_operand, fmt::format("{} is no device that it takes: the index register leads "
+                                                "to number {}",
+                                                to_string(step.operands[i]), operand.number)),
+               rung);
     return nullptr;
   }
   return &scratch_;
 }
 
-void Scanner::tell_error(const Step& step, const RuntimeError& error, Rung& rung) const {
+void ProgramScan::tell_error(const Step& step, const IlError& error, Rung& rung) const {
   rung.instructions.error(step.number, error.code,
                           fmt::format("{}:{}: {}: {}: {}", program_.file, step.line, error.code,
                                       step.spelling->text, error.what()));
 }
 
-bool Scanner::turns(const Step& step, bool now, bool on) {
+bool ProgramScan::turns(const Step& step, bool now, bool on) {
   const auto memory = static_cast<std::size_t>(step.memory);
   const bool before = memories_[memory];
   memories_[memory] = now;
   return now == on && before != on;
 }
 
-bool Scanner::contact(const Step& step, Rung& rung) {
+bool ProgramScan::contact(const Step& step, Rung& rung) {
   const Op op = step.op();
   const Step* taken = indexed(step, rung);
   if (taken == nullptr) return false;
@@ -190,7 +188,7 @@ bool Scanner::contact(const Step& step, Rung& rung) {
   return on == (op == Op::on);
 }
 
-void Scanner::join(Op op, Rung& rung) {
+void ProgramScan::join(Op op, Rung& rung) {
   switch (op) {
     case Op::anb:
       rung.flow = rung.blocks.back() && rung.flow;
@@ -216,7 +214,7 @@ void Scanner::join(Op op, Rung& rung) {
   }
 }
 
-void Scanner::execute(const Step& step, Rung& rung) {
+void ProgramScan::execute(const Step& step, Rung& rung) {
   const Op op = step.op();
   if (is_contact(op)) {
     const bool on = contact(step, rung);
@@ -246,7 +244,7 @@ void Scanner::execute(const Step& step, Rung& rung) {
   }
 }
 
-void Scanner::coil(const Step& step, Rung& rung) {
+void ProgramScan::coil(const Step& step, Rung& rung) {
   const Step* taken = indexed(step, rung);
   if (taken == nullptr) return;
   auto& registers = rung.registers;
@@ -254,9 +252,9 @@ void Scanner::coil(const Step& step, Rung& rung) {
   const bool power = rung.power();
   switch (step.op()) {
     case Op::out:
-      if (device.kind == Kind::T)
+      if (device.kind == OperandType::T)
         timer(step, power, rung);
-      else if (device.kind == Kind::C)
+      else if (device.kind == OperandType::C)
         counter(step, power, rung);
       else if (!transfers(device, rung))
         write_bit(registers, device, power);
@@ -282,7 +280,7 @@ void Scanner::coil(const Step& step, Rung& rung) {
   }
 }
 
-void Scanner::timer(const Step& step, bool on, Rung& rung) {
+void ProgramScan::timer(const Step& step, bool on, Rung& rung) {
   const int number = step.operands[0].number;
   auto& timer = rung.registers.t[static_cast<std::size_t>(number)];
   auto& fraction = fractions_[static_cast<std::size_t>(number)];
@@ -308,7 +306,7 @@ void Scanner::timer(const Step& step, bool on, Rung& rung) {
   if (timer.value >= preset) timer.contact = true;
 }
 
-void Scanner::counter(const Step& step, bool on, Rung& rung) {
+void ProgramScan::counter(const Step& step, bool on, Rung& rung) {
   const int number = step.operands[0].number;
   const bool wide = number >= first_wide_counter;
   const int preset = read_value(rung.registers, step.operands[1], wide);
@@ -334,11 +332,11 @@ void Scanner::counter(const Step& step, bool on, Rung& rung) {
   if (down && before == preset) counter.contact = false;
 }
 
-bool Scanner::executes(const Step& step, const Rung& rung) {
+bool ProgramScan::executes(const Step& step, const Rung& rung) {
   return step.spelling->pulse ? rises(step, rung.power()) : rung.power();
 }
 
-void Scanner::call(const Step& step, Rung& rung) {
+void ProgramScan::call(const Step& step, Rung& rung) {
   const Op op = step.op();
   const bool power = rung.power();
   const bool drives = op >= Op::plsv && op <= Op::decam;
@@ -354,18 +352,18 @@ void Scanner::call(const Step& step, Rung& rung) {
     else
       execute_action(rung.registers, *taken);
     rung.work += work_of(rung.registers, *taken);
-  } catch (const RuntimeError& error) {
+  } catch (const IlError& error) {
     tell_error(step, error, rung);
   }
 }
 
-void Scanner::make_cam_table(const Step& step, Rung& rung) {
+void ProgramScan::make_cam_table(const Step& step, Rung& rung) {
   const auto number = [&](std::size_t i) { return step.operands[i].number; };
   const auto& type = step.operands[1];
   // The type is read from the low word: a program may have written it with MOV.
   const auto report =
-      run_ecamtbx(rung.registers, number(0), read_value(rung.registers, type, type.kind == Kind::constant),
-                  number(2), number(3));
+      run_ecamtbx(rung.registers, number(0),
+                  read_value(rung.registers, type, type.kind == OperandType::constant), number(2), number(3));
   std::string text;
   if (report.code < 0)
     text = fmt::format("{}:{}: ECAMTBX {}: {}; the block D{} is left as it was", program_.file, step.line,

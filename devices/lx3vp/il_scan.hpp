@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,10 +13,14 @@
 
 namespace drycut::devices::lx3vp::il {
 
+/// Hands DECAM or a pulse instruction to the controller, with the power into it. Throws
+/// RuntimeError.
+void drive_outputs(const Registers& registers, const Step& step, bool powered, Instructions& instructions);
+
 /// Runs a program scan by scan, as the PLC does: from the first instruction to END, each on what those before
 /// it left in the registers. What instructions remember from scan to scan (edges, the fraction of a timer's
 /// unit) is here; the program must outlive it.
-class Scanner {
+class ProgramScan {
  public:
   /// Work that a scan may do before the watchdog (D8000, 200 ms) stops it, an instruction or a word that one
   /// moves being 1. At 0.2 us each, which is the order of the real unit's, these are the 200 ms.
@@ -23,10 +28,10 @@ class Scanner {
 
   /// `step_ns`: what an instruction takes, or a word that one moves; the watchdog goes by it then. 0: none of
   /// them takes time.
-  explicit Scanner(const Program& program, std::int64_t step_ns = 0);
-  ~Scanner();
-  Scanner(const Scanner&) = delete;
-  Scanner& operator=(const Scanner&) = delete;
+  explicit ProgramScan(const IlProgram& program, std::int64_t step_ns = 0);
+  ~ProgramScan();
+  ProgramScan(const ProgramScan&) = delete;
+  ProgramScan& operator=(const ProgramScan&) = delete;
 
   /// One scan at `registers.time_ns`. Timers advance by the time since the scan before.
   void scan(Registers& registers, Instructions& instructions);
@@ -56,7 +61,7 @@ class Scanner {
   void execute(const Step& step, Rung& rung);
   /// The step with its index registers applied; nullptr, and told, if it then names what there is not.
   const Step* indexed(const Step& step, Rung& rung);
-  void tell_error(const Step& step, const RuntimeError& error, Rung& rung) const;
+  void tell_error(const Step& step, const IlError& error, Rung& rung) const;
   // il_flow.cpp: what says where a program goes on and which power it has.
   void flow(const Step& step, Rung& rung);
   void begin_state(const Step& step, Rung& rung);
@@ -78,7 +83,7 @@ class Scanner {
   bool falls(const Step& step, bool now) { return turns(step, now, false); }
   bool turns(const Step& step, bool now, bool on);
 
-  const Program& program_;
+  const IlProgram& program_;
   std::vector<bool> memories_;
   std::vector<std::int64_t> fractions_;  ///< of each timer's unit [ns]
   std::vector<std::int64_t> timed_ns_;   ///< when each timer was last passed: a loop passes it more than once
@@ -91,6 +96,46 @@ class Scanner {
   bool watched_ = false;
   std::string scanning_;  ///< what the present scan has done so far
   std::string scanned_;
+};
+
+/// What a scan carries from instruction to instruction.
+struct ProgramScan::Rung {
+  /// A FOR that runs.
+  struct Loop {
+    int place = 0;
+    int left = 0;  ///< times still to run
+  };
+  /// A subroutine that was called.
+  struct Frame {
+    std::size_t back = 0;   ///< place behind the CALL
+    std::size_t loops = 0;  ///< that ran there
+  };
+  static constexpr std::size_t masters = 8;  ///< N0..N7
+
+  Rung(Registers& of, Instructions& to) : registers(of), instructions(to) {}
+
+  Registers& registers;
+  Instructions& instructions;
+  std::int64_t passed_ns = 0;       ///< since the scan before
+  std::vector<bool> blocks = {};    ///< begun before the present one
+  std::vector<bool> branches = {};  ///< kept by MPS
+  std::vector<Loop> loops = {};
+  std::vector<Frame> frames = {};
+  std::array<bool, masters> open_masters = {};  ///< N0..N7: MC without power, until MCR
+  const Step* state = nullptr;                  ///< STL whose instructions run; nullptr: outside a sequence
+  bool state_on = true;
+  bool supply = true;  ///< all master contacts and the state are ON
+  bool flow = false;
+  std::int64_t work = 0;
+  std::size_t next = 0;
+  bool over = false;
+
+  /// What reaches a coil.
+  [[nodiscard]] bool power() const { return flow && supply; }
+  void renew_supply() {
+    supply = state_on;
+    for (const bool open : open_masters) supply = supply && !open;
+  }
 };
 
 }  // namespace drycut::devices::lx3vp::il

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <vector>
 
-#include "devices/lx3vp/il_call.hpp"
 #include "devices/lx3vp/il_operands.hpp"
+#include "devices/lx3vp/il_values.hpp"
 
 namespace drycut::devices::lx3vp::il {
 
@@ -20,16 +20,15 @@ void need_bits(const Call& call, std::size_t i, int count) {
   Operand last = first;
   last.number += count - 1;
   if (!exists(last))
-    throw RuntimeError(bad_operand,
-                       fmt::format("{} devices from {} on go beyond what there is", count, to_string(first)));
+    throw IlError(bad_operand,
+                  fmt::format("{} devices from {} on go beyond what there is", count, to_string(first)));
 }
 
 /// SFTL and SFTR: n1 bits from D on move by n2; what becomes free is filled from S on.
 void shift(Call& call, bool up) {
   const int length = call.count(2, most_shifted);
   const int by = call.count(3, most_shifted);
-  if (by > length)
-    throw RuntimeError(bad_operand, fmt::format("{} bits of {} are to be shifted", by, length));
+  if (by > length) throw IlError(bad_operand, fmt::format("{} bits of {} are to be shifted", by, length));
   need_bits(call, 0, by);
   need_bits(call, 1, length);
   auto& registers = call.registers();
@@ -67,7 +66,7 @@ void to_decimal_digits(Call& call) {
   const std::int64_t most = call.wide() ? 99'999'999 : 9999;
   std::int64_t rest = call.value(0);
   if (rest < 0 || rest > most)
-    throw RuntimeError(bad_operand, fmt::format("{} has no BCD; it goes from 0 to {}", rest, most));
+    throw IlError(bad_operand, fmt::format("{} has no BCD; it goes from 0 to {}", rest, most));
   std::uint32_t digits = 0;
   for (int i = 0; i < digits_of(call); ++i, rest /= 10)
     digits |= static_cast<std::uint32_t>(rest % 10) << 4 * i;
@@ -80,8 +79,8 @@ void from_decimal_digits(Call& call) {
   for (int i = digits_of(call) - 1; i >= 0; --i) {
     const auto digit = digits >> 4 * i & 0xF;
     if (digit > 9)
-      throw RuntimeError(bad_operand, fmt::format("H{:X} is no BCD: it has a digit {:X}",
-                                                  call.wide() ? digits : digits & 0xFFFF, digit));
+      throw IlError(bad_operand, fmt::format("H{:X} is no BCD: it has a digit {:X}",
+                                             call.wide() ? digits : digits & 0xFFFF, digit));
     number = number * 10 + static_cast<std::int32_t>(digit);
   }
   call.set(1, number);
@@ -90,15 +89,15 @@ void from_decimal_digits(Call& call) {
 void average(Call& call) {
   const int count = call.count(2, most_averaged);
   const Operand& first = call.operand(0);
-  const bool is_bits = first.kind == Kind::bits;
+  const bool is_bits = first.kind == OperandType::bits;
   const bool two_words =
-      call.wide() && !is_bits && !(first.kind == Kind::C && first.number >= first_wide_counter);
+      call.wide() && !is_bits && !(first.kind == OperandType::C && first.number >= first_wide_counter);
   const int stride = is_bits ? 4 * first.count : two_words ? 2 : 1;
   Operand last = first;
   last.number += stride * count - 1;
   if (!exists(last))
-    throw RuntimeError(bad_operand,
-                       fmt::format("{} values from {} on go beyond what there is", count, to_string(first)));
+    throw IlError(bad_operand,
+                  fmt::format("{} values from {} on go beyond what there is", count, to_string(first)));
   std::int64_t sum = 0;
   for (int i = 0; i < count; ++i) {
     Operand value = first;
@@ -110,7 +109,7 @@ void average(Call& call) {
 
 void square_root(Call& call) {
   const std::int32_t square = call.value(0);
-  if (square < 0) throw RuntimeError(bad_operand, fmt::format("{} has no square root", square));
+  if (square < 0) throw IlError(bad_operand, fmt::format("{} has no square root", square));
   // Exact: a double holds all of 32 bit.
   const auto root = static_cast<std::int32_t>(std::sqrt(static_cast<double>(square)));
   call.set(1, root);

@@ -1,4 +1,4 @@
-#include "devices/lx3vp/il_structure.hpp"
+#include "devices/lx3vp/il_lines.hpp"
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ constexpr int end_label = 63;           // FX: P63 is END
 
 /// Aims a jump or a call at its label; tells if there is none.
 bool find_label(Step& step, const Labels& labels, int end_place, const TellLine& tell) {
-  if (step.operands.empty() || step.operands[0].kind != Kind::label) return false;
+  if (step.operands.empty() || step.operands[0].kind != OperandType::label) return false;
   const auto& name = step.operands[0];
   const auto found = labels.find(name.number);
   if (found != labels.end()) {
@@ -39,7 +39,7 @@ bool is_aimed(const Step& step) { return step.op() == Op::cj || step.op() == Op:
 
 class Structure {
  public:
-  Structure(Program& program, const Labels& labels, const TellLine& tell)
+  Structure(IlProgram& program, const Labels& labels, const TellLine& tell)
       : steps_(program.steps), labels_(labels), tell_(tell), places_(steps_.size()) {
     program.states.assign(states, false);
     states_ = &program.states;
@@ -285,12 +285,12 @@ class Structure {
 
 }  // namespace
 
-void find_labels(Program& program, const Labels& labels, const TellLine& tell) {
+void find_labels(IlProgram& program, const Labels& labels, const TellLine& tell) {
   for (auto& step : program.steps)
     if (is_aimed(step)) find_label(step, labels, 0, tell);
 }
 
-void join_structure(Program& program, const Labels& labels, const TellLine& tell) {
+void join_structure(IlProgram& program, const Labels& labels, const TellLine& tell) {
   Structure(program, labels, tell).join();
 }
 

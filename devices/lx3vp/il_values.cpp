@@ -10,46 +10,47 @@ namespace {
 std::size_t place(int number) { return static_cast<std::size_t>(number); }
 
 /// A word of D, or the value of a timer or a counter.
-std::uint16_t word_of(const Registers& registers, Kind kind, int number) {
-  if (kind == Kind::D) return registers.d[place(number)];
-  if (kind == Kind::T) return registers.t[place(number)].value;
-  if (kind == Kind::V) return registers.v[place(number)];
-  if (kind == Kind::Z) return registers.z[place(number)];
+std::uint16_t word_of(const Registers& registers, OperandType kind, int number) {
+  if (kind == OperandType::D) return registers.d[place(number)];
+  if (kind == OperandType::T) return registers.t[place(number)].value;
+  if (kind == OperandType::V) return registers.v[place(number)];
+  if (kind == OperandType::Z) return registers.z[place(number)];
   return static_cast<std::uint16_t>(registers.c[place(number)].value);
 }
 
-void set_word(Registers& registers, Kind kind, int number, std::uint16_t value) {
-  if (kind == Kind::D)
+void set_word(Registers& registers, OperandType kind, int number, std::uint16_t value) {
+  if (kind == OperandType::D)
     registers.put(number, value);
-  else if (kind == Kind::T)
+  else if (kind == OperandType::T)
     registers.t[place(number)].value = value;
-  else if (kind == Kind::V)
+  else if (kind == OperandType::V)
     registers.v[place(number)] = value;
-  else if (kind == Kind::Z)
+  else if (kind == OperandType::Z)
     registers.z[place(number)] = value;
   else
     registers.c[place(number)].value = static_cast<std::int16_t>(value);
 }
 
 /// The upper word of a 32-bit value: of Z it is V.
-std::pair<Kind, int> upper_word(const Operand& operand) {
-  if (operand.kind == Kind::Z) return {Kind::V, operand.number};
+std::pair<OperandType, int> upper_word(const Operand& operand) {
+  if (operand.kind == OperandType::Z) return {OperandType::V, operand.number};
   return {operand.kind, operand.number + 1};
 }
 
 bool is_wide_counter(const Operand& operand) {
-  return operand.kind == Kind::C && operand.number >= first_wide_counter;
+  return operand.kind == OperandType::C && operand.number >= first_wide_counter;
 }
 
 }  // namespace
 
 bool read_bit(const Registers& registers, const Operand& operand) {
-  if (operand.kind == Kind::word_bit) return (registers.d[place(operand.number)] >> operand.count & 1) != 0;
+  if (operand.kind == OperandType::word_bit)
+    return (registers.d[place(operand.number)] >> operand.count & 1) != 0;
   return *bit_at(registers, letter_of(operand.kind), operand.number);
 }
 
 void write_bit(Registers& registers, const Operand& operand, bool on) {
-  if (operand.kind != Kind::word_bit) {
+  if (operand.kind != OperandType::word_bit) {
     *bit_at(registers, letter_of(operand.kind), operand.number) = on;
     return;
   }
@@ -60,20 +61,20 @@ void write_bit(Registers& registers, const Operand& operand, bool on) {
 
 void reset(Registers& registers, const Operand& device) {
   const auto place = static_cast<std::size_t>(device.number);
-  if (device.kind == Kind::D) {
+  if (device.kind == OperandType::D) {
     registers.put(device.number, 0);
     return;
   }
-  if (device.kind == Kind::T) registers.t[place].value = 0;
-  if (device.kind == Kind::C) registers.c[place].value = 0;
+  if (device.kind == OperandType::T) registers.t[place].value = 0;
+  if (device.kind == OperandType::C) registers.c[place].value = 0;
   write_bit(registers, device, false);
 }
 
 std::int32_t read_value(const Registers& registers, const Operand& operand, bool wide) {
   std::uint32_t value = 0;
-  if (operand.kind == Kind::constant) {
+  if (operand.kind == OperandType::constant) {
     value = static_cast<std::uint32_t>(operand.value);
-  } else if (operand.kind == Kind::bits) {
+  } else if (operand.kind == OperandType::bits) {
     for (int i = 4 * operand.count - 1; i >= 0; --i)
       value = value << 1 | (*bit_at(registers, letter_of(operand.of), operand.number + i) ? 1U : 0U);
     // Fewer bits than the instruction is wide are a number without sign.
@@ -90,7 +91,7 @@ std::int32_t read_value(const Registers& registers, const Operand& operand, bool
 
 void write_value(Registers& registers, const Operand& operand, bool wide, std::int32_t value) {
   const auto bits = static_cast<std::uint32_t>(value);
-  if (operand.kind == Kind::bits) {
+  if (operand.kind == OperandType::bits) {
     for (int i = 0; i < 4 * operand.count; ++i)
       *bit_at(registers, letter_of(operand.of), operand.number + i) = (bits >> i & 1) != 0;
   } else if (is_wide_counter(operand)) {
@@ -109,7 +110,7 @@ void apply_index(const Registers& registers, Operand& operand, bool wide) {
   if (wide)
     index = static_cast<std::int32_t>(static_cast<std::uint32_t>(registers.v[at]) << 16 | registers.z[at]);
   operand.index = Operand::no_index;
-  if (operand.kind == Kind::constant) {
+  if (operand.kind == OperandType::constant) {
     const auto sum = static_cast<std::uint32_t>(operand.value + index);
     operand.value = wide ? static_cast<std::int32_t>(sum) : static_cast<std::int16_t>(sum & 0xFFFF);
     return;
@@ -119,8 +120,8 @@ void apply_index(const Registers& registers, Operand& operand, bool wide) {
 }
 
 float read_float(const Registers& registers, const Operand& operand) {
-  if (operand.kind == Kind::real) return operand.real;
-  if (operand.kind == Kind::constant) return static_cast<float>(operand.value);
+  if (operand.kind == OperandType::real) return operand.real;
+  if (operand.kind == OperandType::constant) return static_cast<float>(operand.value);
   return registers.f32(operand.number);
 }
 

@@ -1,5 +1,8 @@
 #pragma once
+#include <fmt/format.h>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -9,8 +12,8 @@
 namespace drycut::devices::lx3vp::il {
 
 /// An error of an instruction while it runs (D8067).
-struct RuntimeError : std::runtime_error {
-  RuntimeError(int number, const std::string& text) : std::runtime_error(text), code(number) {}
+struct IlError : std::runtime_error {
+  IlError(int number, const std::string& text) : std::runtime_error(text), code(number) {}
   int code;
 };
 /// FX: more than five subroutines call each other.
@@ -36,5 +39,95 @@ void apply_index(const Registers& registers, Operand& operand, bool wide);
 
 /// A floating-point operand: E, D, or a whole number K or H.
 float read_float(const Registers& registers, const Operand& operand);
+
+inline constexpr int zero_flag = 8020;    ///< M8020: the result is 0
+inline constexpr int borrow_flag = 8021;  ///< M8021: below the smallest number
+inline constexpr int carry_flag = 8022;   ///< M8022: above the largest
+
+/// Narrowest and widest number of an instruction.
+inline std::int64_t smallest(bool wide) {
+  return wide ? std::numeric_limits<std::int32_t>::min() : std::numeric_limits<std::int16_t>::min();
+}
+inline std::int64_t largest(bool wide) {
+  return wide ? std::numeric_limits<std::int32_t>::max() : std::numeric_limits<std::int16_t>::max();
+}
+
+/// The operands of a step as it is executed.
+class Call {
+ public:
+  Call(Registers& registers, const Step& step) : registers_(registers), step_(step), wide_(step.wide()) {}
+
+  [[nodiscard]] std::int32_t value(std::size_t i) const {
+    return read_value(registers_, step_.operands[i], wide_);
+  }
+  [[nodiscard]] std::int64_t long_value(std::size_t i) const { return value(i); }
+  [[nodiscard]] std::uint32_t bits(std::size_t i) const { return static_cast<std::uint32_t>(value(i)); }
+  void set(std::size_t i, std::int32_t value) { write_value(registers_, step_.operands[i], wide_, value); }
+  void set_bits(std::size_t i, std::uint32_t bits) { set(i, static_cast<std::int32_t>(bits)); }
+  [[nodiscard]] float real(std::size_t i) const { return read_float(registers_, step_.operands[i]); }
+  /// The same, which has to be a number.
+  [[nodiscard]] double finite(std::size_t i) const {
+    const auto value = static_cast<double>(real(i));
+    if (!std::isfinite(value)) throw IlError(bad_operand, "an operand is no floating-point number");
+    return value;
+  }
+  [[nodiscard]] int number(std::size_t i) const { return step_.operands[i].number; }
+  [[nodiscard]] bool wide() const { return wide_; }
+  [[nodiscard]] Registers& registers() const { return registers_; }
+  [[nodiscard]] const Operand& operand(std::size_t i) const { return step_.operands[i]; }
+  [[nodiscard]] bool flag(int number) const { return registers_.m[static_cast<std::size_t>(number)]; }
+  void set_flag(int number, bool on) { registers_.m[static_cast<std::size_t>(number)] = on; }
+
+  /// A sum or a difference: wraps, and the flags say so.
+  void set_sum(std::size_t i, std::int64_t sum) {
+    registers_.m[borrow_flag] = sum < smallest(wide_);
+    registers_.m[carry_flag] = sum > largest(wide_);
+    const auto wrapped = static_cast<std::int32_t>(static_cast<std::uint32_t>(sum));
+    set(i, wrapped);
+    registers_.m[zero_flag] = value(i) == 0;
+  }
+
+  void set_real(std::size_t i, double result) {
+    const auto rounded = static_cast<float>(result);
+    if (!std::isfinite(rounded)) throw IlError(bad_operand, "the result is no floating-point number");
+    registers_.m[zero_flag] = rounded == 0;
+    registers_.set_f32(number(i), rounded);
+  }
+
+  /// The three devices of CMP: above, equal, below.
+  template <typename Number>
+  void set_order(std::size_t i, Number a, Number b) {
+    set_three(i, a > b ? 0 : a == b ? 1 : 2);
+  }
+  /// The three devices of ZCP: below, within, above.
+  template <typename Number>
+  void set_zone(std::size_t i, Number value, Number low, Number high) {
+    set_three(i, value < low ? 0 : value > high ? 2 : 1);
+  }
+
+  /// K or D that counts devices, 1 to `most`.
+  [[nodiscard]] int count(std::size_t i, int most = 512) const {
+    const int count = read_value(registers_, step_.operands[i], false);
+    if (count < 1 || count > most)
+      throw IlError(bad_operand, fmt::format("a count of {} is none of 1 to {}", count, most));
+    return count;
+  }
+  void need_words(std::size_t i, int words) const {
+    if (number(i) + words > data_words)
+      throw IlError(bad_operand,
+                    fmt::format("{} words from D{} on go beyond D{}", words, number(i), data_words - 1));
+  }
+
+ private:
+  /// Exactly one of three devices is ON.
+  void set_three(std::size_t i, int which) {
+    auto device = step_.operands[i];
+    for (int n = 0; n < 3; ++n, ++device.number) write_bit(registers_, device, n == which);
+  }
+
+  Registers& registers_;
+  const Step& step_;
+  bool wide_;
+};
 
 }  // namespace drycut::devices::lx3vp::il

@@ -1,5 +1,5 @@
 // Instructions on words: what each does, with its row in the table.
-#include "devices/lx3vp/il_call.hpp"
+#include "devices/lx3vp/il_values.hpp"
 
 namespace drycut::devices::lx3vp::il {
 
@@ -33,7 +33,7 @@ void multiply(Call& call) {
 void divide(Call& call) {
   const std::int64_t dividend = call.value(0);
   const std::int64_t divisor = call.value(1);
-  if (divisor == 0) throw RuntimeError(bad_operand, "division by 0");
+  if (divisor == 0) throw IlError(bad_operand, "division by 0");
   // The smallest number by -1 wraps back to itself.
   const auto quotient = static_cast<std::int32_t>(static_cast<std::uint64_t>(dividend / divisor));
   const auto rest = static_cast<std::int32_t>(dividend % divisor);

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "devices/lx3vp/lx3vp_controller.hpp"
+#include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp {
 
@@ -52,8 +52,8 @@ void Lx3vpController::keep_recipe(int number) {
   const int list = step->operands[0].number;
   const il::Operand& type = step->operands[1];
   EcamTable recipe;
-  recipe.type =
-      static_cast<EcamType>(type.kind == il::Kind::constant ? type.value : registers_.i16(type.number));
+  recipe.type = static_cast<EcamType>(type.kind == il::OperandType::constant ? type.value
+                                                                             : registers_.i16(type.number));
   recipe.saw = read_saw_parameters(registers_, list);
   recipe.s_curve = read_s_curve_parameters(registers_, list);
   recipes_[step->operands[2].number] = std::move(recipe);
@@ -74,7 +74,7 @@ std::shared_ptr<const devices::CamTable> Lx3vpController::cam_table_of(const il:
   const std::int32_t most = registers_.i32(block + word::max_frequency);
   if (most > 0 && most <= max_frequency_hz) table.max_frequency = most;
   const il::Operand& master = step.operands[0];
-  if (master.kind == il::Kind::constant) table.time_axis = master.value;
+  if (master.kind == il::OperandType::constant) table.time_axis = master.value;
   table.cyclic = started ? cam->cyclic() : registers_.d[static_cast<std::size_t>(block + word::start)] == 1;
   return std::make_shared<const devices::CamTable>(std::move(table));
 }

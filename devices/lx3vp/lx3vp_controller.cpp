@@ -29,7 +29,7 @@ bool is_pulse_output(const Address& address) {
 
 }  // namespace
 
-Lx3vpController::Lx3vpController(il::Program program, std::int64_t scan_ns, std::int64_t step_ns)
+Lx3vpController::Lx3vpController(il::IlProgram program, std::int64_t scan_ns, std::int64_t step_ns)
     : program_(std::move(program)),
       scanner_(program_, step_ns),
       scan_{scan_ns},

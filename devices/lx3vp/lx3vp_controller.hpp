@@ -35,7 +35,7 @@ class Lx3vpController : public Controller, private Instructions {
  public:
   /// `program` is free of problems; `scan_ns` > 0; `step_ns` >= 0: what an instruction takes, or a word that
   /// one moves. Begins powered on, at time 0, registers at their reset values.
-  Lx3vpController(il::Program program, std::int64_t scan_ns, std::int64_t step_ns = 0);
+  Lx3vpController(il::IlProgram program, std::int64_t scan_ns, std::int64_t step_ns = 0);
 
   Cards& cards() override { return cards_; }
   /// A terminal of the base unit that nothing in the program uses: true if there is one, in cards() then.
@@ -104,8 +104,8 @@ class Lx3vpController : public Controller, private Instructions {
   void tell(int step, std::string event, std::string text);
   [[nodiscard]] CamPort port() { return {registers_, inputs_, counters_.pulses(), outputs_}; }
 
-  il::Program program_;
-  il::Scanner scanner_;
+  il::IlProgram program_;
+  il::ProgramScan scanner_;
   Due tick_{tick_ns};
   Due scan_;
   std::int64_t step_ns_;
@@ -122,7 +122,7 @@ class Lx3vpController : public Controller, private Instructions {
   std::array<bool, terminals> outputs_{};
   std::array<std::int64_t, pulse_outputs> pulses_before_{};  ///< given in earlier times of power
   bool powered_ = true;
-  ModbusMap modbus_{powered_};
+  RegisterFace modbus_{powered_};
   bool first_scan_ = true;
   bool stopped_ = false;  ///< by the watchdog, until power-up
   int stopped_at_ = 0;    ///< step of program memory

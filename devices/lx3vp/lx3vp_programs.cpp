@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "devices/lx3vp/il_doubts.hpp"
 #include "devices/lx3vp/lx3vp_controller.hpp"
 
 namespace drycut::devices::lx3vp {
@@ -21,25 +20,25 @@ std::optional<RegisterName> register_of(const il::Step& step, std::size_t at) {
   const bool contact = kind == 'b';
   const bool real = kind == 'f' || kind == 'F';
   switch (operand.kind) {
-    case il::Kind::X:
+    case il::OperandType::X:
       return RegisterName{Name::x, operand.number};
-    case il::Kind::Y:
+    case il::OperandType::Y:
       return RegisterName{Name::y, operand.number};
-    case il::Kind::M:
+    case il::OperandType::M:
       return RegisterName{Name::m, operand.number};
-    case il::Kind::S:
+    case il::OperandType::S:
       return RegisterName{Name::s, operand.number};
-    case il::Kind::T:
+    case il::OperandType::T:
       return RegisterName{contact ? Name::timer_contact : Name::timer, operand.number};
-    case il::Kind::C:
+    case il::OperandType::C:
       return RegisterName{contact ? Name::counter_contact : Name::counter, operand.number};
-    case il::Kind::D:
+    case il::OperandType::D:
       return RegisterName{real ? Name::real : step.wide() ? Name::wide : Name::word, operand.number};
-    case il::Kind::V:
+    case il::OperandType::V:
       return RegisterName{Name::v, operand.number};
-    case il::Kind::Z:
+    case il::OperandType::Z:
       return RegisterName{Name::z, operand.number};
-    case il::Kind::word_bit:
+    case il::OperandType::word_bit:
       return RegisterName{Name::bit, operand.number, operand.count};
     default:
       return std::nullopt;

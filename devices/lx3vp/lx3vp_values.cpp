@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/lx3vp_controller.hpp"
+#include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp {
 
@@ -36,10 +36,10 @@ void for_each_retentive(Act act) {
 }  // namespace
 
 void Lx3vpController::add_used_terminals() {
-  const auto used = [&](il::Kind kind, int number) {
-    if (kind == il::Kind::X) cards_.inputs.try_emplace({Kind::input, 0, number});
-    if (kind == il::Kind::Y) cards_.outputs.try_emplace({Kind::output, 0, number});
-    if (kind == il::Kind::C && number >= first_high_speed_counter)
+  const auto used = [&](il::OperandType kind, int number) {
+    if (kind == il::OperandType::X) cards_.inputs.try_emplace({Kind::input, 0, number});
+    if (kind == il::OperandType::Y) cards_.outputs.try_emplace({Kind::output, 0, number});
+    if (kind == il::OperandType::C && number >= first_high_speed_counter)
       cards_.counters.try_emplace({Kind::counter, 0, number});
   };
   for (const il::Step& step : program_.steps) {
@@ -47,7 +47,7 @@ void Lx3vpController::add_used_terminals() {
       const il::Operand& operand = step.operands[i];
       if (step.kind(i) == 'p') {
         cards_.pulse_outputs.try_emplace({Kind::output, 0, operand.number});
-      } else if (operand.kind == il::Kind::bits) {
+      } else if (operand.kind == il::OperandType::bits) {
         for (int bit = 0; bit < 4 * operand.count; ++bit) used(operand.of, operand.number + bit);
       } else {
         used(operand.kind, operand.number);
@@ -66,7 +66,7 @@ void Lx3vpController::add_names() {
   const auto add_operand = [&](il::Operand operand, bool wide) {
     if (std::string_view("XYMSTCDVZ").find(letter_of(operand.kind)) == std::string_view::npos) return;
     operand.index = il::Operand::no_index;
-    add_name((wide && operand.kind == il::Kind::D ? "D" : "") + to_string(operand));
+    add_name((wide && operand.kind == il::OperandType::D ? "D" : "") + to_string(operand));
   };
   constexpr std::size_t block_operand = 1;
   for (const il::Step& step : program_.steps) {

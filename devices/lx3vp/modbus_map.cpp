@@ -58,11 +58,11 @@ int addresses_each(const ModbusRow& row) {
   return row.first.kind == Kind::counter && row.first.number >= first_wide_counter ? 2 : 1;
 }
 
-std::optional<ModbusPlace> ModbusMap::read(ModbusTable table, std::uint16_t address) const {
+std::optional<ModbusPlace> RegisterFace::read(ModbusTable table, std::uint16_t address) const {
   return place_at(table, address, false);
 }
 
-std::optional<ModbusPlace> ModbusMap::written(ModbusTable table, std::uint16_t address) const {
+std::optional<ModbusPlace> RegisterFace::written(ModbusTable table, std::uint16_t address) const {
   return place_at(table, address, true);
 }
 

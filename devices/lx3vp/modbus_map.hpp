@@ -2,8 +2,8 @@
 #include <span>
 #include <string_view>
 
+#include "devices/controller.hpp"
 #include "devices/lx3vp/registers.hpp"
-#include "devices/modbus_face.hpp"
 
 namespace drycut::devices::lx3vp {
 
@@ -23,10 +23,10 @@ std::span<const ModbusRow> modbus_rows();
 int addresses_each(const ModbusRow& row);
 
 /// Functions 1 and 2 read the same bits, 3 and 4 the same words.
-class ModbusMap final : public ModbusFace {
+class RegisterFace final : public ModbusFace {
  public:
   /// Without power it does not answer; `powered` outlives it.
-  explicit ModbusMap(const bool& powered) : powered_(powered) {}
+  explicit RegisterFace(const bool& powered) : powered_(powered) {}
 
   [[nodiscard]] std::optional<ModbusPlace> read(ModbusTable table, std::uint16_t address) const override;
   [[nodiscard]] std::optional<ModbusPlace> written(ModbusTable table, std::uint16_t address) const override;

@@ -1,4 +1,4 @@
-#include "devices/lx3vp/pulse_output.hpp"
+#include "devices/lx3vp/instructions.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -125,8 +125,8 @@ void PulseUnit::begin(Line& line, const PulseOrder& order, const Registers& regi
 namespace {
 
 /// A trapezoid of speed by D8145, D8146 and D8148.
-struct Ramp {
-  explicit Ramp(const Registers& registers)
+struct PulseRamp {
+  explicit PulseRamp(const Registers& registers)
       : top(std::clamp(registers.i32(top_speed_register), 10, max_frequency_hz)) {
     const double bias = std::clamp<double>(registers.d[bias_speed_register], 0, top / 10);
     const double ramp_s = std::clamp<double>(registers.d[ramp_register], 50, 5000) / 1000;
@@ -150,7 +150,7 @@ bool is_on(const DogSignal& dog, const CamPort& port) {
 // A ramp, and a speed that still leaves the way to stop.
 PulseTick PulseUnit::move(Line& line, const Registers& registers) {
   Motion& motion = line.motion;
-  const Ramp ramp(registers);
+  const PulseRamp ramp(registers);
   const auto remaining = static_cast<double>(std::abs(motion.target - line.output.position()));
   const double most = std::max(ramp.least, std::min<double>(motion.order.frequency, ramp.top));
   motion.speed = std::clamp(motion.speed + ramp.slope / ticks_per_second, ramp.least, most);
@@ -182,7 +182,7 @@ PulseTick PulseUnit::seek(Line& line, const CamPort& port) {
   // A start on the dog has no way left to be fast.
   if (dog && motion.speed == 0) motion.speed = motion.order.creep;
   motion.at_dog = dog;
-  const Ramp ramp(port.registers);
+  const PulseRamp ramp(port.registers);
   const double wanted = dog ? motion.order.creep : std::min<double>(motion.order.frequency, ramp.top);
   const double change = ramp.slope / ticks_per_second;
   motion.speed = std::max(motion.speed, std::min(ramp.least, wanted));

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "devices/lx3vp/block.hpp"
+#include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp {
 

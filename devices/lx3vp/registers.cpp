@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "base/text.hpp"
-#include "devices/lx3vp/block.hpp"
 
 namespace drycut::devices::lx3vp {
 

@@ -2,8 +2,8 @@
 #include <memory>
 #include <string>
 
+#include "devices/controller.hpp"
 #include "devices/modbus/table.hpp"
-#include "devices/modbus_face.hpp"
 
 namespace drycut::devices::modbus {
 

@@ -2,7 +2,7 @@
 #include <array>
 #include <string_view>
 
-#include "devices/table.hpp"
+#include "devices/device.hpp"
 
 // The public face of MODBUS (wiki.qem.it, en:software:devices:modbus, as far as its pages could be read: the
 // revisions of December 2016).
@@ -76,28 +76,33 @@ inline constexpr std::array fields = {
 
 inline constexpr std::string_view wiki = "wiki.qem.it devices/modbus";
 inline constexpr std::array readings = {
-    Reading{"",
-            "the first MODBUS of the .CNF is what Modbus TCP of a live line reaches, whatever its port is",
-            wiki},
-    Reading{"INIT", "the device gives it to itself at power-up; a program's is taken without a word", wiki},
-    Reading{"mode", "1 and 2 do the same", wiki},
-    Reading{"idcard",
-            "over TCP units 0 and 255 reach it too; another one, and all while it is closed or a master, has "
-            "the exception 11",
-            wiki},
-    Reading{"SEND", "no slave is connected: err and st_sended are 1 a second later", wiki},
-    Reading{"st_msgrx", "any write into iword or ilong sets it while the device is an open slave", wiki},
-    Reading{"iword",
-            "functions 5, 6, 15, 16, 22 and 23 write it: register NN has the address NN - 1; coil 1 is bit 0 "
-            "of iword1, coil 17 that of iword2",
-            wiki},
-    Reading{"oword", "functions 1 to 4 all read it, by the same addresses", wiki},
-    Reading{"olong",
-            "the high word first, as Modbus sends a word's bytes: oword1 is the upper half of olong1; ilong "
-            "alike",
-            wiki},
-    Reading{"wdata", "a value in its range resets it", wiki},
-    Reading{"wcmd", "a command that is executed resets it", wiki},
+    ManualReading{
+        "", "the first MODBUS of the .CNF is what Modbus TCP of a live line reaches, whatever its port is",
+        wiki},
+    ManualReading{"INIT", "the device gives it to itself at power-up; a program's is taken without a word",
+                  wiki},
+    ManualReading{"mode", "1 and 2 do the same", wiki},
+    ManualReading{
+        "idcard",
+        "over TCP units 0 and 255 reach it too; another one, and all while it is closed or a master, has "
+        "the exception 11",
+        wiki},
+    ManualReading{"SEND", "no slave is connected: err and st_sended are 1 a second later", wiki},
+    ManualReading{"st_msgrx", "any write into iword or ilong sets it while the device is an open slave",
+                  wiki},
+    ManualReading{
+        "iword",
+        "functions 5, 6, 15, 16, 22 and 23 write it: register NN has the address NN - 1; coil 1 is bit 0 "
+        "of iword1, coil 17 that of iword2",
+        wiki},
+    ManualReading{"oword", "functions 1 to 4 all read it, by the same addresses", wiki},
+    ManualReading{
+        "olong",
+        "the high word first, as Modbus sends a word's bytes: oword1 is the upper half of olong1; ilong "
+        "alike",
+        wiki},
+    ManualReading{"wdata", "a value in its range resets it", wiki},
+    ManualReading{"wcmd", "a command that is executed resets it", wiki},
 };
 
 }  // namespace drycut::devices::modbus::table

@@ -17,7 +17,7 @@ void Movement::run(const Leg& leg) {
 }
 
 void Movement::place(const std::optional<Leg>& overshoot, const Leg& last) {
-  assert(phase_ == Phase::still);
+  assert(phase_ == MovementPhase::still);
   placing_ = true;
   last_.reset();
   if (overshoot) last_ = last;
@@ -28,11 +28,11 @@ void Movement::begin(const Leg& leg) {
   const bool goes_on = running() && leg.backward == last_backward_;
   leg_ = leg;
   driven_ = goes_on;
-  if (phase_ == Phase::still) {
-    enter(Phase::release, times.brake);
+  if (phase_ == MovementPhase::still) {
+    enter(MovementPhase::release, times.brake);
   } else if (goes_on) {
-    enter(leg.slow ? Phase::slow : Phase::fast);
-  } else if (phase_ != Phase::release) {  // else tbrake runs on
+    enter(leg.slow ? MovementPhase::slow : MovementPhase::fast);
+  } else if (phase_ != MovementPhase::release) {  // else tbrake runs on
     switch_off();
     invert();
   }
@@ -41,9 +41,9 @@ void Movement::begin(const Leg& leg) {
 void Movement::stop() {
   placing_ = false;
   last_.reset();
-  if (phase_ == Phase::still || phase_ == Phase::tolerance) return;
+  if (phase_ == MovementPhase::still || phase_ == MovementPhase::tolerance) return;
   switch_off();
-  enter(Phase::tolerance, times.tolerance);
+  enter(MovementPhase::tolerance, times.tolerance);
 }
 
 void Movement::abort() {
@@ -53,49 +53,50 @@ void Movement::abort() {
 }
 
 bool Movement::step(Parts position, Parts slow_range) {
-  const bool moving = phase_ != Phase::still;
+  const bool moving = phase_ != MovementPhase::still;
   while (advance(position, slow_range)) {
   }
-  return moving && phase_ == Phase::still;
+  return moving && phase_ == MovementPhase::still;
 }
 
 bool Movement::advance(Parts position, Parts slow_range) {
   switch (phase_) {
-    case Phase::still:
+    case MovementPhase::still:
       return false;
-    case Phase::release:
+    case MovementPhase::release:
       if (timer_ms_ > 0) return false;
       invert();
       return true;
-    case Phase::inversion:
+    case MovementPhase::inversion:
       if (timer_ms_ > 0) return false;
       if (reached(position, leg_.inertia)) return arrive();
       last_backward_ = leg_.backward;
       driven_ = true;
-      enter(leg_.slow || (leg_.slows && reached(position, slow_range)) ? Phase::slow : Phase::fast);
+      enter(leg_.slow || (leg_.slows && reached(position, slow_range)) ? MovementPhase::slow
+                                                                       : MovementPhase::fast);
       return false;
-    case Phase::fast:
+    case MovementPhase::fast:
       if (reached(position, leg_.inertia)) return arrive();
       if (!leg_.slows || !reached(position, slow_range)) return false;
       slowdown_ms_ = times.slowdown;
       if (slowdown_ms_ > 0) switch_off();
-      enter(Phase::slowdown, slowdown_ms_);
+      enter(MovementPhase::slowdown, slowdown_ms_);
       return true;
-    case Phase::slowdown:
-    case Phase::slow:
+    case MovementPhase::slowdown:
+    case MovementPhase::slow:
       if (reached(position, leg_.inertia)) return arrive();
-      if (phase_ == Phase::slow || timer_ms_ > 0) return false;
-      enter(Phase::slow);
+      if (phase_ == MovementPhase::slow || timer_ms_ > 0) return false;
+      enter(MovementPhase::slow);
       return false;
-    case Phase::tolerance:
+    case MovementPhase::tolerance:
       if (timer_ms_ > 0) return false;
-      enter(Phase::still);
+      enter(MovementPhase::still);
       return false;
   }
   return false;
 }
 
-void Movement::enter(Phase phase, int ms) {
+void Movement::enter(MovementPhase phase, int ms) {
   phase_ = phase;
   timer_ms_ = ms;
 }
@@ -106,14 +107,14 @@ void Movement::switch_off() {
 
 void Movement::invert() {
   const bool turns = leg_.backward != last_backward_;
-  enter(Phase::inversion, turns ? std::max(times.inversion - off_ms_, 0) : 0);
+  enter(MovementPhase::inversion, turns ? std::max(times.inversion - off_ms_, 0) : 0);
 }
 
 /// The leg is over; what follows is entered in the same sample.
 bool Movement::arrive() {
   switch_off();
   if (!last_) {
-    enter(Phase::tolerance, times.tolerance);
+    enter(MovementPhase::tolerance, times.tolerance);
     return true;
   }
   leg_ = *last_;
@@ -133,7 +134,8 @@ bool Movement::retarget(Parts position, const std::optional<Leg>& overshoot, con
 }
 
 bool Movement::changeable() const {
-  return placing_ && (phase_ == Phase::release || phase_ == Phase::inversion || phase_ == Phase::fast);
+  return placing_ && (phase_ == MovementPhase::release || phase_ == MovementPhase::inversion ||
+                      phase_ == MovementPhase::fast);
 }
 
 bool Movement::reached(Parts position, Parts before) const {
@@ -147,8 +149,9 @@ bool Movement::ahead(const Leg& leg, Parts position) {
 
 Outputs Movement::outputs() const {
   const bool backward = running() && leg_.backward;
-  const bool slow = phase_ == Phase::slow || (phase_ == Phase::slowdown && 2 * timer_ms_ <= slowdown_ms_);
-  return {running() && !backward, backward, slow, phase_ == Phase::still};
+  const bool slow =
+      phase_ == MovementPhase::slow || (phase_ == MovementPhase::slowdown && 2 * timer_ms_ <= slowdown_ms_);
+  return {running() && !backward, backward, slow, phase_ == MovementPhase::still};
 }
 
 }  // namespace drycut::devices::oopos2

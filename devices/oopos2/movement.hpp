@@ -41,7 +41,7 @@ struct Outputs {
   bool operator==(const Outputs&) const = default;
 };
 
-enum class Phase : std::uint8_t {
+enum class MovementPhase : std::uint8_t {
   still,      ///< braked
   release,    ///< the brake is released, tbrake runs
   inversion,  ///< tinvt runs since the other direction's output went off
@@ -76,7 +76,7 @@ class Movement {
   /// The placement can take the position as the new one: not in a slow range, the goal ahead (D36).
   [[nodiscard]] bool goes_on_from(Parts position) const { return changeable() && ahead(leg_, position); }
 
-  [[nodiscard]] Phase phase() const { return phase_; }
+  [[nodiscard]] MovementPhase phase() const { return phase_; }
   [[nodiscard]] Outputs outputs() const;
   /// A placement runs, or has ended in this sample.
   [[nodiscard]] bool placing() const { return placing_; }
@@ -86,7 +86,9 @@ class Movement {
   [[nodiscard]] const Leg& leg() const { return leg_; }
   [[nodiscard]] bool driven() const { return driven_; }
   /// The direction output is on.
-  [[nodiscard]] bool running() const { return phase_ == Phase::fast || phase_ == Phase::slow; }
+  [[nodiscard]] bool running() const {
+    return phase_ == MovementPhase::fast || phase_ == MovementPhase::slow;
+  }
   /// Direction of the output that was on last.
   [[nodiscard]] bool last_backward() const { return last_backward_; }
   /// Left of the running timer [ms], 0 or more.
@@ -96,7 +98,7 @@ class Movement {
   static constexpr int long_ago_ms = 1 << 20;  ///< longer than any tinvt
 
   bool advance(Parts position, Parts slow_range);
-  void enter(Phase phase, int ms = 0);
+  void enter(MovementPhase phase, int ms = 0);
   void begin(const Leg& leg);
   void switch_off();
   void invert();
@@ -105,7 +107,7 @@ class Movement {
   [[nodiscard]] static bool ahead(const Leg& leg, Parts position);
   [[nodiscard]] bool changeable() const;
 
-  Phase phase_ = Phase::still;
+  MovementPhase phase_ = MovementPhase::still;
   Leg leg_;
   std::optional<Leg> last_;  ///< after the overshoot
   bool placing_ = false;

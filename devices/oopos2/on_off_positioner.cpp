@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "devices/axis/speed.hpp"
+#include "devices/axis/position.hpp"
+#include "devices/device.hpp"
 #include "devices/oopos2/oopos2.hpp"
-#include "devices/terminals.hpp"
 
 namespace drycut::devices::oopos2 {
 
@@ -84,8 +84,9 @@ void OnOffPositioner::step() {
 
 // The slow range is held once the axis is in it.
 void OnOffPositioner::measure() {
-  const Phase phase = movement_.phase();
-  if (movement_.placing() && (phase == Phase::slowdown || phase == Phase::slow || phase == Phase::tolerance))
+  const MovementPhase phase = movement_.phase();
+  if (movement_.placing() &&
+      (phase == MovementPhase::slowdown || phase == MovementPhase::slow || phase == MovementPhase::tolerance))
     return;
   const Slowdown slowdown{value("slowtype"), value("maxslow"), value("minslow"), value("maxvel")};
   value("exeslow") = slows_by_speed() ? slow_range(slowdown, value("vel")) : 0;

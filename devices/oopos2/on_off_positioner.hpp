@@ -3,11 +3,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "devices/axis/frequency_meter.hpp"
 #include "devices/axis/position.hpp"
+#include "devices/cards.hpp"
 #include "devices/oopos2/movement.hpp"
 #include "devices/oopos2/table.hpp"
-#include "devices/turn.hpp"
 
 namespace drycut::devices::oopos2 {
 
@@ -36,7 +35,7 @@ class OnOffPositioner final : public TableDevice<oopos2_type> {
   /// An output that the device may have and may share; nullptr where the .CNF says X.X.
   struct Output {
     DigitalOutput* terminal = nullptr;
-    Turn turn;
+    OutputTurn turn;
     bool level = false;
   };
   static constexpr int outputs = 6;  ///< OutAva to OutFre

@@ -1,7 +1,7 @@
 #include <utility>
 
+#include "devices/device.hpp"
 #include "devices/oopos2/on_off_positioner.hpp"
-#include "devices/terminals.hpp"
 
 // The preset search (001 1.4.8; spec qem.md 5.11 and 9.7).
 namespace drycut::devices::oopos2 {
@@ -53,7 +53,8 @@ void OnOffPositioner::sample_search(bool enable, bool released, std::optional<st
     case Search::approach:
       if (!enable) return;
       // Turned by the program, the axis can still run into the enable: it leaves it the way it turns to.
-      search_leg(Search::leave, movement_.phase() == Phase::inversion ? search_backward_ : !search_backward_);
+      search_leg(Search::leave,
+                 movement_.phase() == MovementPhase::inversion ? search_backward_ : !search_backward_);
       return;
     case Search::leave:
       // An edge while the axis still coasts the other way is not the one that the slow leg looks for.

@@ -2,7 +2,7 @@
 #include <array>
 #include <string_view>
 
-#include "devices/table.hpp"
+#include "devices/device.hpp"
 
 // The public face of OOPOS2 (001 1.6; spec qem.md 9, with the print's slips corrected as D1 and D34 say).
 namespace drycut::devices::oopos2::table {
@@ -62,7 +62,7 @@ inline constexpr std::array commands_rows = {
 inline constexpr auto commands = in_section("001 1.6.2", commands_rows);
 
 /// iner01 to iner16: a row each, as the manual names them.
-consteval Variable inertia(std::string_view name, std::string_view meaning) {
+consteval DeviceVariable inertia(std::string_view name, std::string_view meaning) {
   return elsewhere("001 1.4.6", kept(name, Size::W, "Um/10", 0, 32767, meaning));
 }
 
@@ -121,7 +121,7 @@ inline constexpr std::array variables_rows = {
     kept("prspos", Size::L, "Um", -999999, 999999, "quota that the preset loads, minpos..maxpos"),
     kept("prsdir", Size::B, "", 0, 3,
          "preset search: 0 forward, 1 backward, fast and then slow; 2 forward, 3 backward, always slow"),
-    Variable{"actiner", Size::B, "", 0, 7, read, R::retentive, {}, "inertia band in use"},
+    DeviceVariable{"actiner", Size::B, "", 0, 7, read, R::retentive, {}, "inertia band in use"},
     kept("delta", Size::L, "Um", -999999, 999999, "what DELCNT adds"),
     kept("decpt", Size::B, "", 0, 3, "decimals of the unit of measure: speeds are in whole units"),
     kept("unitvel", Size::B, "", 0, 1, "time unit of speeds: 0 per minute, 1 per second"),
@@ -165,36 +165,41 @@ inline constexpr std::array aliases = {
 
 /// Where the manual of OOPOS2 leaves something open, and what the device does there (spec qem.md 10).
 inline constexpr std::array readings = {
-    Reading{"", "commands wait for the next sample, which takes them as a set in the order of the table",
-            "001 1.6.2 gives priorities and 1.4.9 an overlap of two DELCNT, no mechanism"},
-    Reading{"cntratio", "from 374, which is 0.00374 Um a pulse", "001 1.6.3 prints 347"},
-    Reading{"toldly", "in 1/100 s", "001 1.4.4 says s/1000, 1.6.3 1/100 s"},
-    Reading{"posit", "in motion taken where the goal stays ahead and the slow range is not entered",
-            "001 1.4.2 allows what the table of 1.6.3 does not"},
-    Reading{"setpos",
-            "in motion taken where it stays ahead and the slow range is not entered, else the goal stays",
-            "001 1.4.2 allows what the table of 1.6.3 does not"},
-    Reading{"slowdly", "0 = no gap; a start inside the slow range switches slow and direction on together",
-            "001 1.2.2 describes the phases of a long way only"},
-    Reading{"slowtype", "2 takes the square of vel/maxvel; the range is computed anew until it is entered",
-            "001 1.4.5 prints the formula without the square below the line"},
-    Reading{"maxiner", "watches the change of the inertia; the new value is kept anyway",
-            "001 1.6.4 compares the value, 1.6.3 the change"},
-    Reading{
+    ManualReading{"",
+                  "commands wait for the next sample, which takes them as a set in the order of the table",
+                  "001 1.6.2 gives priorities and 1.4.9 an overlap of two DELCNT, no mechanism"},
+    ManualReading{"cntratio", "from 374, which is 0.00374 Um a pulse", "001 1.6.3 prints 347"},
+    ManualReading{"toldly", "in 1/100 s", "001 1.4.4 says s/1000, 1.6.3 1/100 s"},
+    ManualReading{"posit", "in motion taken where the goal stays ahead and the slow range is not entered",
+                  "001 1.4.2 allows what the table of 1.6.3 does not"},
+    ManualReading{
+        "setpos",
+        "in motion taken where it stays ahead and the slow range is not entered, else the goal stays",
+        "001 1.4.2 allows what the table of 1.6.3 does not"},
+    ManualReading{"slowdly",
+                  "0 = no gap; a start inside the slow range switches slow and direction on together",
+                  "001 1.2.2 describes the phases of a long way only"},
+    ManualReading{"slowtype",
+                  "2 takes the square of vel/maxvel; the range is computed anew until it is entered",
+                  "001 1.4.5 prints the formula without the square below the line"},
+    ManualReading{"maxiner", "watches the change of the inertia; the new value is kept anyway",
+                  "001 1.6.4 compares the value, 1.6.3 the change"},
+    ManualReading{
         "overpos",
         "the way of a backlash recovery alone, no least way of a placement; the overshoot stays within "
         "minpos..maxpos",
         "001 1.6.3 adds 'and/or minimum delta of positioning' and says no more of it; 1.2.3 does not speak "
         "of the limits"},
-    Reading{"tool", "a quota setpos + tool beyond minpos..maxpos goes to the limit, and says so",
-            "001 1.6.3 makes setpos + tool the final quota, and minpos and maxpos what the axis reaches"},
-    Reading{
+    ManualReading{
+        "tool", "a quota setpos + tool beyond minpos..maxpos goes to the limit, and says so",
+        "001 1.6.3 makes setpos + tool the final quota, and minpos and maxpos what the axis reaches"},
+    ManualReading{
         "STOP",
         "ends at once what runs, waits toldly, brakes; no recalculation, st_toll stays 0. It comes before "
         "START",
         "001 1.6.2 lists START first and says that STOP comes first; no phases of a STOP are given"},
-    Reading{"DELCNT", "needs st_still = 1", "001 1.6.2 prints st_still = 0, its text says stopped"},
-    Reading{"CNTDIR", "is a command", "001 1.6.2 does not list it, the program of 1.8.2 gives it"},
+    ManualReading{"DELCNT", "needs st_still = 1", "001 1.6.2 prints st_still = 0, its text says stopped"},
+    ManualReading{"CNTDIR", "is a command", "001 1.6.2 does not list it, the program of 1.8.2 gives it"},
 };
 
 }  // namespace drycut::devices::oopos2::table

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/units.hpp"
-#include "devices/axis/dac.hpp"
+#include "devices/axis/regulator.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {
@@ -92,7 +92,7 @@ Order Axis::power(bool on) {
 }
 
 Order Axis::home(double position) {
-  const Verdict verdict = judge(state_, Command::home);
+  const CommandVerdict verdict = judge(state_, Command::home);
   if (verdict.error != ErrorId::none) return {verdict.error};
   if (!(std::abs(position) <= pin_max)) return {ErrorId::position_range};
   home_to_ = position;
@@ -100,7 +100,7 @@ Order Axis::home(double position) {
 }
 
 ErrorId Axis::set_position(double position, bool relative) {
-  const Verdict verdict = judge(state_, Command::set_position);
+  const CommandVerdict verdict = judge(state_, Command::set_position);
   if (verdict.error != ErrorId::none) return verdict.error;
   if (!(std::abs(position) <= pin_max)) return ErrorId::position_range;
   move_zero(relative ? position : position - actual_.part);
@@ -114,7 +114,7 @@ ErrorId Axis::set_override(double factor) {
 }
 
 Order Axis::slow_down(Command command, const Dynamics& dynamics) {
-  const Verdict verdict = judge(state_, command);
+  const CommandVerdict verdict = judge(state_, command);
   if (verdict.error != ErrorId::none) return {verdict.error};
   JerkLimits limits;
   if (const ErrorId error = limits_of(dynamics, limits); error != ErrorId::none) return {error};
@@ -133,7 +133,7 @@ void Axis::release_stop(std::uint64_t ticket) {
 }
 
 Order Axis::reset() {
-  const Verdict verdict = judge(state_, Command::reset);
+  const CommandVerdict verdict = judge(state_, Command::reset);
   if (verdict.error != ErrorId::none) return {verdict.error};
   remember(ticket_, state_of(ticket_));
   resetting_ = true;
@@ -142,7 +142,7 @@ Order Axis::reset() {
 }
 
 Order Axis::couple(Coupling coupling, const CouplingLink& link, Command command, std::uint64_t ticket) {
-  const Verdict verdict = judge(state_, command);
+  const CommandVerdict verdict = judge(state_, command);
   if (verdict.error != ErrorId::none) return {verdict.error};
   const Order order = begin(verdict.to, ticket);
   coupling_ = std::move(coupling);
@@ -152,7 +152,7 @@ Order Axis::couple(Coupling coupling, const CouplingLink& link, Command command,
 }
 
 Order Axis::uncouple(Command command) {
-  const Verdict verdict = judge(state_, command);
+  const CommandVerdict verdict = judge(state_, command);
   if (verdict.error != ErrorId::none) return {verdict.error};
   // Each block lets go of its own kind of coupling.
   const bool cam = coupling_ && coupling_->cam() != nullptr;

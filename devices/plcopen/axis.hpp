@@ -2,7 +2,9 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -268,5 +270,40 @@ class Axis {
   bool speed_cut_ = false;      ///< Velocity was above dynamik.vb_max
   bool profile_ended_ = false;  ///< the cam came to its end in the last cycle
 };
+
+enum class AxisQuantity : std::uint8_t { number, position, velocity, acceleration, jerk, volts, percent };
+/// "mm/s", "deg/s", ... "" for a number.
+std::string_view unit_of(AxisQuantity quantity, Measure measure);
+
+/// A value of an axis that people record, check and set, in mm or deg and seconds.
+struct AxisValue {
+  std::string_view name;
+  AxisQuantity quantity = AxisQuantity::number;
+  std::string_view meaning;
+  double (*read)(const Axis& axis) = nullptr;
+  void (*write)(Axis& axis, double value) = nullptr;  ///< nullptr: can only be read
+  double min = 0;                                     ///< of one that can be written
+  double max = 0;
+  bool in_turn = false;  ///< of a modulo axis: begins again with each turn
+};
+std::span<const AxisValue> axis_value_table();
+
+/// A parameter of an axis by PLCopen's number (part 1, table of parameters), as MC_ReadParameter gives it.
+/// ISG's own blocks take the machine data's names as texts instead.
+struct NumberedParameter {
+  int number = 0;
+  std::string_view name;
+  std::string_view unit;
+  double (*read)(const Axis& axis) = nullptr;
+  double AxisParameters::*written = nullptr;  ///< nullptr: MC_WriteParameter refuses it
+  std::string_view meaning;
+};
+/// Those with a number as value; the BOOL ones (4, 5, 6) are none of them.
+std::span<const NumberedParameter> numbered_parameters();
+/// nullptr if there is none.
+const NumberedParameter* find_numbered_parameter(int number);
+/// MC_WriteParameter: in Standstill and Disabled only, as ISG demands. 65020 if it cannot be written, 65021
+/// if the value is out of its range or the software limits would cross.
+ErrorId write_numbered_parameter(Axis& axis, int number, double value);
 
 }  // namespace drycut::devices::plcopen

@@ -71,7 +71,7 @@ double Axis::way_of(const MoveRequest& request, const AxisMotion& from, const Je
 }
 
 Order Axis::move(const MoveRequest& request, std::uint64_t ticket) {
-  const Verdict verdict = judge(state_, request.command);
+  const CommandVerdict verdict = judge(state_, request.command);
   if (verdict.error != ErrorId::none) return {verdict.error};
   JerkLimits limits;
   if (const ErrorId error = check(request, limits); error != ErrorId::none) return {error};
@@ -199,7 +199,7 @@ void Axis::run_on() {
 }
 
 Order Axis::superimpose(double distance, const Dynamics& dynamics) {
-  const Verdict verdict = judge(state_, Command::move_superimposed);
+  const CommandVerdict verdict = judge(state_, Command::move_superimposed);
   if (verdict.error != ErrorId::none) return {verdict.error};
   const MoveRequest alone{Command::move_relative, distance, dynamics};
   if (state_ == AxisState::standstill) return move(alone);

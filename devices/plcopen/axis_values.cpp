@@ -1,4 +1,4 @@
-#include "devices/plcopen/axis_values.hpp"
+#include "devices/plcopen/axis.hpp"
 
 #include <array>
 

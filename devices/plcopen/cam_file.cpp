@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "devices/plcopen/tab_file.hpp"
-#include "devices/plcopen/table_text.hpp"
 
 // Cams as files of their own: CSV, and what comments say of the axes.
 namespace drycut::devices::plcopen {
@@ -32,7 +31,7 @@ class CamReader {
   }
 
   /// What the comments of a .tab file say, for its table.
-  std::optional<CamFile> tab(std::string_view text, CamTable table, std::vector<int> lines) {
+  std::optional<CamFile> tab(std::string_view text, McCamTable table, std::vector<int> lines) {
     tab_ = true;
     cam_.interpolation = table.interpolation;
     cam_.table = std::move(table);
@@ -129,7 +128,7 @@ class CamReader {
   }
 
   void take(const std::string& name, const Word& value) {
-    CamLimits& limits = cam_.limits;
+    CamFileLimits& limits = cam_.limits;
     constexpr double most = 1e12;
     if (name == "name") cam_.table.name = value.text;
     if (name == "id") cam_.table.id = static_cast<std::uint16_t>(reader_.whole(value, 1, 65535).value_or(1));
@@ -268,9 +267,9 @@ std::optional<CamFile> read_cam(std::string_view text, const std::string& file, 
     return cam;
   }
   std::vector<int> lines;
-  std::optional<CamTable> table = parse_tab(text, file, problems, &lines);
+  std::optional<McCamTable> table = parse_tab(text, file, problems, &lines);
   // The comments' faults are told even where the table has its own.
-  std::optional<CamFile> cam = reader.tab(text, table.value_or(CamTable{}), std::move(lines));
+  std::optional<CamFile> cam = reader.tab(text, table.value_or(McCamTable{}), std::move(lines));
   return table ? cam : std::nullopt;
 }
 

@@ -1,4 +1,4 @@
-#include "devices/plcopen/cam_laws.hpp"
+#include "devices/plcopen/cam_table.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 namespace drycut::devices::plcopen {
 namespace {
 
-std::vector<double> column(const CamTable& table, int number) {
+std::vector<double> column(const McCamTable& table, int number) {
   std::vector<double> values(table.lines());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = table.value(i, number);
   return values;
@@ -42,7 +42,7 @@ void fill_even(CamCurve& curve, const std::vector<double>& y, Interpolation inte
   }
 }
 
-void fill_coefficients(CamCurve& curve, const CamTable& table, double slave_modulo, Endless endless) {
+void fill_coefficients(CamCurve& curve, const McCamTable& table, double slave_modulo, Endless endless) {
   for (std::size_t i = 0; i < curve.pieces.size(); ++i)
     for (int k = 0; k < 4; ++k) coefficients_of(curve, i)[static_cast<std::size_t>(k)] = table.value(i, k);
   if (endless == Endless::no || slave_modulo <= 0) return;
@@ -102,7 +102,7 @@ std::vector<double> unwrapped(const std::vector<double>& positions, double slave
   return y;
 }
 
-CamCurve curve_of(const CamTable& table, Interpolation interpolation, double modulo, double slave_modulo,
+CamCurve curve_of(const McCamTable& table, Interpolation interpolation, double modulo, double slave_modulo,
                   Endless endless) {
   CamCurve curve;
   curve.master_length = modulo;

@@ -34,7 +34,7 @@ constexpr double farthest = 1e12;
 constexpr double least_gap = 1000;
 constexpr std::size_t most_pairs = 360;
 
-ErrorId check_pairs(const CamTable& table, double modulo) {
+ErrorId check_pairs(const McCamTable& table, double modulo) {
   const std::size_t lines = table.lines();
   // An odd number would put two segments of a kind at both sides of point 0.
   if (lines < 2 || lines > most_pairs || lines % 2 != 0) return ErrorId::table_line_count;
@@ -59,17 +59,17 @@ const TableType* table_type(int number) {
   return &table_types[static_cast<std::size_t>(number) - 1];
 }
 
-int CamTable::columns() const {
+int McCamTable::columns() const {
   const TableType* row = table_type(type);
   return row == nullptr ? 0 : row->columns;
 }
 
-std::size_t CamTable::lines() const {
+std::size_t McCamTable::lines() const {
   const auto width = static_cast<std::size_t>(columns());
   return width == 0 ? 0 : values.size() / width;
 }
 
-std::optional<Interpolation> interpolation_of(const CamTable& table, std::uint32_t wanted) {
+std::optional<Interpolation> interpolation_of(const McCamTable& table, std::uint32_t wanted) {
   if (wanted > static_cast<std::uint32_t>(Interpolation::table_defined)) return std::nullopt;
   auto interpolation = static_cast<Interpolation>(wanted);
   if (interpolation == Interpolation::table_defined) interpolation = table.interpolation;
@@ -77,7 +77,7 @@ std::optional<Interpolation> interpolation_of(const CamTable& table, std::uint32
   return interpolation;
 }
 
-ErrorId check(const CamTable& table, Interpolation interpolation, double modulo) {
+ErrorId check(const McCamTable& table, Interpolation interpolation, double modulo) {
   const TableType* type = table_type(table.type);
   if (type == nullptr) return ErrorId::table_type_unknown;
   int needed = 1;
@@ -90,7 +90,7 @@ ErrorId check(const CamTable& table, Interpolation interpolation, double modulo)
   return table.lines() == 0 ? ErrorId::too_few_lines : ErrorId::none;
 }
 
-std::vector<std::size_t> disordered_rows(const CamTable& table, double modulo) {
+std::vector<std::size_t> disordered_rows(const McCamTable& table, double modulo) {
   std::vector<std::size_t> rows;
   const std::size_t lines = table.lines();
   for (std::size_t i = 0; i < lines; ++i) {
@@ -103,7 +103,7 @@ std::vector<std::size_t> disordered_rows(const CamTable& table, double modulo) {
   return rows;
 }
 
-ErrorId CamTables::add(CamTable table) {
+ErrorId CamTables::add(McCamTable table) {
   if (table.id == 0) return ErrorId::table_id;
   const TableType* type = table_type(table.type);
   if (type == nullptr || type->columns == 0) return ErrorId::table_type_unknown;
@@ -139,12 +139,12 @@ void CamTables::end_change(std::uint16_t id) {
   if (const auto entry = entries_.find(id); entry != entries_.end()) entry->second.changing = false;
 }
 
-const CamTable* CamTables::find(std::uint16_t id) const {
+const McCamTable* CamTables::find(std::uint16_t id) const {
   const auto entry = entries_.find(id);
   return entry == entries_.end() || entry->second.revision == 0 ? nullptr : &entry->second.table;
 }
 
-const CamTable* CamTables::find_file(std::string_view file) const {
+const McCamTable* CamTables::find_file(std::string_view file) const {
   for (const auto& [id, entry] : entries_)
     if (!entry.table.file.empty() && entry.table.file == file) return &entry.table;
   return nullptr;

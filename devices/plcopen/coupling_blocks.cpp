@@ -1,12 +1,12 @@
-#include "devices/plcopen/coupling_blocks.hpp"
+#include "devices/plcopen/function_blocks.hpp"
 
 namespace drycut::devices::plcopen {
 
 void McCamTableSelect::call(MotionKernel& kernel) {
   about = Slave;
   if (edge_.rising(Execute)) {
-    const plcopen::CamTable* table =
-        CamTable.file.empty() ? kernel.tables().find(CamTable.id) : kernel.tables().find_file(CamTable.file);
+    const plcopen::McCamTable* table = McCamTable.file.empty() ? kernel.tables().find(McCamTable.id)
+                                                               : kernel.tables().find_file(McCamTable.file);
     const bool axes = kernel.axis(Master) != nullptr && kernel.axis(Slave) != nullptr;
     ErrorId error = table == nullptr ? ErrorId::selected_table_missing : ErrorId::none;
     if (!axes) error = ErrorId::no_such_axis;

@@ -1,4 +1,4 @@
-#include "devices/plcopen/function_block.hpp"
+#include "devices/plcopen/function_blocks.hpp"
 
 namespace drycut::devices::plcopen {
 

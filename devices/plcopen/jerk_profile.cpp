@@ -1,4 +1,4 @@
-#include "devices/plcopen/jerk_profile.hpp"
+#include "devices/plcopen/coupling.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,11 +13,11 @@ bool usable(const JerkLimits& limits) {
 }
 
 /// Phases under construction, with the state that they have come to.
-struct Builder {
+struct PhaseBuilder {
   JerkProfile profile;
   MotionState now;
 
-  explicit Builder(const MotionState& state) : now(state) { profile.start = state; }
+  explicit PhaseBuilder(const MotionState& state) : now(state) { profile.start = state; }
 
   void phase(double duration, double jerk) {
     if (!(duration > 0)) return;
@@ -53,8 +53,9 @@ struct Builder {
 };
 
 /// To a cruising velocity, there for `cruise` [s], and to the velocity at the end.
-Builder way(const MotionState& from, double cruising, double cruise, double end, const JerkLimits& limits) {
-  Builder builder(from);
+PhaseBuilder way(const MotionState& from, double cruising, double cruise, double end,
+                 const JerkLimits& limits) {
+  PhaseBuilder builder(from);
   builder.velocity(cruising, limits);
   builder.phase(cruise, 0);
   builder.velocity(end, limits);
@@ -81,7 +82,7 @@ JerkLimits with_one_slope(JerkLimits limits) {
 double reachable(const MotionState& from, double released, double target, double end,
                  const JerkLimits& limits) {
   const auto straight = [&](double velocity) {
-    Builder builder(from);
+    PhaseBuilder builder(from);
     builder.velocity(velocity, end < 0 ? with_one_slope(limits) : limits);
     return builder.now.position;
   };
@@ -98,14 +99,14 @@ double reachable(const MotionState& from, double released, double target, double
 }
 
 /// `from` reaches a velocity of at least 0 when its acceleration is let go.
-Builder forward(const MotionState& from, double target, double wanted, const JerkLimits& limits) {
+PhaseBuilder forward(const MotionState& from, double target, double wanted, const JerkLimits& limits) {
   const double jerk = limits.jerk;
   const double released = from.velocity + from.acceleration * std::abs(from.acceleration) / (2 * jerk);
   const double top = limits.velocity;
   const double end = wanted == 0 ? 0 : reachable(from, released, target, wanted, limits);
   const auto end_of = [&](double cruising) { return way(from, cruising, 0, end, limits).now.position; };
   const auto braked = [&](double release) {
-    Builder builder(from);
+    PhaseBuilder builder(from);
     builder.phase(release, jerk);
     builder.velocity(end, limits);
     return builder;
@@ -162,7 +163,7 @@ MotionState at(const JerkProfile& profile, double time) {
 std::optional<JerkProfile> to_velocity(const MotionState& state, double velocity, double up, double down,
                                        double jerk) {
   if (!usable(up) || !usable(down) || !usable(jerk)) return std::nullopt;
-  Builder builder(state);
+  PhaseBuilder builder(state);
   builder.velocity(velocity, up, down, jerk);
   builder.profile.end = builder.now;
   return builder.profile;
@@ -170,7 +171,7 @@ std::optional<JerkProfile> to_velocity(const MotionState& state, double velocity
 
 std::optional<JerkProfile> to_velocity(const MotionState& state, double velocity, const JerkLimits& limits) {
   if (!usable(limits)) return std::nullopt;
-  Builder builder(state);
+  PhaseBuilder builder(state);
   builder.velocity(velocity, limits);
   builder.profile.end = builder.now;
   return builder.profile;
@@ -186,7 +187,7 @@ std::optional<JerkProfile> to_position(const MotionState& state, double position
     return backward ? forward(mirrored(state), -position, -end, limits)
                     : forward(state, position, end, limits);
   };
-  Builder built = build(velocity);
+  PhaseBuilder built = build(velocity);
   // A turn on the way may leave no room for the speed.
   const double missed = std::abs(built.now.position - (backward ? -position : position));
   if (velocity != 0 && missed > 1e-6 * std::max(1.0, std::abs(position - state.position))) built = build(0);

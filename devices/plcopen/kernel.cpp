@@ -88,7 +88,7 @@ bool MotionKernel::locked(std::uint16_t table) const {
   });
 }
 
-ErrorId MotionKernel::add_table(CamTable table) {
+ErrorId MotionKernel::add_table(McCamTable table) {
   return locked(table.id) ? ErrorId::table_locked : tables_.add(std::move(table));
 }
 
@@ -116,7 +116,7 @@ Order MotionKernel::check_axes(AxisRef master, AxisRef slave) const {
   return {};
 }
 
-Order MotionKernel::check_cam(const CamInRequest& request, const CamTable& table,
+Order MotionKernel::check_cam(const CamInRequest& request, const McCamTable& table,
                               Interpolation interpolation) const {
   const Axis& master = *axis(request.master);
   const Axis& slave = *axis(request.slave);
@@ -192,10 +192,10 @@ Order MotionKernel::cam_in(const CamInRequest& request, std::uint64_t again, std
   if (const Order order = check_axes(request.master, request.slave); order.error != ErrorId::none)
     return order;
   Axis& slave = *axis(request.slave);
-  if (const Verdict verdict = judge(slave.state(), Command::cam_in); verdict.error != ErrorId::none)
+  if (const CommandVerdict verdict = judge(slave.state(), Command::cam_in); verdict.error != ErrorId::none)
     return {verdict.error};
   if (const ErrorId error = check_pins(request); error != ErrorId::none) return {error};
-  const CamTable* table = tables_.find(request.table);
+  const McCamTable* table = tables_.find(request.table);
   if (table == nullptr) return {ErrorId::no_such_table};
   const std::optional<Interpolation> interpolation = interpolation_of(*table, request.interpolation);
   if (!interpolation) return {ErrorId::unknown_interpolation};
@@ -237,7 +237,7 @@ Order MotionKernel::gear_in(const GearInRequest& request, std::uint64_t ticket) 
   if (const Order order = check_axes(request.master, request.slave); order.error != ErrorId::none)
     return order;
   Axis& slave = *axis(request.slave);
-  if (const Verdict verdict = judge(slave.state(), Command::gear_in); verdict.error != ErrorId::none)
+  if (const CommandVerdict verdict = judge(slave.state(), Command::gear_in); verdict.error != ErrorId::none)
     return {verdict.error};
   if (const ErrorId error = check_pins(request); error != ErrorId::none) return {error};
   JerkLimits limits;
@@ -265,7 +265,7 @@ Order MotionKernel::phase(AxisRef master, AxisRef slave_ref, double shift, const
   Axis* slave = axis(slave_ref);
   const Axis* ahead = axis(master);
   if (slave == nullptr || ahead == nullptr) return {ErrorId::no_such_axis};
-  if (const Verdict verdict = judge(slave->state(), Command::phasing); verdict.error != ErrorId::none)
+  if (const CommandVerdict verdict = judge(slave->state(), Command::phasing); verdict.error != ErrorId::none)
     return {verdict.error};
   if (slave->link().master != master) return {ErrorId::phasing_not_synchronous};
   if (!slave->coupling()->engaged()) return {ErrorId::phasing_slave_not_reached};
@@ -281,7 +281,7 @@ void MotionKernel::refresh(Axis& slave) {
   CouplingLink& link = slave.link();
   if (link.table == 0 || link.own_copy || link.revision == tables_.revision(link.table)) return;
   // A table replaced by one of another kind is no change of the running cam: that goes on as it was.
-  const CamTable& table = *tables_.find(link.table);
+  const McCamTable& table = *tables_.find(link.table);
   const double modulo = axis(link.master)->modulo();
   link.revision = tables_.revision(link.table);
   if (plcopen::check(table, link.interpolation, modulo) != ErrorId::none) return;

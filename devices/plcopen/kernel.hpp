@@ -26,7 +26,7 @@ class MotionKernel {
   [[nodiscard]] const Axis* axis(AxisRef ref) const;
 
   /// Adds or replaces a table; see CamTables::add. 240010 if a coupling locks the one that is there.
-  ErrorId add_table(CamTable table);
+  ErrorId add_table(McCamTable table);
   /// See CamTables::write. 240010 if a coupling locks the table.
   ErrorId write_table(std::uint16_t id, std::size_t line, int column, double value);
   /// A longer change of the table; MC_CamIn refuses it until its end. 240010 if a coupling locks it.
@@ -57,7 +57,7 @@ class MotionKernel {
   Order cam_in(const CamInRequest& request, std::uint64_t again, std::uint64_t ticket);
   Order gear_in(const GearInRequest& request, std::uint64_t ticket);
   void start_waiting(AxisRef axis);
-  [[nodiscard]] Order check_cam(const CamInRequest& request, const CamTable& table,
+  [[nodiscard]] Order check_cam(const CamInRequest& request, const McCamTable& table,
                                 Interpolation interpolation) const;
   ErrorId check_curve(const CamInRequest& request, const CamCurve& curve) const;
   void refresh(Axis& slave);

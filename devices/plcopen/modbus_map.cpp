@@ -46,8 +46,8 @@ int addresses_of(const MemoryPlace& place) {
   return place.size == 'L' ? 4 : 1;
 }
 
-std::string ModbusMap::add(ModbusTable table, int address, const std::string& value, ModbusFormat format,
-                           bool low_first) {
+std::string MemoryFace::add(ModbusTable table, int address, const std::string& value, ModbusFormat format,
+                            bool low_first) {
   const int width = width_of(format);
   const int count = (width + word_bits - 1) / word_bits;
   for (int i = 0; i < count; ++i)
@@ -58,13 +58,13 @@ std::string ModbusMap::add(ModbusTable table, int address, const std::string& va
   return "";
 }
 
-std::optional<ModbusPlace> ModbusMap::read(ModbusTable table, std::uint16_t address) const {
+std::optional<ModbusPlace> MemoryFace::read(ModbusTable table, std::uint16_t address) const {
   const auto next = places_.lower_bound({table, address});
   if (next == places_.end() || next->first.first != table) return std::nullopt;
   return next->first.second == address ? next->second : ModbusPlace{};
 }
 
-std::optional<ModbusPlace> ModbusMap::written(ModbusTable table, std::uint16_t address) const {
+std::optional<ModbusPlace> MemoryFace::written(ModbusTable table, std::uint16_t address) const {
   const auto found = places_.find({table, address});
   return found == places_.end() ? std::nullopt : std::optional(found->second);
 }

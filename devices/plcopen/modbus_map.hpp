@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "devices/modbus_face.hpp"
+#include "devices/controller.hpp"
 
 namespace drycut::devices::plcopen {
 
@@ -25,10 +25,10 @@ int addresses_of(const MemoryPlace& place);
 
 /// What a program's AT %M and a scenario's map put at Modbus addresses. Where a table has gaps they read 0,
 /// as memory in which nothing stands, and cannot be written.
-class ModbusMap final : public ModbusFace {
+class MemoryFace final : public ModbusFace {
  public:
   /// Without power it does not answer; `powered` outlives it.
-  explicit ModbusMap(const bool& powered) : powered_(powered) {}
+  explicit MemoryFace(const bool& powered) : powered_(powered) {}
 
   /// Puts a value at its address and, if it is wide, at the next ones. What stands at one of them already, ""
   /// = nothing: it is taken then. `low_first`: the low word has the lowest address. The addresses are within

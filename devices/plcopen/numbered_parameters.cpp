@@ -1,4 +1,4 @@
-#include "devices/plcopen/numbered_parameters.hpp"
+#include "devices/plcopen/axis.hpp"
 
 #include <array>
 
@@ -62,7 +62,8 @@ const NumberedParameter* find_numbered_parameter(int number) {
 ErrorId write_numbered_parameter(Axis& axis, int number, double value) {
   const NumberedParameter* row = find_numbered_parameter(number);
   if (row == nullptr || row->written == nullptr) return ErrorId::no_such_parameter;
-  if (const Verdict verdict = judge(axis.state(), Command::write_parameter); verdict.error != ErrorId::none)
+  if (const CommandVerdict verdict = judge(axis.state(), Command::write_parameter);
+      verdict.error != ErrorId::none)
     return verdict.error;
   AxisParameters wanted = axis.parameters();
   wanted.*row->written = value;

@@ -12,7 +12,7 @@ namespace {
 
 /// A pin of block B beside the member that holds it.
 template <typename B, typename T>
-struct Bound {
+struct BoundPin {
   Pin pin;
   T B::*member;
 };
@@ -22,9 +22,9 @@ constexpr std::array<std::string_view, std::variant_size_v<PinValue>> type_names
     "BOOL", "INT", "UINT", "DINT", "UDINT", "LREAL", "AXIS_REF", "MC_CAM_REF"};
 
 template <typename B, typename C, typename T>
-constexpr Bound<B, T> bind(std::string_view name, PinDirection direction, T C::*member,
-                           std::string_view meaning,
-                           std::string_view type = type_names[PinValue{static_cast<T*>(nullptr)}.index()]) {
+constexpr BoundPin<B, T> bind(
+    std::string_view name, PinDirection direction, T C::*member, std::string_view meaning,
+    std::string_view type = type_names[PinValue{static_cast<T*>(nullptr)}.index()]) {
   return {{name, type, direction, meaning}, static_cast<T B::*>(member)};
 }
 
@@ -114,7 +114,7 @@ std::span<const BlockType> block_types() {
             IN(Direction, "1 positive, 3 negative, 4 current"), BUFFER,
             OUT(InVelocity, "the speed is reached"), ACTIVE, ABORTED, ERRORS),
       BLOCK(McCamTableSelect, "MC_CamTableSelect", "finds a cam table", MASTER_SLAVE, EXECUTE,
-            IN(CamTable, "the table by its file's name, which wins, or its id"), DONE("the table is there"),
+            IN(McCamTable, "the table by its file's name, which wins, or its id"), DONE("the table is there"),
             BUSY, ERRORS, OUT(CamTableID, "for MC_CamIn")),
       BLOCK(McCamIn, "MC_CamIn", "couples by a cam", MASTER_SLAVE, EXECUTE,
             IN(MasterOffset, "added to the scaled master, +-2^31"),

@@ -1,8 +1,8 @@
-#include "devices/plcopen/reading_blocks.hpp"
+#include "devices/plcopen/function_blocks.hpp"
 
 #include <cmath>
 
-#include "devices/plcopen/numbered_parameters.hpp"
+#include "devices/plcopen/axis.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {

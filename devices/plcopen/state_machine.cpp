@@ -1,4 +1,4 @@
-#include "devices/plcopen/state_machine.hpp"
+#include "devices/plcopen/requests.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {
@@ -27,9 +27,9 @@ bool moves_or_stands(AxisState state) {
 
 std::string_view name_of(AxisState state) { return row_of(state).name; }
 
-Verdict judge(AxisState from, Command command) {
-  const Verdict refused{from, row_of(from).refusal};
-  const auto if_allowed = [&](bool allowed, AxisState to) { return allowed ? Verdict{to} : refused; };
+CommandVerdict judge(AxisState from, Command command) {
+  const CommandVerdict refused{from, row_of(from).refusal};
+  const auto if_allowed = [&](bool allowed, AxisState to) { return allowed ? CommandVerdict{to} : refused; };
   const bool synchronized = from == AxisState::synchronized_motion;
   const bool stopping = from == AxisState::stopping;
   switch (command) {

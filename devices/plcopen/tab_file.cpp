@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "devices/plcopen/table_text.hpp"
-
 namespace drycut::devices::plcopen {
 namespace {
 
@@ -17,7 +15,7 @@ const std::vector<std::string>& tab_keys() {
   return keys;
 }
 
-void header_line(TableReader& reader, CamTable& table, std::map<std::string, int>& seen, int& count,
+void header_line(TableReader& reader, McCamTable& table, std::map<std::string, int>& seen, int& count,
                  std::string_view line, int number) {
   const std::size_t sign = line.find('=');
   const Word key = word_at(line, number, 0, std::min(sign, line.size()));
@@ -57,10 +55,10 @@ void header_line(TableReader& reader, CamTable& table, std::map<std::string, int
 
 }  // namespace
 
-std::optional<CamTable> parse_tab(std::string_view text, const std::string& file, Problems& problems,
-                                  std::vector<int>* lines) {
+std::optional<McCamTable> parse_tab(std::string_view text, const std::string& file, Problems& problems,
+                                    std::vector<int>* lines) {
   TableReader reader(file, problems);
-  CamTable table{.file = file, .name = {}, .type = 0, .values = {}};
+  McCamTable table{.file = file, .name = {}, .type = 0, .values = {}};
   std::map<std::string, int> seen;
   int count = -1;
   enum class Part { header, rows, after } part = Part::header;

@@ -6,32 +6,62 @@
 #include <vector>
 
 #include "base/problem.hpp"
+#include "base/scanner.hpp"
 #include "devices/cam/table.hpp"
-#include "devices/plcopen/cam_laws.hpp"
 #include "devices/plcopen/cam_table.hpp"
 
+// What the readers of cam files share: lines, words with their places, numbers, rows.
 namespace drycut::devices::plcopen {
+
+/// line[begin, end) without the blanks around it; the line's `number` is from 1.
+Word word_at(std::string_view line, int number, std::size_t begin, std::size_t end);
+Words split(std::string_view line, int number, char separator);
+/// A finite number, or nullopt.
+std::optional<double> number_of(std::string_view text, bool decimal_comma);
+
+/// What the readers do with a text: faults, and rows into a table.
+class TableReader : private Complaints {
+ public:
+  using Complaints::Complaints;
+
+  void fault(Place place, std::string what, std::string remedy);
+  [[nodiscard]] bool sound() const { return faults_ == 0; }
+  /// A line of numbers of the table's type.
+  void row(McCamTable& table, const Words& words, bool decimal_comma);
+  /// Line of the file of each row.
+  [[nodiscard]] const std::vector<int>& rows() const { return rows_; }
+  /// A whole number in its range, or nullopt with a fault.
+  std::optional<int> whole(const Word& word, int min, int max);
+  /// A number in its range, or nullopt with a fault.
+  std::optional<double> real(const Word& word, double min, double max);
+
+ private:
+  void out_of_range(const Word& word, std::string remedy);
+
+  int faults_ = 0;
+  std::vector<int> rows_;
+};
 
 /// Reads a cam table of the ISG kernel, `*.tab`: header lines `Tablename = ...`, `Tabletype`, `Table-ID`,
 /// `Functiontype` (may be missing) and `Lines`, then `Begintable`, one line a row of numbers between blanks,
 /// with decimal comma or point, and `EndTable`. `#` begins a comment. Faults go to `problems`; nullopt if
 /// there is one. `lines` gets the line of each row.
-std::optional<CamTable> parse_tab(std::string_view text, const std::string& file, Problems& problems,
-                                  std::vector<int>* lines = nullptr);
+std::optional<McCamTable> parse_tab(std::string_view text, const std::string& file, Problems& problems,
+                                    std::vector<int>* lines = nullptr);
 
 /// What a slave may do, as far as a file says it, in mm or deg and s; positions in 0.1 um or 0.0001 deg.
-struct CamLimits {
+struct CamFileLimits {
   std::optional<double> velocity;      ///< maxvel
   std::optional<double> acceleration;  ///< maxacc
   std::optional<double> jerk;          ///< maxjerk
   CamTravel travel;                    ///< minpos, maxpos
-  bool operator==(const CamLimits&) const = default;
+  bool operator==(const CamFileLimits&) const = default;
 };
 
 /// A cam as a file, for use without a controller: the table and the axes that it is meant for.
 struct CamFile {
   static constexpr std::string_view kind = "mc_camin";
-  CamTable table;
+  McCamTable table;
   Interpolation interpolation = Interpolation::linear;  ///< table_defined: a .tab file that says none
   Endless endless = Endless::no;
   double master_modulo = 3'600'000;  ///< [0.0001 deg or 0.1 um]
@@ -40,7 +70,7 @@ struct CamFile {
   bool periodic = true;              ///< StartMode F_PERIODIC
   std::string master_unit = "deg";   ///< or "mm": what the master's increments are 10000 to one of
   std::string slave_unit = "deg";
-  CamLimits limits;
+  CamFileLimits limits;
   std::vector<int> lines;  ///< of the file, for each row
   int header = 1;          ///< line of the header, or of the first row's columns
   bool operator==(const CamFile&) const = default;

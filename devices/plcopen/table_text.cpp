@@ -1,4 +1,4 @@
-#include "devices/plcopen/table_text.hpp"
+#include "devices/plcopen/tab_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ void TableReader::fault(Place place, std::string what, std::string remedy) {
   ++faults_;
 }
 
-void TableReader::row(CamTable& table, const Words& words, bool decimal_comma) {
+void TableReader::row(McCamTable& table, const Words& words, bool decimal_comma) {
   const TableType* type = table_type(table.type);
   if (type == nullptr || type->columns == 0) return;
   if (static_cast<int>(words.size()) != type->columns)

@@ -27,15 +27,15 @@ constexpr const BlockWords& words_of(Kind kind) {
 }  // namespace
 
 // IF e and WHILE e.
-void Compiler::open_condition(Block::Kind kind) {
+void QclCompiler::open_condition(Block::Kind kind) {
   const Place place = take().place;
   const int begin = here();
   condition();
   insert_barriers(begin);
-  blocks_.push_back({kind, place, place, emit(Op::jump_if_zero), begin});
+  blocks_.push_back({kind, place, place, emit(QclOp::jump_if_zero), begin});
 }
 
-void Compiler::else_block() {
+void QclCompiler::else_block() {
   const Place place = take().place;
   if (!blocks_.empty() && blocks_.back().kind == Block::Kind::else_) {
     complain(place, "a second ELSE in one IF",
@@ -45,32 +45,32 @@ void Compiler::else_block() {
   }
   const std::optional<Block> block = close("ELSE", Block::Kind::if_, Block::Kind::if_);
   if (!block) return;
-  const int exit = emit(Op::jump);
+  const int exit = emit(QclOp::jump);
   aim(block->exit);
   blocks_.push_back({Block::Kind::else_, block->place, place, exit, 0});
 }
 
 // ENDIF, ENDWHILE, NEXT and ENDSUB.
-void Compiler::close_block(Block::Kind kind) {
+void QclCompiler::close_block(Block::Kind kind) {
   const bool is_if = kind == Block::Kind::if_;
   const std::optional<Block> block = close(words_of(kind).closes, kind, is_if ? Block::Kind::else_ : kind);
   take();
   if (!block) return;
-  if (kind == Block::Kind::while_ || kind == Block::Kind::for_) emit(Op::jump, block->again);
-  if (kind == Block::Kind::sub) emit(Op::back);
+  if (kind == Block::Kind::while_ || kind == Block::Kind::for_) emit(QclOp::jump, block->again);
+  if (kind == Block::Kind::sub) emit(QclOp::back);
   aim(block->exit);
 }
 
 // FOR (i = first, condition, i = next) or FOR (i = first, condition, step). In the code the step stands
 // before the body and is jumped over at the start.
-void Compiler::for_block() {
+void QclCompiler::for_block() {
   static const std::string form = "write: FOR (i = 1, i LE 10, 1)";
   const Place place = take().place;
   // The block is opened whatever its header is like, so that its NEXT is not a fault too.
   Block block{Block::Kind::for_, place, place, -1, here()};
   const NamedThing* variable = nullptr;
   if (expect("(", form)) {
-    if (peek().kind != Token::Kind::name)
+    if (peek().kind != QclToken::Kind::name)
       syntax_error(peek(), "FOR begins with an assignment, found " + found(peek()), form);
     else
       variable = assignment();
@@ -79,23 +79,23 @@ void Compiler::for_block() {
     const int test = here();
     condition();
     insert_barriers(test);
-    block.exit = emit(Op::jump_if_zero);
-    const int body = emit(Op::jump);
+    block.exit = emit(QclOp::jump_if_zero);
+    const int body = emit(QclOp::jump);
     block.again = here();
     mark(here());
     if (!line_failed_ && expect(",", form)) for_step(variable, form);
     if (!line_failed_) expect(")", form);
-    emit(Op::jump, test);
+    emit(QclOp::jump, test);
     aim(body);
   }
   blocks_.push_back(block);
 }
 
-void Compiler::for_step(const NamedThing* variable, const std::string& form) {
+void QclCompiler::for_step(const NamedThing* variable, const std::string& form) {
   stack_ = 0;
-  const bool assigns = peek().kind == Token::Kind::name &&
+  const bool assigns = peek().kind == QclToken::Kind::name &&
                        std::any_of(tokens_.begin() + static_cast<std::ptrdiff_t>(at_), tokens_.end(),
-                                   [](const Token& token) { return token.is("="); });
+                                   [](const QclToken& token) { return token.is("="); });
   if (assigns) {
     assignment();
     return;
@@ -103,32 +103,32 @@ void Compiler::for_step(const NamedThing* variable, const std::string& form) {
   const bool counts = variable && variable->kind == NamedThing::Kind::scalar;
   if (!counts) return syntax_error(peek(), "a step without assignment needs a plain variable to count", form);
   const int begin = here();
-  emit(Op::load, variable->index);
+  emit(QclOp::load, variable->index);
   const Type type = expression();
   const bool real = variable->size == Size::S || type == Type::real;
-  if (real && variable->size != Size::S) emit(Op::to_real_below);
-  if (real && type != Type::real) emit(Op::to_real);
-  emit(real ? Op::add_real : Op::add);
+  if (real && variable->size != Size::S) emit(QclOp::to_real_below);
+  if (real && type != Type::real) emit(QclOp::to_real);
+  emit(real ? QclOp::add_real : QclOp::add);
   store(*variable, real ? Type::real : Type::integer);
   insert_barriers(begin);
 }
 
-void Compiler::sub_block() {
+void QclCompiler::sub_block() {
   const Place place = peek().place;
-  const Token* name = name_operand("SUB <name>");
+  const QclToken* name = name_operand("SUB <name>");
   const bool nested = std::any_of(blocks_.begin(), blocks_.end(),
                                   [](const Block& block) { return block.kind == Block::Kind::sub; });
   if (nested) complain(place, "SUB inside a SUB", "close the first with ENDSUB");
   // Statements that come to a SUB pass it by; only CALL enters.
-  blocks_.push_back({Block::Kind::sub, place, place, emit(Op::jump), 0});
+  blocks_.push_back({Block::Kind::sub, place, place, emit(QclOp::jump), 0});
   if (!name) return;
   define(subs_, "subroutine", *name);
 }
 
 // Takes the innermost open block of one of two kinds off the stack. Blocks inside it that are still open are
 // faults of theirs.
-std::optional<Compiler::Block> Compiler::close(std::string_view closing, Block::Kind kind,
-                                               Block::Kind other) {
+std::optional<QclCompiler::Block> QclCompiler::close(std::string_view closing, Block::Kind kind,
+                                                     Block::Kind other) {
   const auto found = std::find_if(blocks_.rbegin(), blocks_.rend(), [&](const Block& block) {
     return block.kind == kind || block.kind == other;
   });
@@ -147,19 +147,19 @@ std::optional<Compiler::Block> Compiler::close(std::string_view closing, Block::
   return block;
 }
 
-void Compiler::unclosed(const Block& block) {
+void QclCompiler::unclosed(const Block& block) {
   const auto& [opens, closes] = words_of(block.kind);
   complain(block.place, fmt::format("{} without {}", opens, closes),
            fmt::format("write {} at the end of its block", closes));
 }
 
 // Lets the jump at `code` lead here.
-void Compiler::aim(int code) {
+void QclCompiler::aim(int code) {
   if (code >= 0) program_.code[static_cast<std::size_t>(code)].a = here();
 }
 
 // The `what` called `name` stands here.
-void Compiler::define(Targets& targets, std::string_view what, const Token& name) {
+void QclCompiler::define(Targets& targets, std::string_view what, const QclToken& name) {
   const auto [target, is_new] = targets.places.emplace(lower(name.text), Target{here(), name.place});
   if (is_new)
     targets.names.emplace_back(name.text);
@@ -169,13 +169,13 @@ void Compiler::define(Targets& targets, std::string_view what, const Token& name
 }
 
 // JUMP and CALL, whose targets may stand below them.
-void Compiler::refer(Targets& targets, Op op, const std::string& form) {
-  if (const Token* name = name_operand(form))
+void QclCompiler::refer(Targets& targets, QclOp op, const std::string& form) {
+  if (const QclToken* name = name_operand(form))
     targets.uses.push_back({emit(op), std::string(name->text), name->place});
 }
 
 // `remedy` has {} where the name stands.
-void Compiler::resolve(const Targets& targets, std::string_view what, std::string_view remedy) {
+void QclCompiler::resolve(const Targets& targets, std::string_view what, std::string_view remedy) {
   for (const Reference& use : targets.uses) {
     const auto found = targets.places.find(lower(use.name));
     if (found == targets.places.end())

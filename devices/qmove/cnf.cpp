@@ -160,7 +160,7 @@ void CnfParser::constant(const Words& words) {
              "write a decimal number, such as 100 or -2.5");
     return;
   }
-  Constant constant{words[0].text, 0, point != std::string_view::npos, words[0].place};
+  CnfConstant constant{words[0].text, 0, point != std::string_view::npos, words[0].place};
   if (std::from_chars(number.data(), number.data() + number.size(), constant.value).ec != std::errc{})
     constant.value = std::numeric_limits<double>::infinity();
   if (negative) constant.value = -constant.value;

@@ -6,15 +6,20 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "devices/catalogue.hpp"
+#include "base/text.hpp"
 #include "devices/device.hpp"
-#include "devices/qmove/text.hpp"
+#include "devices/qmove/catalogue.hpp"
 
-// The configuration unit of a QMOVE project (spec qem.md §3): what the program's names stand for.
 namespace drycut::devices::qmove {
 
+/// The words of the language: no variable, device or label may have such a name.
+const std::vector<std::string>& reserved_words();
+bool is_reserved(std::string_view word);
+
+// The configuration unit of a QMOVE project (spec qem.md §3): what the program's names stand for.
+
 /// CONST: a number with a name; a value with a decimal point is a single, else a long.
-struct Constant {
+struct CnfConstant {
   std::string name;
   double value = 0;
   bool real = false;
@@ -39,7 +44,7 @@ struct Array {
 };
 
 /// TIMER: assigning n starts n ms; reads 1 when they have elapsed (spec D7).
-struct Timer {
+struct CnfTimer {
   std::string name;
   Place place;
 };
@@ -89,10 +94,10 @@ struct DeviceRecord {
 struct Configuration {
   std::string file;
   std::string text;
-  std::vector<Constant> constants;
+  std::vector<CnfConstant> constants;
   std::vector<Scalar> scalars;
   std::vector<Array> arrays;
-  std::vector<Timer> timers;
+  std::vector<CnfTimer> timers;
   std::vector<DataGroup> groups;
   std::vector<Slot> slots;
   std::vector<Terminal> inputs;

@@ -17,36 +17,36 @@ std::string task_name(const std::string& file) {
 }
 
 // How many cells an instruction adds to the stack.
-int stack_effect(Op op) {
+int stack_effect(QclOp op) {
   switch (op) {
-    case Op::push:
-    case Op::load:
-    case Op::load_device:
-    case Op::load_input:
-    case Op::load_output:
-    case Op::load_timer:
+    case QclOp::push:
+    case QclOp::load:
+    case QclOp::load_device:
+    case QclOp::load_input:
+    case QclOp::load_output:
+    case QclOp::load_timer:
       return 1;
-    case Op::load_at:
-    case Op::index:
-    case Op::index_recipe:
-    case Op::negate:
-    case Op::negate_real:
-    case Op::to_real:
-    case Op::to_real_below:
-    case Op::to_long:
-    case Op::to_flag_real:
-    case Op::to_flag_real_below:
-    case Op::logic_not:
-    case Op::bit_not:
-    case Op::barrier:
-    case Op::jump:
-    case Op::command:
-    case Op::yield:
-    case Op::call:
-    case Op::back:
-    case Op::end:
+    case QclOp::load_at:
+    case QclOp::index:
+    case QclOp::index_recipe:
+    case QclOp::negate:
+    case QclOp::negate_real:
+    case QclOp::to_real:
+    case QclOp::to_real_below:
+    case QclOp::to_long:
+    case QclOp::to_flag_real:
+    case QclOp::to_flag_real_below:
+    case QclOp::logic_not:
+    case QclOp::bit_not:
+    case QclOp::barrier:
+    case QclOp::jump:
+    case QclOp::command:
+    case QclOp::yield:
+    case QclOp::call:
+    case QclOp::back:
+    case QclOp::end:
       return 0;
-    case Op::store_at:
+    case QclOp::store_at:
       return -2;
     default:
       return -1;  // operators of two operands, stores, conditions
@@ -55,20 +55,20 @@ int stack_effect(Op op) {
 
 }  // namespace
 
-Program compile_module(std::string_view text, const std::string& file_name,
-                       const Configuration& configuration, std::span<const CatalogueEntry> catalogue,
-                       Problems& problems) {
-  return Compiler(file_name, configuration, catalogue, problems).compile(text);
+QclProgram compile_module(std::string_view text, const std::string& file_name,
+                          const Configuration& configuration, std::span<const CatalogueEntry> catalogue,
+                          Problems& problems) {
+  return QclCompiler(file_name, configuration, catalogue, problems).compile(text);
 }
 
-Compiler::Compiler(const std::string& file, const Configuration& configuration,
-                   std::span<const CatalogueEntry> catalogue, Problems& problems)
+QclCompiler::QclCompiler(const std::string& file, const Configuration& configuration,
+                      std::span<const CatalogueEntry> catalogue, Problems& problems)
     : TokenReader(file, problems),
       configuration_(configuration),
       catalogue_(catalogue),
       names_(configuration) {}
 
-Program Compiler::compile(std::string_view text) {
+QclProgram QclCompiler::compile(std::string_view text) {
   program_.name = task_name(file_);
   program_.file = file_;
   program_.text = text;
@@ -86,7 +86,7 @@ Program Compiler::compile(std::string_view text) {
   }
   for (const Block& block : blocks_) unclosed(block);
   if (!ended_) complain(last_, "the module has no END", "write END after its last statement");
-  emit(Op::end);
+  emit(QclOp::end);
   resolve(labels_, "label", "write {}: where it leads");
   resolve(subs_, "subroutine", "write SUB {} .. ENDSUB");
   sort();
@@ -100,14 +100,14 @@ Program Compiler::compile(std::string_view text) {
   return std::move(program_);
 }
 
-bool Compiler::expect(std::string_view sign, const std::string& remedy) {
+bool QclCompiler::expect(std::string_view sign, const std::string& remedy) {
   if (accept(sign)) return true;
   syntax_error(peek(), fmt::format("expected '{}', found {}", sign, found(peek())), remedy);
   return false;
 }
 
-void Compiler::end_of_statement() {
-  if (peek().kind == Token::Kind::end) return;
+void QclCompiler::end_of_statement() {
+  if (peek().kind == QclToken::Kind::end) return;
   if (peek().is("="))
     syntax_error(peek(), "unexpected '='", "EQ compares; an assignment stands alone on its line");
   else
@@ -115,17 +115,17 @@ void Compiler::end_of_statement() {
 }
 
 // The rest of the line is given up: what follows a syntax fault would only be guessed at.
-void Compiler::syntax_error(const Token& at, std::string what, std::string remedy) {
-  if (!line_failed_ && at.kind != Token::Kind::bad) complain(at.place, std::move(what), std::move(remedy));
+void QclCompiler::syntax_error(const QclToken& at, std::string what, std::string remedy) {
+  if (!line_failed_ && at.kind != QclToken::Kind::bad) complain(at.place, std::move(what), std::move(remedy));
   line_failed_ = true;
   at_ = stop_;
 }
 
-std::string Compiler::found(const Token& token) {
-  return token.kind == Token::Kind::end ? "the end of the line" : in_quotes(token.text);
+std::string QclCompiler::found(const QclToken& token) {
+  return token.kind == QclToken::Kind::end ? "the end of the line" : in_quotes(token.text);
 }
 
-int Compiler::emit(Op op, int a, int b) {
+int QclCompiler::emit(QclOp op, int a, int b) {
   stack_ += stack_effect(op);
   if (stack_ > max_depth)
     syntax_error(peek(), "the expression is nested too deep", "split it into several assignments");
@@ -137,16 +137,16 @@ int Compiler::emit(Op op, int a, int b) {
 // Puts barriers before the code from `begin` on, for all devices that it reads: a statement waits until
 // they have taken what was written to them before, then runs as a whole (spec §2). That code has no jumps
 // yet.
-void Compiler::insert_barriers(int begin) {
+void QclCompiler::insert_barriers(int begin) {
   std::vector<Instruction> barriers;
-  for (const int device : devices_read_) barriers.push_back({Op::barrier, 0, device});
+  for (const int device : devices_read_) barriers.push_back({QclOp::barrier, 0, device});
   if (!barriers.empty()) barriers.back().a = 1;
   program_.code.insert(program_.code.begin() + begin, barriers.begin(), barriers.end());
   program_.lines.insert(program_.lines.begin() + begin, barriers.size(), last_.line);
   devices_read_.clear();
 }
 
-int Compiler::add_symbol(Symbol symbol) {
+int QclCompiler::add_symbol(Symbol symbol) {
   const auto same = std::find_if(program_.symbols.begin(), program_.symbols.end(), [&](const Symbol& other) {
     return other.kind == symbol.kind && other.index == symbol.index && other.row == symbol.row;
   });

@@ -11,17 +11,16 @@
 
 #include "devices/qmove/lexer.hpp"
 #include "devices/qmove/program.hpp"
-#include "devices/qmove/symbols.hpp"
 
 namespace drycut::devices::qmove {
 
 /// Compiles one module line by line, by recursive descent, straight into code. A syntax fault gives up its
 /// line, an unknown name does not. Used by compile_module.
-class Compiler : public TokenReader<Token> {
+class QclCompiler : public TokenReader<QclToken> {
  public:
-  Compiler(const std::string& file, const Configuration& configuration,
-           std::span<const CatalogueEntry> catalogue, Problems& problems);
-  Program compile(std::string_view text);
+  QclCompiler(const std::string& file, const Configuration& configuration,
+              std::span<const CatalogueEntry> catalogue, Problems& problems);
+  QclProgram compile(std::string_view text);
 
  private:
   enum class Type : std::uint8_t { integer, real };
@@ -29,27 +28,27 @@ class Compiler : public TokenReader<Token> {
   // The present line (compiler.cpp).
   bool expect(std::string_view sign, const std::string& remedy);
   void end_of_statement();
-  void syntax_error(const Token& at, std::string what, std::string remedy);
-  static std::string found(const Token& token);
+  void syntax_error(const QclToken& at, std::string what, std::string remedy);
+  static std::string found(const QclToken& token);
 
   // Statements (statements.cpp).
   void statement();
   void word_statement();
   const NamedThing* assignment();
   void store(const NamedThing& thing, Type type);
-  void note_fraction(Type type, int begin, const Token& name);
-  void note_range(const DeviceType& type, Symbol symbol, Type of_value, int begin, const Token& name);
+  void note_fraction(Type type, int begin, const QclToken& name);
+  void note_range(const DeviceType& type, Symbol symbol, Type of_value, int begin, const QclToken& name);
   bool other_closer();
-  void note_wrapping(const NamedThing& thing, Type type, int begin, const Token& name);
-  void check_assignable(const NamedThing& thing, const Token& name);
-  void check_writable(int device, Symbol symbol, const Token& parameter);
+  void note_wrapping(const NamedThing& thing, Type type, int begin, const QclToken& name);
+  void check_assignable(const NamedThing& thing, const QclToken& name);
+  void check_writable(int device, Symbol symbol, const QclToken& parameter);
   void label();
   void wait();
   void end();
   void set_output(bool on);
   void device_command();
   void unknown_statement();
-  const Token* name_operand(const std::string& form);
+  const QclToken* name_operand(const std::string& form);
 
   // Blocks (blocks.cpp).
   struct Block {
@@ -84,8 +83,8 @@ class Compiler : public TokenReader<Token> {
   std::optional<Block> close(std::string_view closing, Block::Kind kind, Block::Kind other);
   void unclosed(const Block& block);
   void aim(int code);
-  void define(Targets& targets, std::string_view what, const Token& name);
-  void refer(Targets& targets, Op op, const std::string& form);
+  void define(Targets& targets, std::string_view what, const QclToken& name);
+  void refer(Targets& targets, QclOp op, const std::string& form);
   void resolve(const Targets& targets, std::string_view what, std::string_view remedy);
 
   // Expressions (expressions.cpp).
@@ -94,20 +93,20 @@ class Compiler : public TokenReader<Token> {
   Type primary();
   Type name_value();
   Type parenthesis();
-  void binary(std::size_t row, Type left, Type right, const Token& op);
+  void binary(std::size_t row, Type left, Type right, const QclToken& op);
   void condition();
-  void indexes(const NamedThing& thing, const Token& name);
+  void indexes(const NamedThing& thing, const QclToken& name);
   void check_index(const NamedThing& thing, std::size_t number, int begin, Place place);
-  const NamedThing* find_name(const Token& name);
+  const NamedThing* find_name(const QclToken& name);
   [[nodiscard]] bool is_device(std::string_view name) const;
-  std::optional<int> find_device(const Token& name);
-  std::optional<Symbol> find_parameter(int device, const Token& name);
+  std::optional<int> find_device(const QclToken& name);
+  std::optional<Symbol> find_parameter(int device, const QclToken& name);
   [[nodiscard]] const DeviceType& type_of(int device) const;
   [[nodiscard]] std::vector<std::string> device_names() const;
   [[nodiscard]] std::vector<std::string> all_commands() const;
 
   // Code (compiler.cpp).
-  int emit(Op op, int a = 0, int b = 0);
+  int emit(QclOp op, int a = 0, int b = 0);
   [[nodiscard]] int here() const { return static_cast<int>(program_.code.size()); }
   void insert_barriers(int begin);
   void mark(int code) { marks_.insert(code); }
@@ -116,7 +115,7 @@ class Compiler : public TokenReader<Token> {
   const Configuration& configuration_;
   std::span<const CatalogueEntry> catalogue_;
   SymbolTable names_;
-  Program program_;
+  QclProgram program_;
 
   bool line_failed_ = false;
   int nesting_ = 0;             ///< of parentheses and signs, in the present expression

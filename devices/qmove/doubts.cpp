@@ -22,10 +22,10 @@ struct Uses {
 };
 
 /// An index that is a number names one cell; else all of the array may be read or written.
-void take_element(const Program& program, std::size_t at, const std::string& place, Uses& uses) {
+void take_element(const QclProgram& program, std::size_t at, const std::string& place, Uses& uses) {
   const Instruction& index = program.code[at];
-  const bool reads = at + 1 < program.code.size() && program.code[at + 1].op == Op::load_at;
-  const bool plain = at > 0 && program.code[at - 1].op == Op::push;
+  const bool reads = at + 1 < program.code.size() && program.code[at + 1].op == QclOp::load_at;
+  const bool plain = at > 0 && program.code[at - 1].op == QclOp::push;
   const int first = plain ? index.a + program.code[at - 1].a - 1 : index.a;
   const int end = plain ? first + 1 : index.a + index.b;
   for (int cell = first; cell < end; ++cell) {
@@ -36,15 +36,15 @@ void take_element(const Program& program, std::size_t at, const std::string& pla
   }
 }
 
-void take_uses(const Program& program, Uses& uses) {
+void take_uses(const QclProgram& program, Uses& uses) {
   for (std::size_t i = 0; i < program.code.size(); ++i) {
     const auto& [op, a, b] = program.code[i];
     const auto place = fmt::format("{}:{}", program.file, program.lines[i]);
-    if (op == Op::load) uses.read.emplace(a, place);
-    if (op == Op::store) uses.written.insert(a);
-    if (op == Op::load_timer) uses.asked.emplace(a, place);
-    if (op == Op::store_timer) uses.started.insert(a);
-    if (op == Op::index) take_element(program, i, place, uses);
+    if (op == QclOp::load) uses.read.emplace(a, place);
+    if (op == QclOp::store) uses.written.insert(a);
+    if (op == QclOp::load_timer) uses.asked.emplace(a, place);
+    if (op == QclOp::store_timer) uses.started.insert(a);
+    if (op == QclOp::index) take_element(program, i, place, uses);
   }
 }
 
@@ -53,7 +53,7 @@ void take_uses(const Program& program, Uses& uses) {
 // Retentive values and recipes come from the panel.
 std::vector<Controller::ProgramDoubt> QmoveController::doubts() const {
   Uses uses;
-  for (const Program& program : programs_) take_uses(program, uses);
+  for (const QclProgram& program : programs_) take_uses(program, uses);
   std::vector<ProgramDoubt> found;
   for (const NamedThing& thing : names_.things()) {
     const bool array = thing.kind == NamedThing::Kind::array;

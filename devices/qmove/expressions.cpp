@@ -15,38 +15,38 @@ namespace {
 // What an operator accepts: singles too, longs only, or flags (each side compared with 0).
 enum class Operands : std::uint8_t { numbers, longs, flags };
 
-struct Operator {
+struct QclOperator {
   std::string_view spelling;
   int level;  ///< higher binds tighter
   Operands operands;
-  Op integer;
-  Op real;
+  QclOp integer;
+  QclOp real;
   bool compares;  ///< the result is 0 or 1
 };
 
 // Precedence (spec D8). Unary minus, NOT and NOTB bind tighter than all of these.
-constexpr std::array<Operator, 17> operators{{
-    {"*", 7, Operands::numbers, Op::multiply, Op::multiply_real, false},
-    {"/", 7, Operands::numbers, Op::divide, Op::divide_real, false},
-    {"%", 7, Operands::longs, Op::modulo, Op::modulo, false},
-    {"+", 6, Operands::numbers, Op::add, Op::add_real, false},
-    {"-", 6, Operands::numbers, Op::subtract, Op::subtract_real, false},
-    {"LT", 5, Operands::numbers, Op::less, Op::less_real, true},
-    {"LE", 5, Operands::numbers, Op::less_equal, Op::less_equal_real, true},
-    {"GT", 5, Operands::numbers, Op::greater, Op::greater_real, true},
-    {"GE", 5, Operands::numbers, Op::greater_equal, Op::greater_equal_real, true},
-    {"EQ", 5, Operands::numbers, Op::equal, Op::equal_real, true},
-    {"NEQ", 5, Operands::numbers, Op::not_equal, Op::not_equal_real, true},
-    {"NE", 5, Operands::numbers, Op::not_equal, Op::not_equal_real, true},
-    {"ANDB", 4, Operands::longs, Op::bit_and, Op::bit_and, false},
-    {"XORB", 3, Operands::longs, Op::bit_xor, Op::bit_xor, false},
-    {"ORB", 2, Operands::longs, Op::bit_or, Op::bit_or, false},
-    {"AND", 1, Operands::flags, Op::logic_and, Op::logic_and, true},
-    {"OR", 0, Operands::flags, Op::logic_or, Op::logic_or, true},
+constexpr std::array<QclOperator, 17> operators{{
+    {"*", 7, Operands::numbers, QclOp::multiply, QclOp::multiply_real, false},
+    {"/", 7, Operands::numbers, QclOp::divide, QclOp::divide_real, false},
+    {"%", 7, Operands::longs, QclOp::modulo, QclOp::modulo, false},
+    {"+", 6, Operands::numbers, QclOp::add, QclOp::add_real, false},
+    {"-", 6, Operands::numbers, QclOp::subtract, QclOp::subtract_real, false},
+    {"LT", 5, Operands::numbers, QclOp::less, QclOp::less_real, true},
+    {"LE", 5, Operands::numbers, QclOp::less_equal, QclOp::less_equal_real, true},
+    {"GT", 5, Operands::numbers, QclOp::greater, QclOp::greater_real, true},
+    {"GE", 5, Operands::numbers, QclOp::greater_equal, QclOp::greater_equal_real, true},
+    {"EQ", 5, Operands::numbers, QclOp::equal, QclOp::equal_real, true},
+    {"NEQ", 5, Operands::numbers, QclOp::not_equal, QclOp::not_equal_real, true},
+    {"NE", 5, Operands::numbers, QclOp::not_equal, QclOp::not_equal_real, true},
+    {"ANDB", 4, Operands::longs, QclOp::bit_and, QclOp::bit_and, false},
+    {"XORB", 3, Operands::longs, QclOp::bit_xor, QclOp::bit_xor, false},
+    {"ORB", 2, Operands::longs, QclOp::bit_or, QclOp::bit_or, false},
+    {"AND", 1, Operands::flags, QclOp::logic_and, QclOp::logic_and, true},
+    {"OR", 0, Operands::flags, QclOp::logic_or, QclOp::logic_or, true},
 }};
 
-std::optional<std::size_t> operator_row(const Token& token) {
-  if (token.kind != Token::Kind::name && token.kind != Token::Kind::sign) return std::nullopt;
+std::optional<std::size_t> operator_row(const QclToken& token) {
+  if (token.kind != QclToken::Kind::name && token.kind != QclToken::Kind::sign) return std::nullopt;
   for (std::size_t i = 0; i < operators.size(); ++i)
     if (same_word(operators[i].spelling, token.text)) return i;
   return std::nullopt;
@@ -55,12 +55,12 @@ std::optional<std::size_t> operator_row(const Token& token) {
 }  // namespace
 
 // Reads operands joined by operators of at least `level`.
-Compiler::Type Compiler::expression(int level) {
+QclCompiler::Type QclCompiler::expression(int level) {
   Type type = unary();
   while (!line_failed_) {
     const std::optional<std::size_t> row = operator_row(peek());
     if (!row || operators[*row].level < level) break;
-    const Token op = take();
+    const QclToken op = take();
     const Type right = expression(operators[*row].level + 1);
     binary(*row, type, right, op);
     const bool real = type == Type::real || right == Type::real;
@@ -70,44 +70,44 @@ Compiler::Type Compiler::expression(int level) {
   return type;
 }
 
-void Compiler::binary(std::size_t row, Type left, Type right, const Token& op) {
-  const Operator& found = operators[row];
+void QclCompiler::binary(std::size_t row, Type left, Type right, const QclToken& op) {
+  const QclOperator& found = operators[row];
   const bool any_real = left == Type::real || right == Type::real;
   if (found.operands == Operands::longs && any_real)
     complain(op.place, fmt::format("{} works on whole numbers, one side is a single", found.spelling),
              "assign the single to a long first");
   if (found.operands == Operands::numbers && any_real) {
-    if (left == Type::integer) emit(Op::to_real_below);
-    if (right == Type::integer) emit(Op::to_real);
+    if (left == Type::integer) emit(QclOp::to_real_below);
+    if (right == Type::integer) emit(QclOp::to_real);
     emit(found.real);
     return;
   }
-  if (found.operands == Operands::flags && right == Type::real) emit(Op::to_flag_real);
-  if (found.operands == Operands::flags && left == Type::real) emit(Op::to_flag_real_below);
+  if (found.operands == Operands::flags && right == Type::real) emit(QclOp::to_flag_real);
+  if (found.operands == Operands::flags && left == Type::real) emit(QclOp::to_flag_real_below);
   emit(found.integer);
 }
 
-Compiler::Type Compiler::unary() {
+QclCompiler::Type QclCompiler::unary() {
   if (++nesting_ > max_depth)
     syntax_error(peek(), "the expression is nested too deep", "split it into several assignments");
   Type type = Type::integer;
   if (accept("-")) {
-    if (peek().kind == Token::Kind::number && !peek().is_real) {
+    if (peek().kind == QclToken::Kind::number && !peek().is_real) {
       // The most negative long has no positive counterpart that could be negated.
-      emit(Op::push, static_cast<std::int32_t>(-peek().integer));
+      emit(QclOp::push, static_cast<std::int32_t>(-peek().integer));
       take();
     } else {
       type = unary();
-      emit(type == Type::real ? Op::negate_real : Op::negate);
+      emit(type == Type::real ? QclOp::negate_real : QclOp::negate);
     }
   } else if (accept_word("NOT")) {
-    if (unary() == Type::real) emit(Op::to_flag_real);
-    emit(Op::logic_not);
+    if (unary() == Type::real) emit(QclOp::to_flag_real);
+    emit(QclOp::logic_not);
   } else if (peek().word("NOTB")) {
     const Place place = take().place;
     if (unary() == Type::real)
       complain(place, "NOTB works on whole numbers, not on a single", "assign the single to a long first");
-    emit(Op::bit_not);
+    emit(QclOp::bit_not);
   } else {
     type = primary();
   }
@@ -115,34 +115,34 @@ Compiler::Type Compiler::unary() {
   return type;
 }
 
-Compiler::Type Compiler::primary() {
-  const Token& here = peek();
+QclCompiler::Type QclCompiler::primary() {
+  const QclToken& here = peek();
   switch (here.kind) {
-    case Token::Kind::number:
+    case QclToken::Kind::number:
       if (here.integer > std::numeric_limits<std::int32_t>::max())
         complain(here.place, in_quotes(here.text) + " is out of range",
                  "a long goes from -2147483648 to 2147483647");
-      emit(Op::push,
+      emit(QclOp::push,
            here.is_real ? std::bit_cast<std::int32_t>(here.real) : static_cast<std::int32_t>(here.integer));
       take();
       return here.is_real ? Type::real : Type::integer;
-    case Token::Kind::name:
+    case QclToken::Kind::name:
       if (!is_reserved(here.text)) return name_value();
       break;
-    case Token::Kind::sign:
+    case QclToken::Kind::sign:
       if (here.text[0] == '(') return parenthesis();
       break;
     default:
       break;
   }
-  const bool at_end = here.kind == Token::Kind::end;
+  const bool at_end = here.kind == QclToken::Kind::end;
   syntax_error(here,
                at_end ? "missing operand at the end of the line" : "missing operand before " + found(here),
                "write a number, a name, Device:parameter or an expression in parentheses");
   return Type::integer;
 }
 
-Compiler::Type Compiler::parenthesis() {
+QclCompiler::Type QclCompiler::parenthesis() {
   take();
   const Type type = expression();
   expect(")", "close the parenthesis");
@@ -150,64 +150,64 @@ Compiler::Type Compiler::parenthesis() {
 }
 
 // A name in an expression: something of the configuration, or Device:parameter.
-Compiler::Type Compiler::name_value() {
-  const Token name = take();
+QclCompiler::Type QclCompiler::name_value() {
+  const QclToken name = take();
   if (accept(":") || accept(".")) {
     const std::optional<int> device = find_device(name);
-    if (peek().kind != Token::Kind::name) {
+    if (peek().kind != QclToken::Kind::name) {
       syntax_error(peek(), fmt::format("expected a parameter after {}:, found {}", name.text, found(peek())),
                    "write Device:parameter");
       return Type::integer;
     }
-    const Token parameter = take();
+    const QclToken parameter = take();
     const std::optional<Symbol> symbol = device ? find_parameter(*device, parameter) : std::nullopt;
     if (device) devices_read_.insert(*device);
-    emit(Op::load_device, symbol ? add_symbol(*symbol) : 0, device.value_or(0));
+    emit(QclOp::load_device, symbol ? add_symbol(*symbol) : 0, device.value_or(0));
     return Type::integer;
   }
   const NamedThing* thing = find_name(name);
   if (!thing) {
     // Read over the indexes of an unknown array, so that only the name is complained about.
     if (peek().is("[")) indexes({}, name);
-    emit(Op::push);
+    emit(QclOp::push);
     return Type::integer;
   }
   switch (thing->kind) {
     case NamedThing::Kind::constant:
-      emit(Op::push, thing->real ? std::bit_cast<std::int32_t>(static_cast<float>(thing->value))
-                                 : static_cast<std::int32_t>(thing->value));
+      emit(QclOp::push, thing->real ? std::bit_cast<std::int32_t>(static_cast<float>(thing->value))
+                                    : static_cast<std::int32_t>(thing->value));
       return thing->real ? Type::real : Type::integer;
     case NamedThing::Kind::timer:
-      emit(Op::load_timer, thing->index);
+      emit(QclOp::load_timer, thing->index);
       return Type::integer;
     case NamedThing::Kind::input:
-      emit(Op::load_input, thing->index);
+      emit(QclOp::load_input, thing->index);
       return Type::integer;
     case NamedThing::Kind::output:
-      emit(Op::load_output, thing->index);
+      emit(QclOp::load_output, thing->index);
       return Type::integer;
     case NamedThing::Kind::scalar:
-      emit(Op::load, thing->index);
+      emit(QclOp::load, thing->index);
       break;
     case NamedThing::Kind::array:
     case NamedThing::Kind::group_static:
     case NamedThing::Kind::group_step:
       indexes(*thing, name);
-      emit(Op::load_at);
+      emit(QclOp::load_at);
       break;
     case NamedThing::Kind::device:
     case NamedThing::Kind::group:
       complain(name.place, fmt::format("{} is {}, not a value", in_quotes(name.text), name_of(thing->kind)),
                thing->kind == NamedThing::Kind::device ? fmt::format("write {}:parameter", name.text)
                                                        : "name one of its variables");
-      emit(Op::push);
+      emit(QclOp::push);
       return Type::integer;
   }
   return thing->size == Size::S ? Type::real : Type::integer;
 }
 
 // Reads [i] or [i, j] and leaves the number of the cell on the stack. A nameless thing takes any count.
-void Compiler::indexes(const NamedThing& thing, const Token& name) {
+void QclCompiler::indexes(const NamedThing& thing, const QclToken& name) {
   const std::size_t wanted = thing.kind == NamedThing::Kind::group_step ? 2 : 1;
   const std::string form = wanted == 2                                    ? "[recipe, step]"
                            : thing.kind == NamedThing::Kind::group_static ? "[recipe]"
@@ -218,13 +218,13 @@ void Compiler::indexes(const NamedThing& thing, const Token& name) {
     return;
   }
   const int stack = stack_;
-  const Token open = peek();
+  const QclToken open = peek();
   std::size_t count = 0;
   do {
     take();
     const Place place = peek().place;
     const int begin = here();
-    if (expression() == Type::real) emit(Op::to_long);
+    if (expression() == Type::real) emit(QclOp::to_long);
     check_index(thing, count, begin, place);
     ++count;
   } while (peek().is(",") && !line_failed_);
@@ -236,17 +236,17 @@ void Compiler::indexes(const NamedThing& thing, const Token& name) {
              fmt::format("write {}{}", name.text, form));
   if (thing.kind == NamedThing::Kind::group_step) {
     program_.steps.push_back(thing);
-    emit(Op::index_step, static_cast<int>(program_.steps.size()) - 1);
+    emit(QclOp::index_step, static_cast<int>(program_.steps.size()) - 1);
   } else {
-    emit(thing.kind == NamedThing::Kind::group_static ? Op::index_recipe : Op::index, thing.index,
+    emit(thing.kind == NamedThing::Kind::group_static ? QclOp::index_recipe : QclOp::index, thing.index,
          thing.length);
   }
   stack_ = stack + (thing.name.empty() ? 0 : 1);  // as if the count had been right
 }
 
 // An index that is a plain number is judged here, as index and index_step would judge it in the run.
-void Compiler::check_index(const NamedThing& thing, std::size_t number, int begin, Place place) {
-  const bool plain = !line_failed_ && here() == begin + 1 && program_.code.back().op == Op::push;
+void QclCompiler::check_index(const NamedThing& thing, std::size_t number, int begin, Place place) {
+  const bool plain = !line_failed_ && here() == begin + 1 && program_.code.back().op == QclOp::push;
   const bool step = thing.kind == NamedThing::Kind::group_step && number == 1;
   if (!plain || thing.name.empty() || (number > 0 && !step)) return;
   const int last = step ? thing.steps : thing.length;
@@ -258,12 +258,12 @@ void Compiler::check_index(const NamedThing& thing, std::size_t number, int begi
 }
 
 // The value of a condition as 0 or not 0.
-void Compiler::condition() {
+void QclCompiler::condition() {
   nesting_ = 0;
-  if (expression() == Type::real) emit(Op::to_flag_real);
+  if (expression() == Type::real) emit(QclOp::to_flag_real);
 }
 
-const NamedThing* Compiler::find_name(const Token& name) {
+const NamedThing* QclCompiler::find_name(const QclToken& name) {
   const NamedThing* thing = names_.find(name.text);
   if (!thing)
     complain(name.place, "unknown name " + in_quotes(name.text),
@@ -271,12 +271,12 @@ const NamedThing* Compiler::find_name(const Token& name) {
   return thing;
 }
 
-bool Compiler::is_device(std::string_view name) const {
+bool QclCompiler::is_device(std::string_view name) const {
   const NamedThing* thing = names_.find(name);
   return thing && thing->kind == NamedThing::Kind::device;
 }
 
-std::optional<int> Compiler::find_device(const Token& name) {
+std::optional<int> QclCompiler::find_device(const QclToken& name) {
   const NamedThing* thing = names_.find(name.text);
   if (thing && thing->kind == NamedThing::Kind::device) return thing->index;
   complain(name.place,
@@ -288,14 +288,14 @@ std::optional<int> Compiler::find_device(const Token& name) {
   return std::nullopt;
 }
 
-std::optional<Symbol> Compiler::find_parameter(int device, const Token& name) {
+std::optional<Symbol> QclCompiler::find_parameter(int device, const QclToken& name) {
   const DeviceType& type = type_of(device);
   const std::optional<Symbol> symbol = find_symbol(type, name.text);
   if (symbol) return symbol;
   const std::string& device_name = configuration_.devices[static_cast<std::size_t>(device)].name;
   // Print loses underscores: `Axis:st init`.
   const std::string joined = fmt::format("{}_{}", name.text, peek().text);
-  if (peek().kind == Token::Kind::name && find_symbol(type, joined)) {
+  if (peek().kind == QclToken::Kind::name && find_symbol(type, joined)) {
     complain(name.place, fmt::format("{} has no parameter or state {}", type.name, in_quotes(name.text)),
              "did you mean " + in_quotes(joined) + "?");
     take();
@@ -311,20 +311,21 @@ std::optional<Symbol> Compiler::find_parameter(int device, const Token& name) {
   return std::nullopt;
 }
 
-const DeviceType& Compiler::type_of(int device) const {
+const DeviceType& QclCompiler::type_of(int device) const {
   return *catalogue_[configuration_.devices[static_cast<std::size_t>(device)].type].type;
 }
 
-std::vector<std::string> Compiler::device_names() const {
+std::vector<std::string> QclCompiler::device_names() const {
   std::vector<std::string> names;
   for (const DeviceRecord& device : configuration_.devices) names.push_back(device.name);
   return names;
 }
 
-std::vector<std::string> Compiler::all_commands() const {
+std::vector<std::string> QclCompiler::all_commands() const {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < configuration_.devices.size(); ++i)
-    for (const Command& command : type_of(static_cast<int>(i)).commands) names.emplace_back(command.name);
+    for (const DeviceCommand& command : type_of(static_cast<int>(i)).commands)
+      names.emplace_back(command.name);
   return names;
 }
 

@@ -6,11 +6,11 @@ namespace drycut::devices::qmove {
 
 namespace {
 
-class LineLexer : public Lexer<Token> {
+class LineLexer : public Lexer<QclToken> {
  public:
   using Lexer::Lexer;
 
-  std::vector<Token> run() {
+  std::vector<QclToken> run() {
     while (!at_end() && peek() != ';') {
       const char c = peek();
       if (at_blank())
@@ -33,7 +33,7 @@ class LineLexer : public Lexer<Token> {
   void number() {
     constexpr std::int64_t largest = 2147483648;  // allowed after a minus sign
     const Number found = number_ahead(is_digit, false);
-    Token& token = add(Kind::number, found.whole);
+    QclToken& token = add(Kind::number, found.whole);
     token.is_real = found.real;
     if (found.whole != found.size)
       complain(token, in_quotes(token.text) + " is neither a number nor a name",
@@ -47,7 +47,8 @@ class LineLexer : public Lexer<Token> {
 
 }  // namespace
 
-std::vector<Token> tokens_of(std::string_view line, int number, const std::string& file, Problems& problems) {
+std::vector<QclToken> tokens_of(std::string_view line, int number, const std::string& file,
+                                Problems& problems) {
   return LineLexer(line, file, problems, number).run();
 }
 

@@ -58,7 +58,7 @@ namespace {
 // One switch over all instructions: the room's hottest loop, kept in one piece for speed. `timed`: statements
 // are counted.
 template <bool timed>
-RunTimeError run(const Program& program, Task& task, Machine& machine, std::int64_t& statements) {
+RunTimeError run(const QclProgram& program, Task& task, QclMachine& machine, std::int64_t& statements) {
   std::array<std::int32_t, max_depth + 2> stack{};  // the compiler has checked that no expression needs more
   std::int32_t* top = stack.data();                 // the value on top
   const Instruction* const code = program.code.data();
@@ -112,23 +112,23 @@ RunTimeError run(const Program& program, Task& task, Machine& machine, std::int6
     if (--left < 0) return fail(RunTimeError::watchdog);
     const Instruction& now = code[at];
     switch (now.op) {
-      case Op::push:
+      case QclOp::push:
         *++top = now.a;
         break;
-      case Op::load:
+      case QclOp::load:
         *++top = machine.cells[now.a];
         break;
-      case Op::load_at:
+      case QclOp::load_at:
         *top = machine.cells[*top];
         break;
-      case Op::index:
-      case Op::index_recipe:
+      case QclOp::index:
+      case QclOp::index_recipe:
         if (!within(*top, now.b))
-          return fail(now.op == Op::index ? RunTimeError::index_out_of_bound
-                                          : RunTimeError::recipe_out_of_range);
+          return fail(now.op == QclOp::index ? RunTimeError::index_out_of_bound
+                                             : RunTimeError::recipe_out_of_range);
         *top += now.a - 1;
         break;
-      case Op::index_step: {
+      case QclOp::index_step: {
         const NamedThing& variable = program.steps[now.a];
         const std::int32_t step = *top--;
         if (!within(*top, variable.length)) return fail(RunTimeError::recipe_out_of_range);
@@ -136,152 +136,152 @@ RunTimeError run(const Program& program, Task& task, Machine& machine, std::int6
         *top = variable.index + (*top - 1) * variable.steps + step - 1;
         break;
       }
-      case Op::load_device:
+      case QclOp::load_device:
         *++top = machine.devices[now.b]->read(program.symbols[now.a]);
         break;
-      case Op::load_input:
+      case QclOp::load_input:
         *++top = machine.inputs[now.a]->level ? 1 : 0;
         break;
-      case Op::load_output:
+      case QclOp::load_output:
         *++top = machine.outputs[now.a]->level ? 1 : 0;
         break;
-      case Op::load_timer:
+      case QclOp::load_timer:
         *++top = machine.now >= machine.timers[now.a] ? 1 : 0;
         break;
 
-      case Op::store:
+      case QclOp::store:
         machine.cells[now.a] = keep(now.b, *top--);
         break;
-      case Op::store_at:
+      case QclOp::store_at:
         machine.cells[top[-1]] = keep(now.b, *top);
         top -= 2;
         break;
-      case Op::store_device:
+      case QclOp::store_device:
         if ((left -= device_work) < 0) return fail(RunTimeError::watchdog);
         post(now.b);
         machine.devices[now.b]->write(program.symbols[now.a], *top--);
         break;
-      case Op::store_output:
+      case QclOp::store_output:
         machine.outputs[now.a]->level = *top-- != 0;
         break;
-      case Op::store_timer: {
+      case QclOp::store_timer: {
         constexpr std::int64_t ns_per_ms = 1'000'000;
         machine.timers[now.a] = machine.now + std::max(*top--, 0) * ns_per_ms;
         break;
       }
 
-      case Op::add:
+      case QclOp::add:
         integers(std::plus{});
         break;
-      case Op::subtract:
+      case QclOp::subtract:
         integers(std::minus{});
         break;
-      case Op::multiply:
+      case QclOp::multiply:
         integers(std::multiplies{});
         break;
-      case Op::divide:
+      case QclOp::divide:
         if (*top == 0) return fail(RunTimeError::division_by_zero);
         integers(std::divides{});
         break;
-      case Op::modulo:
+      case QclOp::modulo:
         if (*top == 0) return fail(RunTimeError::division_by_zero);
         integers(std::modulus{});
         break;
-      case Op::negate:
+      case QclOp::negate:
         *top = wrapping(-std::int64_t{*top});
         break;
-      case Op::add_real:
+      case QclOp::add_real:
         reals(std::plus{});
         break;
-      case Op::subtract_real:
+      case QclOp::subtract_real:
         reals(std::minus{});
         break;
-      case Op::multiply_real:
+      case QclOp::multiply_real:
         reals(std::multiplies{});
         break;
-      case Op::divide_real:
+      case QclOp::divide_real:
         if (real(*top) == 0.0F) return fail(RunTimeError::division_by_zero);
         reals(std::divides{});
         break;
-      case Op::negate_real:
+      case QclOp::negate_real:
         *top = bits(-real(*top));
         break;
-      case Op::to_real:
+      case QclOp::to_real:
         *top = bits(static_cast<float>(*top));
         break;
-      case Op::to_real_below:
+      case QclOp::to_real_below:
         top[-1] = bits(static_cast<float>(top[-1]));
         break;
-      case Op::to_long:
+      case QclOp::to_long:
         *top = to_long(real(*top));
         break;
-      case Op::to_flag_real:
+      case QclOp::to_flag_real:
         *top = real(*top) != 0.0F ? 1 : 0;
         break;
-      case Op::to_flag_real_below:
+      case QclOp::to_flag_real_below:
         top[-1] = real(top[-1]) != 0.0F ? 1 : 0;
         break;
 
-      case Op::equal:
+      case QclOp::equal:
         integers(std::equal_to{});
         break;
-      case Op::not_equal:
+      case QclOp::not_equal:
         integers(std::not_equal_to{});
         break;
-      case Op::less:
+      case QclOp::less:
         integers(std::less{});
         break;
-      case Op::less_equal:
+      case QclOp::less_equal:
         integers(std::less_equal{});
         break;
-      case Op::greater:
+      case QclOp::greater:
         integers(std::greater{});
         break;
-      case Op::greater_equal:
+      case QclOp::greater_equal:
         integers(std::greater_equal{});
         break;
-      case Op::equal_real:
+      case QclOp::equal_real:
         reals(std::equal_to{});
         break;
-      case Op::not_equal_real:
+      case QclOp::not_equal_real:
         reals(std::not_equal_to{});
         break;
-      case Op::less_real:
+      case QclOp::less_real:
         reals(std::less{});
         break;
-      case Op::less_equal_real:
+      case QclOp::less_equal_real:
         reals(std::less_equal{});
         break;
-      case Op::greater_real:
+      case QclOp::greater_real:
         reals(std::greater{});
         break;
-      case Op::greater_equal_real:
+      case QclOp::greater_equal_real:
         reals(std::greater_equal{});
         break;
 
-      case Op::logic_and:
+      case QclOp::logic_and:
         integers(std::logical_and{});
         break;
-      case Op::logic_or:
+      case QclOp::logic_or:
         integers(std::logical_or{});
         break;
-      case Op::logic_not:
+      case QclOp::logic_not:
         *top = *top == 0 ? 1 : 0;
         break;
-      case Op::bit_and:
+      case QclOp::bit_and:
         integers(std::bit_and{});
         break;
-      case Op::bit_or:
+      case QclOp::bit_or:
         integers(std::bit_or{});
         break;
-      case Op::bit_xor:
+      case QclOp::bit_xor:
         integers(std::bit_xor{});
         break;
-      case Op::bit_not:
+      case QclOp::bit_not:
         *top = ~*top;
         break;
 
-      case Op::barrier: {
+      case QclOp::barrier: {
         if (task.wait == Task::Wait::none) task.reached = machine.posts;
         const std::uint64_t oldest = machine.oldest_post[now.b];
         if (!machine.devices[now.b]->settled() && oldest <= task.reached) {
@@ -293,20 +293,20 @@ RunTimeError run(const Program& program, Task& task, Machine& machine, std::int6
         if (now.a != 0) task.wait = Task::Wait::none;
         break;
       }
-      case Op::jump:
+      case QclOp::jump:
         at = now.a - 1;
         break;
-      case Op::jump_if_zero:
+      case QclOp::jump_if_zero:
         if (*top-- == 0) at = now.a - 1;
         break;
-      case Op::command:
+      case QclOp::command:
         if ((left -= device_work) < 0) return fail(RunTimeError::watchdog);
         post(now.b);
         machine.devices[now.b]->command(now.a, program.name);
         break;
-      case Op::yield:
+      case QclOp::yield:
         return suspend(at + 1);
-      case Op::wait_until:
+      case QclOp::wait_until:
         if (*top-- == 0) {
           if (task.waits_at != now.a) task.waits_since = machine.now;
           task.waits_at = now.a;
@@ -314,17 +314,17 @@ RunTimeError run(const Program& program, Task& task, Machine& machine, std::int6
         }
         task.waits_at = -1;
         break;
-      case Op::call:
+      case QclOp::call:
         if (task.calls.size() >= max_calls) return fail(RunTimeError::stack);
         task.calls.push_back(at);
         at = now.a - 1;
         break;
-      case Op::back:
+      case QclOp::back:
         if (task.calls.empty()) return fail(RunTimeError::stack);
         at = task.calls.back();
         task.calls.pop_back();
         break;
-      case Op::end:
+      case QclOp::end:
         task.ended = true;
         task.waits_at = at;
         task.waits_since = machine.now;
@@ -335,12 +335,13 @@ RunTimeError run(const Program& program, Task& task, Machine& machine, std::int6
 
 }  // namespace
 
-RunTimeError run_turn(const Program& program, Task& task, Machine& machine) {
+RunTimeError run_turn(const QclProgram& program, Task& task, QclMachine& machine) {
   std::int64_t uncounted = 0;
   return run<false>(program, task, machine, uncounted);
 }
 
-RunTimeError run_statements(const Program& program, Task& task, Machine& machine, std::int64_t& statements) {
+RunTimeError run_statements(const QclProgram& program, Task& task, QclMachine& machine,
+                            std::int64_t& statements) {
   return run<true>(program, task, machine, statements);
 }
 

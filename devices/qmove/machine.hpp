@@ -24,7 +24,7 @@ enum class RunTimeError : std::uint8_t {
 std::string_view name_of(RunTimeError error);
 
 /// What programs work on: memory, timers, terminals and devices of one controller.
-struct Machine {
+struct QclMachine {
   std::vector<std::int32_t> cells;   ///< laid out by SymbolTable; a single is kept by its bits
   std::vector<std::int64_t> timers;  ///< when each timer elapses [ns]
   std::vector<const DigitalInput*> inputs;
@@ -81,9 +81,10 @@ inline constexpr int device_work = 100;
 
 /// Runs `task` for one turn: until WAIT or END, or until a read has to wait for a device's sample.
 /// After an error task.at is the instruction at fault.
-RunTimeError run_turn(const Program& program, Task& task, Machine& machine);
+RunTimeError run_turn(const QclProgram& program, Task& task, QclMachine& machine);
 /// The same where statements take time: as far as `statements` of them go, which are counted down. The turn
 /// goes on with the next call while task.in_turn.
-RunTimeError run_statements(const Program& program, Task& task, Machine& machine, std::int64_t& statements);
+RunTimeError run_statements(const QclProgram& program, Task& task, QclMachine& machine,
+                            std::int64_t& statements);
 
 }  // namespace drycut::devices::qmove

@@ -33,7 +33,7 @@ std::string_view event_of(const Diagnostic& diagnostic) {
 
 }  // namespace
 
-QmoveController::QmoveController(Configuration configuration, std::vector<Program> programs,
+QmoveController::QmoveController(Configuration configuration, std::vector<QclProgram> programs,
                                  std::span<const CatalogueEntry> catalogue, std::int64_t cycle_ns,
                                  std::int64_t statement_ns)
     : configuration_(std::move(configuration)),
@@ -166,7 +166,7 @@ bool QmoveController::finish_turn(std::size_t number, RunTimeError error) {
 }
 
 void QmoveController::tell_of_cut(std::size_t number) {
-  const Program& program = programs_[number];
+  const QclProgram& program = programs_[number];
   const auto [at, value, kept] = *std::exchange(machine_.cut, {});
   const int line = program.lines[static_cast<std::size_t>(at)];
   if (!tasks_[number].cuts.insert(line).second) return;
@@ -180,7 +180,7 @@ void QmoveController::tell_of_cut(std::size_t number) {
 void QmoveController::tell_of_long_turn(std::size_t number) {
   Task& task = tasks_[number];
   task.told = true;
-  const Program& program = programs_[number];
+  const QclProgram& program = programs_[number];
   const auto at = static_cast<std::size_t>(task.at);
   const std::string& device = configuration_.devices[static_cast<std::size_t>(program.code[at].b)].name;
   events_.push_back(
@@ -231,7 +231,7 @@ void QmoveController::stop(RunTimeError error, std::size_t task) {
   mode_ = OsMode::error;
   error_ = error;
   failed_ = task;
-  const Program& program = programs_[task];
+  const QclProgram& program = programs_[task];
   events_.push_back({program.name, "error",
                      fmt::format("{}:{}: error {}: {}; all tasks stop", program.file,
                                  program.lines[static_cast<std::size_t>(tasks_[task].at)],

@@ -10,15 +10,13 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "devices/catalogue.hpp"
 #include "devices/controller.hpp"
 #include "devices/due.hpp"
 #include "devices/modbus/modbus.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/machine.hpp"
 #include "devices/qmove/program.hpp"
-#include "devices/qmove/symbols.hpp"
-#include "devices/slot_terminals.hpp"
 
 namespace drycut::devices::qmove {
 
@@ -42,7 +40,7 @@ class QmoveController : public Controller {
   /// `configuration` and `programs` are free of problems; `programs` were compiled against `configuration`
   /// and both against `catalogue`. `cycle_ns` > 0, `statement_ns` >= 0. The controller begins powered on, at
   /// time 0.
-  QmoveController(Configuration configuration, std::vector<Program> programs,
+  QmoveController(Configuration configuration, std::vector<QclProgram> programs,
                   std::span<const CatalogueEntry> catalogue, std::int64_t cycle_ns,
                   std::int64_t statement_ns = 0);
 
@@ -126,14 +124,14 @@ class QmoveController : public Controller {
   void tell_of_long_turn(std::size_t number);
   void stop(RunTimeError error, std::size_t task);
   void collect_diagnostics(std::size_t device);
-  [[nodiscard]] ProgramText module_text(const Program& program) const;
+  [[nodiscard]] ProgramText module_text(const QclProgram& program) const;
   [[nodiscard]] std::string doing(std::size_t number) const;
 
   Configuration configuration_;
-  std::vector<Program> programs_;
+  std::vector<QclProgram> programs_;
   SymbolTable names_;
   Cards cards_;
-  Machine machine_;
+  QclMachine machine_;
   std::vector<Task> tasks_;
   bool powered_ = true;
   std::optional<modbus::ExchangeFace> modbus_;

@@ -17,16 +17,16 @@ namespace {
 
 /// `[3]`, `[2, cLast]`: an index of numbers and constants that begins at token `at`, as find() takes it; ""
 /// if it is none, or depends on a variable.
-std::string fixed_index(const std::vector<Token>& tokens, std::size_t at, const SymbolTable& names) {
+std::string fixed_index(const std::vector<QclToken>& tokens, std::size_t at, const SymbolTable& names) {
   std::string index;
   for (; at < tokens.size(); ++at) {
-    const Token& token = tokens[at];
-    if (token.kind == Token::Kind::sign && (token.is("[") || token.is(",") || token.is("]"))) {
+    const QclToken& token = tokens[at];
+    if (token.kind == QclToken::Kind::sign && (token.is("[") || token.is(",") || token.is("]"))) {
       index += token.text;
       if (token.is("]")) return index;
-    } else if (token.kind == Token::Kind::number && !token.is_real) {
+    } else if (token.kind == QclToken::Kind::number && !token.is_real) {
       index += std::to_string(token.integer);
-    } else if (const auto* thing = token.kind == Token::Kind::name ? names.find(token.text) : nullptr;
+    } else if (const auto* thing = token.kind == QclToken::Kind::name ? names.find(token.text) : nullptr;
                thing != nullptr && thing->kind == NamedThing::Kind::constant && !thing->real) {
       index += fmt::format("{:.0f}", thing->value);
     } else {
@@ -38,7 +38,7 @@ std::string fixed_index(const std::vector<Token>& tokens, std::size_t at, const 
 
 }  // namespace
 
-ProgramText QmoveController::module_text(const Program& program) const {
+ProgramText QmoveController::module_text(const QclProgram& program) const {
   ProgramText told(program.file, "qcl", program.text);
   const auto lines = split_lines(told.text);
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -46,9 +46,9 @@ ProgramText QmoveController::module_text(const Program& program) const {
     Problems none;  // it has been compiled
     const auto tokens = tokens_of(lines[i], line, program.file, none);
     for (std::size_t t = 0; t + 1 < tokens.size(); ++t) {
-      if (tokens[t].kind != Token::Kind::name) continue;
+      if (tokens[t].kind != QclToken::Kind::name) continue;
       const std::string name(tokens[t].text);
-      if (tokens[t + 1].is(":") && tokens[t + 2].kind == Token::Kind::name) {
+      if (tokens[t + 1].is(":") && tokens[t + 2].kind == QclToken::Kind::name) {
         if (const auto found = locate(fmt::format("{}.{}", name, tokens[t + 2].text))) {
           told.add_value(line, found->name);
           t += 2;
@@ -65,7 +65,7 @@ ProgramText QmoveController::module_text(const Program& program) const {
 std::vector<ProgramText> QmoveController::programs() {
   std::vector<ProgramText> texts;
   texts.reserve(programs_.size() + 1);
-  for (const Program& program : programs_) texts.push_back(module_text(program));
+  for (const QclProgram& program : programs_) texts.push_back(module_text(program));
   ProgramText& set_up = texts.emplace_back(configuration_.file, "cnf", configuration_.text);
   const auto add = [&](const auto& things) {
     for (const auto& thing : things) set_up.add_value(thing.place.line, thing.name);
@@ -81,7 +81,7 @@ ProgramPositions QmoveController::positions(std::int64_t) const {
   ProgramPositions told;
   told.tasks.reserve(programs_.size());
   for (std::size_t i = 0; i < programs_.size(); ++i) {
-    const Program& program = programs_[i];
+    const QclProgram& program = programs_[i];
     const auto line = [&](int at) { return program.lines[static_cast<std::size_t>(at)]; };
     ProgramPositions::Task task{program.name, i, 0, doing(i), {}};
     if (powered_ && !program.code.empty()) {
@@ -110,7 +110,7 @@ std::vector<ProgramWait> QmoveController::waits() {
 
 std::string QmoveController::doing(std::size_t number) const {
   const Task& task = tasks_[number];
-  const Program& program = programs_[number];
+  const QclProgram& program = programs_[number];
   if (!powered_) return "no power";
   if (mode_ == OsMode::error)
     return number == failed_ ? fmt::format("error {}: {}", static_cast<int>(error_), name_of(error_))

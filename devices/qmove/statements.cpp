@@ -10,48 +10,48 @@
 // Statements of QCL, but for blocks. One a line.
 namespace drycut::devices::qmove {
 
-void Compiler::statement() {
+void QclCompiler::statement() {
   nesting_ = 0;
   stack_ = 0;
   devices_read_.clear();
-  if (peek().kind != Token::Kind::name)
+  if (peek().kind != QclToken::Kind::name)
     syntax_error(peek(), found(peek()) + " does not begin a statement",
                  "write a statement, or ';' before a comment");
-  else if (peek(1).is(":") && peek(2).kind == Token::Kind::end)
+  else if (peek(1).is(":") && peek(2).kind == QclToken::Kind::end)
     label();
   else
     word_statement();
   if (!line_failed_) end_of_statement();
 }
 
-void Compiler::word_statement() {
+void QclCompiler::word_statement() {
   struct Row {
     std::string_view word;
-    void (*run)(Compiler&);
+    void (*run)(QclCompiler&);
   };
   static constexpr std::array<Row, 15> table{{
-      {"IF", [](Compiler& c) { c.open_condition(Block::Kind::if_); }},
-      {"ELSE", [](Compiler& c) { c.else_block(); }},
-      {"ENDIF", [](Compiler& c) { c.close_block(Block::Kind::if_); }},
-      {"WHILE", [](Compiler& c) { c.open_condition(Block::Kind::while_); }},
-      {"ENDWHILE", [](Compiler& c) { c.close_block(Block::Kind::while_); }},
-      {"FOR", [](Compiler& c) { c.for_block(); }},
-      {"NEXT", [](Compiler& c) { c.close_block(Block::Kind::for_); }},
-      {"WAIT", [](Compiler& c) { c.wait(); }},
-      {"JUMP", [](Compiler& c) { c.refer(c.labels_, Op::jump, "JUMP <label>"); }},
-      {"SUB", [](Compiler& c) { c.sub_block(); }},
-      {"ENDSUB", [](Compiler& c) { c.close_block(Block::Kind::sub); }},
-      {"CALL", [](Compiler& c) { c.refer(c.subs_, Op::call, "CALL <subroutine>"); }},
-      {"END", [](Compiler& c) { c.end(); }},
-      {"SETOUT", [](Compiler& c) { c.set_output(true); }},
-      {"RESOUT", [](Compiler& c) { c.set_output(false); }},
+      {"IF", [](QclCompiler& c) { c.open_condition(Block::Kind::if_); }},
+      {"ELSE", [](QclCompiler& c) { c.else_block(); }},
+      {"ENDIF", [](QclCompiler& c) { c.close_block(Block::Kind::if_); }},
+      {"WHILE", [](QclCompiler& c) { c.open_condition(Block::Kind::while_); }},
+      {"ENDWHILE", [](QclCompiler& c) { c.close_block(Block::Kind::while_); }},
+      {"FOR", [](QclCompiler& c) { c.for_block(); }},
+      {"NEXT", [](QclCompiler& c) { c.close_block(Block::Kind::for_); }},
+      {"WAIT", [](QclCompiler& c) { c.wait(); }},
+      {"JUMP", [](QclCompiler& c) { c.refer(c.labels_, QclOp::jump, "JUMP <label>"); }},
+      {"SUB", [](QclCompiler& c) { c.sub_block(); }},
+      {"ENDSUB", [](QclCompiler& c) { c.close_block(Block::Kind::sub); }},
+      {"CALL", [](QclCompiler& c) { c.refer(c.subs_, QclOp::call, "CALL <subroutine>"); }},
+      {"END", [](QclCompiler& c) { c.end(); }},
+      {"SETOUT", [](QclCompiler& c) { c.set_output(true); }},
+      {"RESOUT", [](QclCompiler& c) { c.set_output(false); }},
   }};
   for (const Row& row : table)
     if (peek().word(row.word)) return row.run(*this);
   if (other_closer()) return;
-  const Token& next = peek(1);
-  if (next.kind == Token::Kind::name) return device_command();
-  const bool assigns = next.kind == Token::Kind::sign && std::string_view("=[:.").find(next.text[0]) < 4;
+  const QclToken& next = peek(1);
+  if (next.kind == QclToken::Kind::name) return device_command();
+  const bool assigns = next.kind == QclToken::Kind::sign && std::string_view("=[:.").find(next.text[0]) < 4;
   if (assigns && !is_reserved(peek().text))
     assignment();
   else
@@ -59,7 +59,7 @@ void Compiler::word_statement() {
 }
 
 // END_IF of Structured Text: told once, and read as what it means, so that nothing follows from it.
-bool Compiler::other_closer() {
+bool QclCompiler::other_closer() {
   struct Closer {
     std::string_view word;
     std::string_view meant;
@@ -80,14 +80,14 @@ bool Compiler::other_closer() {
 }
 
 // name = e, name[i] = e, name[i, j] = e, Device:parameter = e. Returns the name assigned to, if it is one.
-const NamedThing* Compiler::assignment() {
+const NamedThing* QclCompiler::assignment() {
   const int begin = here();
-  const Token name = take();
+  const QclToken name = take();
   const std::string remedy = "write: name = value";
   if (accept(":") || accept(".")) {
     const std::optional<int> device = find_device(name);
-    const Token parameter = peek();
-    if (parameter.kind != Token::Kind::name) {
+    const QclToken parameter = peek();
+    if (parameter.kind != QclToken::Kind::name) {
       syntax_error(parameter,
                    fmt::format("expected a parameter after {}:, found {}", name.text, found(parameter)),
                    "write Device:parameter = value");
@@ -101,8 +101,8 @@ const NamedThing* Compiler::assignment() {
     const Type type = expression();
     note_fraction(type, value, parameter);
     if (symbol) note_range(type_of(*device), *symbol, type, value, parameter);
-    if (type == Type::real) emit(Op::to_long);
-    emit(Op::store_device, symbol ? add_symbol(*symbol) : 0, device.value_or(0));
+    if (type == Type::real) emit(QclOp::to_long);
+    emit(QclOp::store_device, symbol ? add_symbol(*symbol) : 0, device.value_or(0));
     insert_barriers(begin);
     return nullptr;
   }
@@ -127,8 +127,8 @@ const NamedThing* Compiler::assignment() {
 }
 
 // A number beyond the size of its variable wraps in the run: said here, as a device says it of a parameter.
-void Compiler::note_wrapping(const NamedThing& thing, Type type, int begin, const Token& name) {
-  const bool plain = !line_failed_ && here() == begin + 1 && program_.code.back().op == Op::push;
+void QclCompiler::note_wrapping(const NamedThing& thing, Type type, int begin, const QclToken& name) {
+  const bool plain = !line_failed_ && here() == begin + 1 && program_.code.back().op == QclOp::push;
   if (!plain || type == Type::real || thing.size == Size::S) return;
   const std::int32_t value = program_.code.back().a;
   const std::int32_t stored = wrap(thing.size, value);
@@ -139,8 +139,8 @@ void Compiler::note_wrapping(const NamedThing& thing, Type type, int begin, cons
 }
 
 // What takes whole numbers cuts a single's fraction off: toll = 0.03 is 0.
-void Compiler::note_fraction(Type type, int begin, const Token& name) {
-  const bool plain = !line_failed_ && here() == begin + 1 && program_.code.back().op == Op::push;
+void QclCompiler::note_fraction(Type type, int begin, const QclToken& name) {
+  const bool plain = !line_failed_ && here() == begin + 1 && program_.code.back().op == QclOp::push;
   if (!plain || type != Type::real) return;
   const auto value = std::bit_cast<float>(program_.code.back().a);
   if (value == std::trunc(value)) return;
@@ -150,11 +150,11 @@ void Compiler::note_fraction(Type type, int begin, const Token& name) {
 }
 
 // A device takes what lies outside of a parameter's range, and the run tells it: said here already.
-void Compiler::note_range(const DeviceType& type, Symbol symbol, Type of_value, int begin,
-                          const Token& name) {
-  const bool plain = !line_failed_ && here() == begin + 1 && program_.code.back().op == Op::push;
+void QclCompiler::note_range(const DeviceType& type, Symbol symbol, Type of_value, int begin,
+                             const QclToken& name) {
+  const bool plain = !line_failed_ && here() == begin + 1 && program_.code.back().op == QclOp::push;
   if (!plain || of_value == Type::real || symbol.kind != Symbol::Kind::variable) return;
-  const Variable& variable = type.variables[static_cast<std::size_t>(symbol.index)];
+  const DeviceVariable& variable = type.variables[static_cast<std::size_t>(symbol.index)];
   const std::int32_t value = program_.code.back().a;
   if (value >= variable.min && value <= variable.max) return;
   program_.notes.push_back(fmt::format("{}:{}:{}: {} goes from {} to {}, and {} is outside", file_,
@@ -163,30 +163,30 @@ void Compiler::note_range(const DeviceType& type, Symbol symbol, Type of_value, 
 }
 
 // Converts the value on the stack to what `thing` holds and stores it there.
-void Compiler::store(const NamedThing& thing, Type type) {
-  if (thing.size == Size::S && type == Type::integer) emit(Op::to_real);
+void QclCompiler::store(const NamedThing& thing, Type type) {
+  if (thing.size == Size::S && type == Type::integer) emit(QclOp::to_real);
   if (thing.size != Size::S && type == Type::real)
-    emit(thing.size == Size::F ? Op::to_flag_real : Op::to_long);
+    emit(thing.size == Size::F ? QclOp::to_flag_real : QclOp::to_long);
   const int size = static_cast<int>(thing.size);
   switch (thing.kind) {
     case NamedThing::Kind::array:
     case NamedThing::Kind::group_static:
     case NamedThing::Kind::group_step:
-      emit(Op::store_at, 0, size);
+      emit(QclOp::store_at, 0, size);
       break;
     case NamedThing::Kind::timer:
-      emit(Op::store_timer, thing.index);
+      emit(QclOp::store_timer, thing.index);
       break;
     case NamedThing::Kind::output:
-      emit(Op::store_output, thing.index);
+      emit(QclOp::store_output, thing.index);
       break;
     default:
-      emit(Op::store, thing.index, size);
+      emit(QclOp::store, thing.index, size);
       break;
   }
 }
 
-void Compiler::check_assignable(const NamedThing& thing, const Token& name) {
+void QclCompiler::check_assignable(const NamedThing& thing, const QclToken& name) {
   using Kind = NamedThing::Kind;
   if (thing.kind == Kind::constant || thing.kind == Kind::input || thing.kind == Kind::group ||
       thing.kind == Kind::device)
@@ -197,7 +197,7 @@ void Compiler::check_assignable(const NamedThing& thing, const Token& name) {
                                          : "assign a variable, a timer, an output or Device:parameter");
 }
 
-void Compiler::check_writable(int device, Symbol symbol, const Token& parameter) {
+void QclCompiler::check_writable(int device, Symbol symbol, const QclToken& parameter) {
   const DeviceType& type = type_of(device);
   if (symbol.kind == Symbol::Kind::state)
     complain(
@@ -209,8 +209,8 @@ void Compiler::check_writable(int device, Symbol symbol, const Token& parameter)
              "assign a parameter that programs may write");
 }
 
-void Compiler::label() {
-  const Token name = take();
+void QclCompiler::label() {
+  const QclToken name = take();
   take();
   if (is_reserved(name.text) || is_device(name.text)) {
     complain(name.place, fmt::format("{} cannot be a label", in_quotes(name.text)),
@@ -221,38 +221,38 @@ void Compiler::label() {
   define(labels_, "label", name);
 }
 
-void Compiler::wait() {
+void QclCompiler::wait() {
   take();
   static constexpr std::array<std::string_view, 3> times = {"ms", "s", "min"};
-  if (peek().kind == Token::Kind::number && is_one_of(times, peek(1).text))
+  if (peek().kind == QclToken::Kind::number && is_one_of(times, peek(1).text))
     return syntax_error(peek(1), "WAIT takes a condition, not a time",
                         "start a TIMER and wait for it: tmPause = 100, then WAIT tmPause");
-  emit(Op::yield);
+  emit(QclOp::yield);
   const int begin = here();
   mark(begin);
   condition();
   insert_barriers(begin);
-  emit(Op::wait_until, begin);
+  emit(QclOp::wait_until, begin);
 }
 
 // The name after JUMP, CALL or SUB.
-const Token* Compiler::name_operand(const std::string& form) {
+const QclToken* QclCompiler::name_operand(const std::string& form) {
   take();
-  if (peek().kind != Token::Kind::name || is_reserved(peek().text)) {
+  if (peek().kind != QclToken::Kind::name || is_reserved(peek().text)) {
     syntax_error(peek(), "expected a name, found " + found(peek()), "write: " + form);
     return nullptr;
   }
   return &take();
 }
 
-void Compiler::end() {
+void QclCompiler::end() {
   take();
   ended_ = true;
-  emit(Op::end);
+  emit(QclOp::end);
 }
 
-void Compiler::set_output(bool on) {
-  const Token* name = name_operand(on ? "SETOUT <output>" : "RESOUT <output>");
+void QclCompiler::set_output(bool on) {
+  const QclToken* name = name_operand(on ? "SETOUT <output>" : "RESOUT <output>");
   if (!name) return;
   const NamedThing* thing = find_name(*name);
   if (!thing) return;
@@ -261,14 +261,14 @@ void Compiler::set_output(bool on) {
              "name an output that is declared under OUTPUT");
     return;
   }
-  emit(Op::push, on ? 1 : 0);
-  emit(Op::store_output, thing->index);
+  emit(QclOp::push, on ? 1 : 0);
+  emit(QclOp::store_output, thing->index);
 }
 
 // COMMAND Device: two words and nothing else.
-void Compiler::device_command() {
-  const Token word = peek();
-  const Token name = peek(1);
+void QclCompiler::device_command() {
+  const QclToken word = peek();
+  const QclToken name = peek(1);
   const std::vector<std::string> commands = all_commands();
   if (!is_device(name.text) && !is_one_of(commands, word.text)) return unknown_statement();
   take();
@@ -278,16 +278,16 @@ void Compiler::device_command() {
   const DeviceType& type = type_of(*device);
   const std::optional<int> command = find_command(type, word.text);
   if (command) {
-    emit(Op::command, *command, *device);
+    emit(QclOp::command, *command, *device);
     return;
   }
   std::vector<std::string> own;
-  for (const Command& candidate : type.commands) own.emplace_back(candidate.name);
+  for (const DeviceCommand& candidate : type.commands) own.emplace_back(candidate.name);
   complain(word.place, fmt::format("{} has no command {}", type.name, in_quotes(word.text)),
            suggestion(word.text, own, fmt::format("see: drycut devices {}", type.name)));
 }
 
-void Compiler::unknown_statement() {
+void QclCompiler::unknown_statement() {
   std::vector<std::string> words = reserved_words();
   const std::vector<std::string> commands = all_commands();
   words.insert(words.end(), commands.begin(), commands.end());

@@ -1,4 +1,4 @@
-#include "devices/qmove/symbols.hpp"
+#include "devices/qmove/program.hpp"
 
 #include <array>
 #include <utility>
@@ -35,7 +35,7 @@ int cell_count(const NamedThing& thing) {
 
 SymbolTable::SymbolTable(const Configuration& configuration) {
   using Kind = NamedThing::Kind;
-  for (const Constant& constant : configuration.constants)
+  for (const CnfConstant& constant : configuration.constants)
     add({.kind = Kind::constant, .name = constant.name, .value = constant.value, .real = constant.real});
   add_values(configuration, false);
   volatile_cells_ = cells_;

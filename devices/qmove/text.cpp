@@ -1,4 +1,4 @@
-#include "devices/qmove/text.hpp"
+#include "devices/qmove/cnf.hpp"
 
 namespace drycut::devices::qmove {
 

@@ -153,7 +153,7 @@ std::optional<ControllerValue> QmoveController::find(const std::string& name) {
         return static_cast<double>(machine_.devices[index]->read(symbol));
       };
       if (symbol.kind == Symbol::Kind::state) break;
-      const Variable& variable = type.variables[static_cast<std::size_t>(symbol.index)];
+      const DeviceVariable& variable = type.variables[static_cast<std::size_t>(symbol.index)];
       value.unit = variable.unit;
       value.of_table = variable.rows > 1;
       value.range = ValueRange{variable.min, variable.max, true};

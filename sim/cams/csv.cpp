@@ -61,9 +61,9 @@ void TableProblems::add(int line, int column, std::string what, std::string reme
       {file_, line, column, "too many problems: the rest is not told", "is this a cam table?"});
 }
 
-std::string range_text(Range range) { return fmt::format("{:.10g} to {:.10g}", range.low, range.high); }
+std::string range_text(CamKeyRange range) { return fmt::format("{:.10g} to {:.10g}", range.low, range.high); }
 
-std::optional<std::int64_t> whole_number(const Cell& cell, int line, std::string_view name, Range range,
+std::optional<std::int64_t> whole_number(const Cell& cell, int line, std::string_view name, CamKeyRange range,
                                          TableProblems& problems) {
   auto digits = cell.text;
   if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
@@ -85,7 +85,7 @@ std::optional<std::int64_t> whole_number(const Cell& cell, int line, std::string
   return {};
 }
 
-std::optional<double> real_number(const Cell& cell, int line, std::string_view name, Range range,
+std::optional<double> real_number(const Cell& cell, int line, std::string_view name, CamKeyRange range,
                                   TableProblems& problems) {
   const auto slash = cell.text.find('/');
   double number = 0;
@@ -110,7 +110,7 @@ std::optional<double> real_number(const Cell& cell, int line, std::string_view n
 
 // Settings.
 
-void Settings::travel(const std::string& least, const std::string& most, Range range,
+void Settings::travel(const std::string& least, const std::string& most, CamKeyRange range,
                       devices::CamTravel& travel) {
   whole(least, range, travel.least, "lower end of the slave's travel");
   whole(most, range, travel.most, "upper end of it");

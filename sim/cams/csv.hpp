@@ -43,17 +43,17 @@ class TableProblems {
 };
 
 /// What a number may be.
-struct Range {
+struct CamKeyRange {
   double low = 0;
   double high = 0;
 };
 /// "0 to 5".
-std::string range_text(Range range);
+std::string range_text(CamKeyRange range);
 /// A whole number in its range, or a problem.
-std::optional<std::int64_t> whole_number(const Cell& cell, int line, std::string_view name, Range range,
+std::optional<std::int64_t> whole_number(const Cell& cell, int line, std::string_view name, CamKeyRange range,
                                          TableProblems& problems);
 /// A number or a fraction of two (5/3), or a problem.
-std::optional<double> real_number(const Cell& cell, int line, std::string_view name, Range range,
+std::optional<double> real_number(const Cell& cell, int line, std::string_view name, CamKeyRange range,
                                   TableProblems& problems);
 
 /// A key or a column of a table, as the reference tells it.
@@ -75,7 +75,7 @@ class Settings {
   }
   /// A setting that is a whole number in its range; `target` holds its default.
   template <typename Target>
-  void whole(const std::string& name, Range range, Target& target, std::string meaning) {
+  void whole(const std::string& name, CamKeyRange range, Target& target, std::string meaning) {
     CamKey key{name, range_text(range), "", std::move(meaning)};
     if constexpr (std::is_integral_v<Target>)
       if (target >= range.low && target <= range.high) key.fallback = std::to_string(target);
@@ -89,7 +89,8 @@ class Settings {
     });
   }
   /// Two settings, the lower end of the travel and the upper one.
-  void travel(const std::string& least, const std::string& most, Range range, devices::CamTravel& travel);
+  void travel(const std::string& least, const std::string& most, CamKeyRange range,
+              devices::CamTravel& travel);
   /// Tells ends of the travel that were given the wrong way round.
   void check_travel() const;
   /// Reads a comment line; `above` is false once the header was read.

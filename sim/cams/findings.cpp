@@ -1,4 +1,4 @@
-#include "sim/cams/findings.hpp"
+#include "sim/cams/report.hpp"
 
 #include <fmt/format.h>
 

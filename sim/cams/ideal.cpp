@@ -1,4 +1,4 @@
-#include "sim/cams/ideal.hpp"
+#include "sim/cams/course.hpp"
 
 #include <algorithm>
 #include <cmath>

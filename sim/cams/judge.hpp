@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "devices/cam/table.hpp"
-#include "sim/cams/findings.hpp"
 #include "sim/cams/motion_plot.hpp"
+#include "sim/cams/report.hpp"
 
 namespace drycut::sim::cams {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "sim/cams/ideal.hpp"
+#include "sim/cams/course.hpp"
 #include "sim/cams/study.hpp"
 #include "sim/loop/cam_doubt.hpp"
 #include "sim/loop/played_cams.hpp"

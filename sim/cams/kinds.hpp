@@ -1,14 +1,23 @@
 #pragma once
-#include "devices/camming4/cam_table.hpp"
-#include "devices/lx3vp/ecam_table.hpp"
-#include "devices/plcopen/tab_file.hpp"
 #include "sim/cams/study.hpp"
+
+namespace drycut::devices {
+namespace camming4 {
+struct CamSectors;
+}
+namespace lx3vp {
+struct EcamTable;
+}
+namespace plcopen {
+struct CamFile;
+}
+}  // namespace drycut::devices
 
 // What each kind of cam has of its own: how its tables are read and written, and what its manual says of
 // them.
 namespace drycut::sim::cams {
 
-using CammingTable = devices::camming4::CamTable;
+using CammingTable = devices::camming4::CamSectors;
 using devices::lx3vp::EcamTable;
 using devices::plcopen::CamFile;
 

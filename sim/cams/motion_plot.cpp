@@ -5,20 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/cams/findings.hpp"
+#include "sim/cams/report.hpp"
 
 namespace drycut::sim::cams {
 
 namespace {
 
 /// One of the points' numbers against the master.
-struct Drawn {
+struct DrawnCurve {
   std::string title;
   double devices::CamMotion::*number;
   CamQuantity quantity;
 };
 
-renders::Panel panel_of(const std::vector<CamPoint>& points, const Drawn& drawn) {
+renders::Panel panel_of(const std::vector<CamPoint>& points, const DrawnCurve& drawn) {
   renders::Panel panel;
   panel.title = drawn.title;
   panel.y_label = fmt::format("[{}]", drawn.quantity.unit);
@@ -47,7 +47,7 @@ void draw_limit(renders::Panel& panel, const CamQuantity::Limit& limit, const st
     panel.bands.push_back({"", -limit.value, -limit.value});
 }
 
-CamPeak peak_of(const std::vector<CamPoint>& points, const Drawn& drawn) {
+CamPeak peak_of(const std::vector<CamPoint>& points, const DrawnCurve& drawn) {
   CamPeak peak{drawn.title, drawn.quantity};
   for (const auto& point : points) {
     const double value = point.*drawn.number * drawn.quantity.scale;
@@ -89,9 +89,9 @@ CamDrawing motion_plot(const CamCourse& course, const std::vector<CamZone>& zone
     point.position /= how.per_unit;
   }
   plot.panels = {panel_of(points, {"slave position", &CamPoint::position, {how.position}})};
-  std::vector<Drawn> rates = {{"velocity", &CamPoint::velocity, how.velocity},
-                              {"acceleration", &CamPoint::acceleration, how.acceleration},
-                              {"jerk, between the steps of acceleration", &CamPoint::jerk, how.jerk}};
+  std::vector<DrawnCurve> rates = {{"velocity", &CamPoint::velocity, how.velocity},
+                                   {"acceleration", &CamPoint::acceleration, how.acceleration},
+                                   {"jerk, between the steps of acceleration", &CamPoint::jerk, how.jerk}};
   // Straight pieces have no acceleration between their ends, and no end to it at them.
   if (how.straight) rates.resize(1);
   for (const auto& rate : rates) {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "sim/cams/findings.hpp"
 #include "sim/cams/motion_plot.hpp"
+#include "sim/cams/report.hpp"
 
 namespace drycut::sim::cams {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "renders/plots.hpp"
-#include "sim/cams/ideal.hpp"
+#include "sim/cams/course.hpp"
 #include "sim/loop/played_cams.hpp"
 
 namespace drycut::sim::cams {

@@ -9,6 +9,9 @@
 #include <type_traits>
 
 #include "base/text.hpp"
+#include "devices/camming4/cam_table.hpp"
+#include "devices/lx3vp/ecam_table.hpp"
+#include "devices/plcopen/tab_file.hpp"
 #include "sim/cams/kinds.hpp"
 
 namespace drycut::sim::cams {

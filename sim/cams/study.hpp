@@ -6,8 +6,8 @@
 
 #include "base/problem.hpp"
 #include "devices/cam/table.hpp"
+#include "sim/cams/course.hpp"
 #include "sim/cams/csv.hpp"
-#include "sim/cams/ideal.hpp"
 #include "sim/cams/motion_plot.hpp"
 #include "sim/cams/report.hpp"
 

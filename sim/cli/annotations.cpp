@@ -9,6 +9,7 @@
 
 #include "base/plain_text.hpp"
 #include "sim/file.hpp"
+#include "sim/loop/known_events.hpp"
 #include "sim/studies/fingerprint.hpp"
 
 namespace drycut::sim::cli {

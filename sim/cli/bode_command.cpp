@@ -32,18 +32,18 @@ void check_options(const BodeOptions& options, Problems& problems) {
 }
 
 /// What a limit is held against.
-struct Known {
+struct KnownMargin {
   std::optional<studies::AtFrequency> margin;
   std::string why_not;  ///< it is not known
 };
 
-Known known_phase(const studies::LoopResult& result) {
+KnownMargin known_phase(const studies::LoopResult& result) {
   if (!studies::loop_doubts(result).empty()) return {{}, "what was measured is not to be trusted"};
   return {result.margins.phase, "it lies outside these frequencies"};
 }
 
 /// With play the least of all amplitudes counts.
-Known known_gain(const studies::LoopResult& result, const studies::LimitCycle* cycle) {
+KnownMargin known_gain(const studies::LoopResult& result, const studies::LimitCycle* cycle) {
   if (cycle != nullptr && cycle->from()) {
     const auto& sines = cycle->least;
     const bool pushed = cycle->hunting && cycle->hunting->from;
@@ -59,7 +59,7 @@ Known known_gain(const studies::LoopResult& result, const studies::LimitCycle* c
 std::vector<record::CheckResult> judged(const BodeOptions& options, const studies::LoopResult& result,
                                         const studies::LimitCycle* cycle) {
   std::vector<record::CheckResult> checks;
-  const auto judge = [&](const char* name, const std::optional<double>& limit, const Known& known,
+  const auto judge = [&](const char* name, const std::optional<double>& limit, const KnownMargin& known,
                          const char* unit) {
     if (!limit) return;
     record::CheckResult check{name, fmt::format("{} >= {:g} {}", name, *limit, unit), false, {}, unit, {},
@@ -119,13 +119,13 @@ int measure_bode(const BodeOptions& options) {
   std::optional<studies::LoopResult> result;
   std::optional<studies::LimitCycle> cycle;
   if (problems.empty() && options.limit_cycle) {
-    Progress bar;
+    ProgressBar bar;
     cycle = studies::find_limit_cycle(scenario, options.loop, problems, [&](double done) {
       bar.show("measuring " + options.scenario.stem().string(), done);
     });
     if (cycle) result = cycle->margins[cycle->least.value_or(cycle->margins.size() / 2)].loop;
   } else if (problems.empty()) {
-    Progress bar;
+    ProgressBar bar;
     result = studies::measure_both(scenario, options.loop, problems, [&](double done) {
       bar.show("measuring " + options.scenario.stem().string(), done);
     });

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "devices/camming4/codes.hpp"
 #include "devices/camming4/messages.hpp"
+#include "devices/camming4/sector.hpp"
 #include "sim/cli/pages.hpp"
 
 namespace drycut::sim::cli {

@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "base/text.hpp"
-#include "devices/catalogue.hpp"
-#include "devices/lx3vp/il_doubts.hpp"
+#include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/register_file.hpp"
 #include "devices/plcopen/st/program.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/program.hpp"
 #include "sim/cams/study.hpp"
@@ -37,27 +37,27 @@ class Checker {
 
   void check(const std::filesystem::path& file) {
     switch (kind_of(file)) {
-      case Kind::scenario:
-      case Kind::comparison:
+      case FileKind::scenario:
+      case FileKind::comparison:
         return check_scenario(file);
-      case Kind::configuration:
+      case FileKind::configuration:
         return check_configuration(file);
-      case Kind::module:
+      case FileKind::module:
         return check_module(file);
-      case Kind::instruction_list:
-      case Kind::program_table:
+      case FileKind::instruction_list:
+      case FileKind::program_table:
         if (const auto text = read_file(file, problems_))
           take_doubts(devices::lx3vp::il::compile(*text, file.string(), problems_));
         return;
-      case Kind::structured_text:
+      case FileKind::structured_text:
         if (const auto text = read_file(file, problems_))
           devices::plcopen::st::compile(*text, file.string(), problems_);
         return;
-      case Kind::registers:
+      case FileKind::registers:
         if (const auto text = read_file(file, problems_))
           devices::lx3vp::read_register_values(*text, file.string(), ',', problems_);
         return;
-      case Kind::cam_table:
+      case FileKind::cam_table:
         if (const auto text = read_file(file, problems_))
           cams::read_cam(lower(file.extension().string()) == ".tab" ? "mc_camin" : "",
                          with_values(*text, file, {}, problems_).text, file.string(), problems_);
@@ -78,7 +78,7 @@ class Checker {
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
-  void take_doubts(const devices::lx3vp::il::Program& program) {
+  void take_doubts(const devices::lx3vp::il::IlProgram& program) {
     for (auto& doubt : devices::lx3vp::il::doubts(program)) notes_.push_back(std::move(doubt));
   }
 

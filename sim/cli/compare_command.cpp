@@ -7,7 +7,7 @@
 
 #include "base/output_file.hpp"
 #include "sim/cli/arguments.hpp"
-#include "sim/scenario/yaml_reader.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/studies/compare/alignment.hpp"
 #include "sim/studies/compare/report.hpp"
 

@@ -12,8 +12,8 @@
 #include "base/plain_text.hpp"
 #include "base/text.hpp"
 #include "sim/cli/arguments.hpp"
-#include "sim/record/csv_files.hpp"
 #include "sim/record/own_file.hpp"
+#include "sim/record/trace_files.hpp"
 #include "sim/studies/compare/run_folder.hpp"
 #include "sim/studies/convert.hpp"
 

@@ -16,8 +16,8 @@
 #include "sim/file.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/report/report.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 #include "sim/studies/design/scene.hpp"
 
 namespace drycut::sim::cli {

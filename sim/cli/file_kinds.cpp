@@ -24,82 +24,83 @@ namespace fs = std::filesystem;
 namespace {
 
 struct KindRow {
-  Kind kind;
+  FileKind kind;
   std::string_view what;
   std::string_view use;      ///< who takes it
   std::string_view endings;  ///< that files of this kind have, of several kinds the first is meant
 };
 
 constexpr std::array file_kinds = {
-    KindRow{Kind::scenario, "a scenario", "drycut run takes it", ".yaml .yml"},
-    KindRow{Kind::comparison, "a scene that compares runs", "drycut run takes it", ""},
-    KindRow{Kind::session, "a recorded session",
+    KindRow{FileKind::scenario, "a scenario", "drycut run takes it", ".yaml .yml"},
+    KindRow{FileKind::comparison, "a scene that compares runs", "drycut run takes it", ""},
+    KindRow{FileKind::session, "a recorded session",
             "drycut replay runs it again, drycut live --from goes on from it", ""},
-    KindRow{Kind::configuration, "a QMOVE configuration",
+    KindRow{FileKind::configuration, "a QMOVE configuration",
             "drycut check takes it; a scenario names it as controller.qmove.configuration", ".cnf"},
-    KindRow{Kind::module, "a QCL module",
+    KindRow{FileKind::module, "a QCL module",
             "drycut check takes it behind its .cnf; a scenario names it in controller.qmove.tasks",
             ".mod .qcl"},
-    KindRow{Kind::instruction_list, "an instruction list",
+    KindRow{FileKind::instruction_list, "an instruction list",
             "drycut check takes it; a scenario names it as controller.lx3vp.program", ".il"},
-    KindRow{Kind::structured_text, "Structured Text",
+    KindRow{FileKind::structured_text, "Structured Text",
             "drycut check takes it; a scenario names it as controller.plcopen.program", ".st"},
-    KindRow{Kind::cam_table, "a cam table",
+    KindRow{FileKind::cam_table, "a cam table",
             "drycut cam takes it; a scenario names it where its controller is set up", ".csv .tab"},
-    KindRow{Kind::registers, "a file of registers",
+    KindRow{FileKind::registers, "a file of registers",
             "drycut check takes it; a scenario names it as controller.lx3vp.registers", ""},
-    KindRow{Kind::program_table, "an instruction list as a table",
+    KindRow{FileKind::program_table, "an instruction list as a table",
             "drycut check takes it; a scenario names it as controller.lx3vp.program", ""},
-    KindRow{Kind::trace, "the trace of a run", "drycut convert takes it, drycut compare its folder", ""},
-    KindRow{Kind::events, "the events of a run", "drycut convert and drycut compare take its folder", ""},
-    KindRow{Kind::checks, "a file of JSON", "if a run wrote it, drycut compare takes its folder", ".json"},
-    KindRow{Kind::hdf5, "a record in HDF5", "drycut convert takes it", ".h5 .hdf5"},
-    KindRow{Kind::mcap, "a record in MCAP", "Foxglove and PlotJuggler show it", ".mcap"},
-    KindRow{Kind::report, "a report", "a browser shows it", ".html .htm"},
-    KindRow{Kind::junit, "a file of XML", "if a run wrote it, it is for CI", ".xml"},
-    KindRow{Kind::model, "a model in 3-D", "a scenario names it in pictures.meshes; viewers show it",
+    KindRow{FileKind::trace, "the trace of a run", "drycut convert takes it, drycut compare its folder", ""},
+    KindRow{FileKind::events, "the events of a run", "drycut convert and drycut compare take its folder", ""},
+    KindRow{FileKind::checks, "a file of JSON", "if a run wrote it, drycut compare takes its folder",
+            ".json"},
+    KindRow{FileKind::hdf5, "a record in HDF5", "drycut convert takes it", ".h5 .hdf5"},
+    KindRow{FileKind::mcap, "a record in MCAP", "Foxglove and PlotJuggler show it", ".mcap"},
+    KindRow{FileKind::report, "a report", "a browser shows it", ".html .htm"},
+    KindRow{FileKind::junit, "a file of XML", "if a run wrote it, it is for CI", ".xml"},
+    KindRow{FileKind::model, "a model in 3-D", "a scenario names it in pictures.meshes; viewers show it",
             ".stl .obj .ply .off .dae .gltf .glb"},
-    KindRow{Kind::picture, "a picture", "any viewer shows it", ".png .jpg .jpeg .svg"},
-    KindRow{Kind::film, "a film", "a browser plays it", ".mp4 .webm"},
-    KindRow{Kind::run_folder, "the folder of a run", "drycut compare and drycut convert take it", ""},
-    KindRow{Kind::session_folder, "the folder of a recorded session",
+    KindRow{FileKind::picture, "a picture", "any viewer shows it", ".png .jpg .jpeg .svg"},
+    KindRow{FileKind::film, "a film", "a browser plays it", ".mp4 .webm"},
+    KindRow{FileKind::run_folder, "the folder of a run", "drycut compare and drycut convert take it", ""},
+    KindRow{FileKind::session_folder, "the folder of a recorded session",
             "drycut replay runs it again, drycut live --from goes on from it", ""},
-    KindRow{Kind::folder, "a folder", "name a file", ""},
+    KindRow{FileKind::folder, "a folder", "name a file", ""},
 };
 
-const KindRow* row_of(Kind kind) {
+const KindRow* row_of(FileKind kind) {
   const auto* const found =
       std::ranges::find_if(file_kinds, [&](const auto& row) { return row.kind == kind; });
   return found == file_kinds.end() ? nullptr : found;
 }
 
-Kind kind_of_folder(const fs::path& folder) {
+FileKind kind_of_folder(const fs::path& folder) {
   std::error_code ignored;
-  if (fs::exists(folder / live::session_file, ignored)) return Kind::session_folder;
-  return fs::exists(folder / report::checks_file, ignored) ? Kind::run_folder : Kind::folder;
+  if (fs::exists(folder / live::session_file, ignored)) return FileKind::session_folder;
+  return fs::exists(folder / report::checks_file, ignored) ? FileKind::run_folder : FileKind::folder;
 }
 
-Kind kind_of_yaml(const fs::path& file, std::string_view text) {
-  if (live::is_session(file)) return Kind::session;
+FileKind kind_of_yaml(const fs::path& file, std::string_view text) {
+  if (live::is_session(file)) return FileKind::session;
   const bool compares = text.starts_with("compare:") || text.find("\ncompare:") != std::string_view::npos;
-  return compares ? Kind::comparison : Kind::scenario;
+  return compares ? FileKind::comparison : FileKind::scenario;
 }
 
-Kind kind_of_csv(const std::string& text) {
-  if (text.starts_with("time [s],source,event")) return Kind::events;
-  if (text.starts_with("time [s],")) return Kind::trace;
-  if (devices::lx3vp::il::is_table(text)) return Kind::program_table;
-  return devices::lx3vp::is_register_file(text, ',') ? Kind::registers : Kind::cam_table;
+FileKind kind_of_csv(const std::string& text) {
+  if (text.starts_with("time [s],source,event")) return FileKind::events;
+  if (text.starts_with("time [s],")) return FileKind::trace;
+  if (devices::lx3vp::il::is_table(text)) return FileKind::program_table;
+  return devices::lx3vp::is_register_file(text, ',') ? FileKind::registers : FileKind::cam_table;
 }
 
 struct Taken {
   std::string_view command;
   std::string_view option;
-  std::vector<Kind> kinds;  ///< the first is what it is for
+  std::vector<FileKind> kinds;  ///< the first is what it is for
 };
 
 const std::vector<Taken>& taken() {
-  using enum Kind;
+  using enum FileKind;
   static const std::vector<Taken> all = {
       {"run", "scenarios", {scenario, comparison, session}},
       {"live", "scenario", {scenario}},
@@ -123,7 +124,7 @@ const std::vector<Taken>& taken() {
 /// "name a file in it: a.yaml, b.yaml"
 std::string remedy_for(const KindRow& found, const fs::path& file) {
   std::string names;
-  if (found.kind == Kind::folder)
+  if (found.kind == FileKind::folder)
     for (const auto& one : files_in(file, ".yaml")) names += (names.empty() ? "" : ", ") + one.string();
   return names.empty() ? std::string(found.use) : "name a file in it: " + names;
 }
@@ -144,7 +145,7 @@ void refuse(const Taken& command, const std::vector<std::string>& files) {
 
 }  // namespace
 
-Kind kind_of(const fs::path& file) {
+FileKind kind_of(const fs::path& file) {
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) return kind_of_folder(file);
   const auto ending = lower(file.extension().string());
@@ -152,19 +153,19 @@ Kind kind_of(const fs::path& file) {
     const auto endings = split_words(kind.endings, {}, " ");
     return std::ranges::any_of(endings, [&](const auto& one) { return one.text == ending; });
   });
-  if (ending.empty() || row == file_kinds.end()) return Kind::unknown;
-  const bool is_yaml = row->kind == Kind::scenario;
+  if (ending.empty() || row == file_kinds.end()) return FileKind::unknown;
+  const bool is_yaml = row->kind == FileKind::scenario;
   if (!is_yaml && ending != ".csv") return row->kind;
   Problems told_by_the_reader;
   const auto text = read_file(file, told_by_the_reader);
   // A trace may be longer than what is read.
   if (!text && !is_yaml && fs::is_regular_file(file, ignored) && fs::file_size(file, ignored) > largest_input)
-    return Kind::trace;
+    return FileKind::trace;
   if (!text) return row->kind;
   return is_yaml ? kind_of_yaml(file, *text) : kind_of_csv(*text);
 }
 
-std::string_view name_of(Kind kind) {
+std::string_view name_of(FileKind kind) {
   const auto* row = row_of(kind);
   return row == nullptr ? "" : row->what;
 }

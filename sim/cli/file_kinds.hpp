@@ -9,7 +9,7 @@ class App;
 namespace drycut::sim::cli {
 
 /// What a file is that a user may name.
-enum class Kind {
+enum class FileKind {
   unknown,  ///< or nothing that can be read: whoever reads it says more
   scenario,
   comparison,
@@ -37,10 +37,10 @@ enum class Kind {
 };
 
 /// By its ending, and by what it holds where several kinds have that ending.
-Kind kind_of(const std::filesystem::path& file);
+FileKind kind_of(const std::filesystem::path& file);
 
 /// "a QMOVE configuration"; "" = unknown.
-std::string_view name_of(Kind kind);
+std::string_view name_of(FileKind kind);
 
 /// Has the commands refuse a file that is of a kind which they do not take, and say what it is and who takes
 /// it: all such files of a command line, before the command begins. Then CLI::RuntimeError is thrown with the

@@ -26,7 +26,7 @@
 #include "sim/live/server.hpp"
 #include "sim/live/session.hpp"
 #include "sim/record/recording.hpp"
-#include "sim/scenario/yaml_reader.hpp"
+#include "sim/scenario/archive.hpp"
 
 namespace drycut::sim::cli {
 
@@ -146,10 +146,11 @@ int run_line(const LiveOptions& options, const std::filesystem::path& opcua, liv
   const OnEnd end([&] { line.stop(); });
   const auto token = is_own(options.listen) ? "" : make_token();
   live::Server server({options.listen, static_cast<std::uint16_t>(options.port), token}, line);
-  std::optional<live::modbus::Server> modbus;
+  std::optional<live::modbus::ModbusServer> modbus;
   if (options.modbus)
-    modbus.emplace(live::modbus::Server::Options{options.listen, static_cast<std::uint16_t>(*options.modbus)},
-                   line);
+    modbus.emplace(
+        live::modbus::ModbusServer::Options{options.listen, static_cast<std::uint16_t>(*options.modbus)},
+        line);
   std::optional<live::OpcuaGateway> gateway;
   if (options.opcua) {
     const auto port = live::free_port(options.listen, static_cast<std::uint16_t>(*options.opcua));

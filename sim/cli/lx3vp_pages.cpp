@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/ecamtbx.hpp"
-#include "devices/lx3vp/ecamtbx_words.hpp"
-#include "devices/lx3vp/il_mnemonics.hpp"
+#include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "devices/lx3vp/il_operands.hpp"
+#include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/modbus_map.hpp"
+#include "devices/lx3vp/registers.hpp"
 #include "sim/cli/pages.hpp"
 
 namespace drycut::sim::cli {
@@ -31,7 +31,7 @@ Sheet::Cell offsets(const Word& word) {
 }
 
 /// Where the manual is silent and what is done here.
-Sheet readings_of(std::span<const lx3vp::Reading> readings) {
+Sheet readings_of(std::span<const lx3vp::BlockReading> readings) {
   Sheet sheet("readings", "Readings of ours, where the manual is silent or contradicts itself",
               {"where", "reading"});
   for (const auto& reading : readings) sheet.add({reading.where, reading.text});

@@ -6,10 +6,9 @@
 #include <string>
 
 #include "base/text.hpp"
-#include "devices/plcopen/axis_values.hpp"
+#include "devices/plcopen/axis.hpp"
 #include "devices/plcopen/errors.hpp"
 #include "devices/plcopen/kernel.hpp"
-#include "devices/plcopen/numbered_parameters.hpp"
 #include "devices/plcopen/pins.hpp"
 #include "devices/plcopen/readings.hpp"
 #include "devices/plcopen/st/language.hpp"
@@ -116,7 +115,7 @@ Page plcopen_page() {
 
 template <std::size_t count>
 Sheet rows_of(const std::string& key, const std::string& title,
-              const std::array<plcopen::st::LanguageRow, count>& rows) {
+              const std::array<plcopen::st::StRow, count>& rows) {
   Sheet sheet(key, title, {"form", "meaning"});
   for (const auto& [form, meaning] : rows) sheet.add({form, meaning});
   return sheet;

@@ -8,11 +8,11 @@
 
 namespace drycut::sim::cli {
 
-Progress::Progress(bool wanted) : terminal_(wanted && isatty(STDERR_FILENO) != 0) {}
+ProgressBar::ProgressBar(bool wanted) : terminal_(wanted && isatty(STDERR_FILENO) != 0) {}
 
-Progress::~Progress() { clear(); }
+ProgressBar::~ProgressBar() { clear(); }
 
-void Progress::show(const std::string& label, double done) {
+void ProgressBar::show(const std::string& label, double done) {
   constexpr int width = 30;
   if (!terminal_) return;
   const std::lock_guard lock(mutex_);
@@ -26,7 +26,7 @@ void Progress::show(const std::string& label, double done) {
   std::fflush(stderr);
 }
 
-void Progress::clear() {
+void ProgressBar::clear() {
   if (!terminal_) return;
   const std::lock_guard lock(mutex_);
   if (shown_ < 0) return;

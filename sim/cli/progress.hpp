@@ -6,13 +6,13 @@ namespace drycut::sim::cli {
 
 /// A progress bar on standard error, where that is a terminal; nothing elsewhere. Safe to use from several
 /// threads.
-class Progress {
+class ProgressBar {
  public:
   /// `wanted`: else nothing anywhere.
-  explicit Progress(bool wanted = true);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  explicit ProgressBar(bool wanted = true);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
 
   /// Draws the bar: `done` 0..1 of what `label` says.
   void show(const std::string& label, double done);

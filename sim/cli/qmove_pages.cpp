@@ -6,8 +6,8 @@
 #include <iterator>
 
 #include "base/text.hpp"
-#include "devices/catalogue.hpp"
 #include "devices/device.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/language.hpp"
 #include "devices/qmove/machine.hpp"
 #include "sim/cli/pages.hpp"
@@ -37,8 +37,8 @@ std::string_view access_text(devices::Access access) {
 }
 
 /// The reading of a row, nullptr if the manual says all of it.
-const devices::Reading* reading_of(const devices::DeviceType& type, std::string_view row) {
-  const auto found = std::ranges::find(type.readings, row, &devices::Reading::of);
+const devices::ManualReading* reading_of(const devices::DeviceType& type, std::string_view row) {
+  const auto found = std::ranges::find(type.readings, row, &devices::ManualReading::of);
   return found == type.readings.end() ? nullptr : &*found;
 }
 
@@ -126,7 +126,7 @@ Page device_page(const devices::DeviceType& type) {
 
 template <std::size_t count>
 Sheet rows_of(const std::string& key, const std::string& title,
-              const std::array<devices::qmove::LanguageRow, count>& rows) {
+              const std::array<devices::qmove::QclRow, count>& rows) {
   Sheet sheet(key, title, {"form", "meaning", "reading=reading of ours, where the manuals leave it open"});
   for (const auto& [form, meaning, reading] : rows)
     sheet.add({form, meaning, reading.empty() ? Sheet::Cell(nullptr) : Sheet::Cell(reading)});

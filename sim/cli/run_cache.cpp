@@ -142,12 +142,12 @@ RunCache::RunCache(fs::path folder, Problems& problems, std::uintmax_t most)
 
 fs::path RunCache::entry_of(const std::string& inputs) const { return folder_ / fingerprint_of(inputs); }
 
-std::optional<KeptRun> RunCache::take(const std::string& inputs, OutputFolder& to) const {
+std::optional<CachedRun> RunCache::take(const std::string& inputs, OutputFolder& to) const {
   const auto entry = entry_of(inputs);
   try {
     const auto json = sound_entry(entry, inputs);
     if (!json) return {};
-    KeptRun run;
+    CachedRun run;
     record::take_json(json->at("run"), run);
     for (const auto& [name, fingerprint] : json->at("files").items())
       fs::copy_file(entry / "files" / name, to.add(name), fs::copy_options::overwrite_existing);
@@ -161,7 +161,7 @@ std::optional<KeptRun> RunCache::take(const std::string& inputs, OutputFolder& t
   }
 }
 
-void RunCache::keep(const std::string& inputs, const OutputFolder& from, const KeptRun& run) const {
+void RunCache::keep(const std::string& inputs, const OutputFolder& from, const CachedRun& run) const {
   const auto entry = entry_of(inputs);
   const auto begun = fs::path(fmt::format("{}.{}", entry.string(), getpid()));
   std::error_code error;

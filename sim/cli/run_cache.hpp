@@ -25,7 +25,7 @@ struct RunKind {
 std::string inputs_of_run(const scenario::Scenario& scenario, const FileSet& files, const RunKind& kind);
 
 /// What a run left beside its files.
-struct KeptRun {
+struct CachedRun {
   record::Outcome outcome;
   bool has_report = false;
   std::vector<std::string> notes;
@@ -51,9 +51,9 @@ class RunCache {
 
   /// Puts the files of the run of these inputs into `to`; nullopt if there is no such run, it is damaged,
   /// or it cannot be copied: what was written of it until then the run writes anew.
-  [[nodiscard]] std::optional<KeptRun> take(const std::string& inputs, OutputFolder& to) const;
+  [[nodiscard]] std::optional<CachedRun> take(const std::string& inputs, OutputFolder& to) const;
   /// Throws std::runtime_error if it cannot be kept.
-  void keep(const std::string& inputs, const OutputFolder& from, const KeptRun& run) const;
+  void keep(const std::string& inputs, const OutputFolder& from, const CachedRun& run) const;
 
  private:
   [[nodiscard]] std::filesystem::path entry_of(const std::string& inputs) const;

@@ -116,7 +116,7 @@ void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options)
   // Cores that no scenario runs on help to draw; the pictures are the same whoever draws them.
   const auto running = std::min<std::size_t>(static_cast<std::size_t>(options.jobs), jobs.size());
   const auto drawing_threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency() / running));
-  Progress bar(options.say != Say::failures);
+  ProgressBar bar(options.say != Say::failures);
   Problems ignored;  // it is there
   const auto cache =
       options.cache.empty() ? std::nullopt : std::optional<RunCache>(std::in_place, options.cache, ignored);

@@ -9,8 +9,7 @@
 #include "base/text.hpp"
 #include "sim/cams/study.hpp"
 #include "sim/cli/pages.hpp"
-#include "sim/controllers/kinds.hpp"
-#include "sim/scenario/forms.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/studies/compare/scene.hpp"
 
 namespace drycut::sim::cli {
@@ -90,7 +89,7 @@ class KeyLister final : public Archive {
   }
   void controller(const Key& key, std::unique_ptr<scenario::ControllerSection>&) override {
     add(key, "a map of one key");
-    for (const auto& kind : controllers::controller_kinds()) {
+    for (const auto& kind : scenario::controller_kinds()) {
       const auto scratch = kind.make();
       inside(fmt::format("controller.{}", kind.name), [&](Archive& inner) { scratch->visit(inner); });
     }

@@ -126,7 +126,7 @@ int size_drive(const SizeOptions& options) {
     }
     folder->begin_aside({runs_file});
     studies::PointStore store(folder->add(runs_file), std::move(workers));
-    Progress bar;
+    ProgressBar bar;
     const auto sized = studies::size_drives(plan.question, plan.choices.drive, plan.candidates, plan.corners,
                                             store, [&](std::size_t done, std::size_t of) {
                                               bar.show(fmt::format("sizing, run {} of {}", done, of),

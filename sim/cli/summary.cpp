@@ -36,9 +36,9 @@ std::string verdict(const report::RunResult& result) {
   return warnings == 0 ? "passed" : "passed, " + counted(warnings, "warning");
 }
 
-class Text {
+class SummaryText {
  public:
-  explicit Text(const Summary& summary) : summary_(summary) {}
+  explicit SummaryText(const Summary& summary) : summary_(summary) {}
 
   std::string of(const std::vector<report::RunResult>& results) {
     const auto good = static_cast<std::size_t>(
@@ -123,7 +123,7 @@ class Text {
 }  // namespace
 
 std::string summary_text(const std::vector<report::RunResult>& results, const Summary& summary) {
-  return Text(summary).of(results);
+  return SummaryText(summary).of(results);
 }
 
 std::string summary_text(const Problems& problems) {

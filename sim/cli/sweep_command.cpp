@@ -95,7 +95,7 @@ class Countdown {
 
  private:
   std::string doing_;
-  Progress bar_;
+  ProgressBar bar_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 

@@ -23,7 +23,7 @@ int tune(const TuneOptions& options, const studies::TunePlan& plan, OutputFolder
     print_problems(problems);
     return bad_input;
   }
-  Progress bar;
+  ProgressBar bar;
   const auto tuned = studies::tune(plan, options, workers, folder,
                                    [&](const char* doing, double share) { bar.show(doing, share); });
   bar.clear();

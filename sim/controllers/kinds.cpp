@@ -9,23 +9,44 @@
 #include "base/text.hpp"
 #include "sim/controllers/program_files.hpp"
 #include "sim/file.hpp"
-#include "sim/scenario/forms.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/variables.hpp"
 
-namespace drycut::sim::controllers {
+namespace drycut::sim {
 
 namespace {
+
+using scenario::ControllerKind;
 
 template <typename Section>
 std::unique_ptr<scenario::ControllerSection> make() {
   return std::make_unique<Section>();
 }
 
+// All of them: what drycut can load is in this list and nowhere else.
 constexpr std::array kinds = {
-    ControllerKind{"qmove", "{configuration: ...}", make<QmoveSection>},
-    ControllerKind{"lx3vp", "{program: ...}", make<Lx3vpSection>},
-    ControllerKind{"plcopen", "{program: ...}", make<PlcopenSection>},
+    ControllerKind{"qmove", "{configuration: ...}", make<controllers::QmoveSection>},
+    ControllerKind{"lx3vp", "{program: ...}", make<controllers::Lx3vpSection>},
+    ControllerKind{"plcopen", "{program: ...}", make<controllers::PlcopenSection>},
 };
+
+}  // namespace
+
+namespace scenario {
+
+std::span<const ControllerKind> controller_kinds() { return kinds; }
+
+const ControllerKind* controller_kind(std::string_view name) {
+  const auto* const found =
+      std::find_if(kinds.begin(), kinds.end(), [&](const ControllerKind& kind) { return kind.name == name; });
+  return found == kinds.end() ? nullptr : found;
+}
+
+}  // namespace scenario
+
+namespace controllers {
+
+namespace {
 
 /// What texts of programs end in, and the key that takes them.
 struct Ending {
@@ -44,14 +65,6 @@ constexpr std::array endings = {
 };
 
 }  // namespace
-
-std::span<const ControllerKind> controller_kinds() { return kinds; }
-
-const ControllerKind* controller_kind(std::string_view name) {
-  const auto* const found =
-      std::find_if(kinds.begin(), kinds.end(), [&](const ControllerKind& kind) { return kind.name == name; });
-  return found == kinds.end() ? nullptr : found;
-}
 
 void visit_memory(scenario::Archive& archive, scenario::ControllerSection& section) {
   archive.value({"retentive", "a file that keeps retentive values from run to run"},
@@ -98,4 +111,5 @@ std::optional<std::string> read_named_table(const scenario::Text& path, const sc
   return text;
 }
 
-}  // namespace drycut::sim::controllers
+}  // namespace controllers
+}  // namespace drycut::sim

@@ -1,12 +1,11 @@
 #pragma once
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "devices/modbus_face.hpp"
+#include "devices/controller.hpp"
 #include "devices/plcopen/axis_parameters.hpp"
 #include "sim/scenario/archive.hpp"
 
@@ -16,19 +15,8 @@ class PlcopenController;
 
 namespace drycut::sim::controllers {
 
-/// A kind of controller that a scenario can name.
-struct ControllerKind {
-  std::string_view name;     ///< "qmove"
-  std::string_view example;  ///< of its section: "{configuration: ...}"
-  std::unique_ptr<scenario::ControllerSection> (*make)();
-};
-
-/// All of them: what drycut can load is in this list and nowhere else.
-std::span<const ControllerKind> controller_kinds();
-/// nullptr if there is none of that name.
-const ControllerKind* controller_kind(std::string_view name);
-
-// What each of them is in a scenario: its keys, its files, how it is loaded; one a file of this folder.
+// What each kind of controller is in a scenario: its keys, its files, how it is loaded; one a file of this
+// folder.
 
 /// controller: qmove: ...
 struct QmoveSection final : scenario::ControllerSection {
@@ -71,7 +59,7 @@ struct PlcopenSection final : scenario::ControllerSection {
   struct Axis {
     scenario::Text name;
     devices::plcopen::AxisConfiguration configuration = {};
-    std::vector<std::pair<std::string, scenario::Place>> places =
+    std::vector<std::pair<std::string, scenario::ScenePlace>> places =
         {};                               ///< of the parameters that the file gives
     std::vector<std::string> notes = {};  ///< numbers without a unit beside others that have one
   };

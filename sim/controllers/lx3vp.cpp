@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include "devices/lx3vp/il_doubts.hpp"
+#include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/lx3vp_controller.hpp"
 #include "sim/controllers/kinds.hpp"
 #include "sim/controllers/program_files.hpp"
-#include "sim/scenario/forms.hpp"
+#include "sim/scenario/archive.hpp"
 
 namespace drycut::sim::controllers {
 
@@ -44,7 +44,7 @@ struct GivenValue {
 };
 
 /// Of values that the first scan replaces nothing is left when the machine begins.
-void note_overwritten(const lx3vp::il::Program& program, Time scan, const std::vector<GivenValue>& given,
+void note_overwritten(const lx3vp::il::IlProgram& program, Time scan, const std::vector<GivenValue>& given,
                       std::vector<std::string>& notes) {
   lx3vp::Lx3vpController trial(program, scan);
   std::vector<double> before;
@@ -72,7 +72,7 @@ std::unique_ptr<devices::Controller> Lx3vpSection::load(const scenario::Scenario
   const auto path_of = [&](const scenario::Text& path) {
     return (scenario.file.parent_path() / path.text).string();
   };
-  lx3vp::il::Program compiled;
+  lx3vp::il::IlProgram compiled;
   if (const auto text = read_program("lx3vp.program", program, scenario, problems))
     compiled = lx3vp::il::compile(*text, path_of(program), problems);
   if (notes != nullptr)

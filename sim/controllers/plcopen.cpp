@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "base/text.hpp"
-#include "devices/plcopen/controller.hpp"
+#include "devices/plcopen/controller/controller.hpp"
 #include "devices/plcopen/tab_file.hpp"
 #include "sim/controllers/kinds.hpp"
 #include "sim/controllers/plcopen_scales.hpp"
 #include "sim/controllers/program_files.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/format.hpp"
-#include "sim/scenario/forms.hpp"
 
 namespace drycut::sim::controllers {
 
@@ -68,10 +68,10 @@ void judge_axis_names(const std::vector<PlcopenSection::Axis>& axes, scenario::F
 }
 
 /// The cam tables, each under its file's name and its own id.
-std::vector<plcopen::CamTable> load_tables(const PlcopenSection& section,
-                                           const std::vector<plcopen::AxisConfiguration>& axes,
-                                           const scenario::Scenario& scenario, Problems& problems) {
-  std::vector<plcopen::CamTable> tables;
+std::vector<plcopen::McCamTable> load_tables(const PlcopenSection& section,
+                                             const std::vector<plcopen::AxisConfiguration>& axes,
+                                             const scenario::Scenario& scenario, Problems& problems) {
+  std::vector<plcopen::McCamTable> tables;
   std::vector<plcopen::MasterTurn> masters;
   for (const auto& [name, parameters, measure] : axes)
     if (parameters.is_master && parameters.modulo > 0) masters.push_back({name, parameters.modulo});
@@ -88,7 +88,7 @@ std::vector<plcopen::CamTable> load_tables(const PlcopenSection& section,
     }
     const auto text = read_named_table(entry.file, scenario, problems);
     if (!text) continue;
-    std::optional<plcopen::CamTable> table;
+    std::optional<plcopen::McCamTable> table;
     if (path.extension() == ".tab") {
       table = plcopen::parse_tab(*text, path.string(), problems);
     } else if (auto cam = plcopen::parse_cam_csv(*text, path.string(), problems, masters)) {
@@ -113,7 +113,7 @@ std::vector<plcopen::CamTable> load_tables(const PlcopenSection& section,
 
 /// What the program names must be there: axes and tables.
 void check_names(const plcopen::st::Program& program, const std::string& file,
-                 const plcopen::Configuration& configuration, Problems& problems) {
+                 const plcopen::PlcopenConfiguration& configuration, Problems& problems) {
   const auto check = [&](const std::vector<plcopen::st::Program::Name>& wanted,
                          const std::vector<std::string>& there, bool any_case, std::string_view what,
                          std::string_view section) {
@@ -272,7 +272,7 @@ std::unique_ptr<devices::Controller> PlcopenSection::load(const scenario::Scenar
                                                           std::vector<std::string>* notes) const {
   const auto before = problems.size();
   const auto file = (scenario.file.parent_path() / program.text).string();
-  plcopen::Configuration configuration;
+  plcopen::PlcopenConfiguration configuration;
   configuration.cycle_ns = cycle;
   configuration.task_ns = task_cycle;
   configuration.statement_ns = statement_time;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "sim/controllers/kinds.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/axis_units.hpp"
-#include "sim/scenario/forms.hpp"
 #include "sim/scenario/units.hpp"
 
 namespace drycut::sim::controllers {

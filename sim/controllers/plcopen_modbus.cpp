@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
-#include "devices/plcopen/controller.hpp"
+#include "devices/plcopen/controller/controller.hpp"
 #include "sim/controllers/kinds.hpp"
-#include "sim/scenario/forms.hpp"
+#include "sim/scenario/archive.hpp"
 
 namespace drycut::sim::controllers {
 
@@ -39,7 +39,8 @@ class Filler {
                      did_you_mean(value.text, controller_.names(),
                                   "name a variable of the program, or a value or parameter of an axis"));
     // A word of what is never negative goes to 65535.
-    if (format == ModbusFormat::int16 && found->range && found->range->low >= 0) format = ModbusFormat::uint16;
+    if (format == ModbusFormat::int16 && found->range && found->range->low >= 0)
+      format = ModbusFormat::uint16;
     const auto other = controller_.modbus_map().add(table, *number, found->name, format, low_first);
     if (!other.empty())
       problem(address.place, fmt::format("{} stands at address {} already", other, *number),
@@ -48,7 +49,7 @@ class Filler {
   }
 
  private:
-  void problem(const scenario::Place& place, std::string what, std::string remedy) {
+  void problem(const scenario::ScenePlace& place, std::string what, std::string remedy) {
     problems_.push_back(scenario::problem_at(scenario_, place, std::move(what), std::move(remedy)));
   }
 

@@ -102,7 +102,7 @@ std::optional<double> circumference_of(const scenario::PlantEntry& plant) {
 }
 
 /// The slope that is nearest to `wanted` among the straight lines of a cam; nothing if it has none.
-std::optional<double> nearest_slope(const plcopen::CamTable& cam, double wanted) {
+std::optional<double> nearest_slope(const plcopen::McCamTable& cam, double wanted) {
   const auto interpolation =
       plcopen::interpolation_of(cam, static_cast<std::uint32_t>(plcopen::Interpolation::table_defined));
   const bool lines = interpolation && (*interpolation == plcopen::Interpolation::linear ||
@@ -131,7 +131,7 @@ std::vector<std::string> contradicting_scales(const PlcopenSection& section,
 }
 
 std::vector<std::string> contradicting_cams(const PlcopenSection& section,
-                                            const std::vector<plcopen::CamTable>& cams,
+                                            const std::vector<plcopen::McCamTable>& cams,
                                             const scenario::Scenario& scenario) {
   std::vector<std::string> found;
   for (const auto& axis : section.axes) {

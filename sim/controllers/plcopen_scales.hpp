@@ -14,7 +14,7 @@ std::vector<std::string> contradicting_scales(const PlcopenSection& section,
                                               const scenario::ControllerSection::ScaleOf& scale_of);
 /// Where no line of a cam of a rotary knife runs at the speed of its web: the cam is for another drum.
 std::vector<std::string> contradicting_cams(const PlcopenSection& section,
-                                            const std::vector<devices::plcopen::CamTable>& cams,
+                                            const std::vector<devices::plcopen::McCamTable>& cams,
                                             const scenario::Scenario& scenario);
 
 }  // namespace drycut::sim::controllers

@@ -1,10 +1,10 @@
-#include "devices/catalogue.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/program.hpp"
 #include "devices/qmove/qmove_controller.hpp"
 #include "sim/controllers/kinds.hpp"
 #include "sim/controllers/program_files.hpp"
-#include "sim/scenario/forms.hpp"
+#include "sim/scenario/archive.hpp"
 
 namespace drycut::sim::controllers {
 
@@ -45,7 +45,7 @@ std::unique_ptr<devices::Controller> QmoveSection::load(const scenario::Scenario
                                            devices::catalogue(), problems);
   // Modules are not judged by a configuration that is not sound.
   if (problems.size() != before) return nullptr;
-  std::vector<qmove::Program> programs;
+  std::vector<qmove::QclProgram> programs;
   for (const auto& task : tasks) {
     const auto module = read_program("qmove.tasks", task, scenario, problems);
     if (!module) continue;

@@ -8,6 +8,7 @@
 
 #include "sim/live/inbox.hpp"
 #include "sim/live/session.hpp"
+#include "sim/loop/names.hpp"
 #include "sim/loop/simulation.hpp"
 
 namespace drycut::sim::live {

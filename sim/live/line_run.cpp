@@ -97,7 +97,8 @@ bool LineRun::looks_like(const LineRun& other) const {
 
 void LineRun::begin(const fs::path& folder, const Inbox& inbox) {
   if (!folder.empty()) {
-    record_ = std::make_unique<Record>(folder, scenario_, replay_.fingerprint, simulation_->recording());
+    record_ =
+        std::make_unique<SessionRecord>(folder, scenario_, replay_.fingerprint, simulation_->recording());
     simulation_->add(*record_);
     const auto& timeline = scenario_.timeline;
     for (auto act = timeline.end() - static_cast<std::ptrdiff_t>(replay_.acts); act != timeline.end(); ++act)

@@ -81,7 +81,7 @@ class LineRun : public record::Observer {
   int number_;
   std::vector<std::string> parts_;
   std::string machine_;
-  std::unique_ptr<Record> record_;  ///< looks at the simulation
+  std::unique_ptr<SessionRecord> record_;  ///< looks at the simulation
   std::unique_ptr<loop::Simulation> simulation_;
   Time next_reached_ = 0;
   std::vector<plants::Part> shown_;

@@ -10,7 +10,7 @@
 
 #include "base/text.hpp"
 #include "sim/record/json.hpp"
-#include "sim/scenario/yaml_reader.hpp"
+#include "sim/scenario/archive.hpp"
 
 namespace drycut::sim::live {
 
@@ -36,9 +36,9 @@ ordered_json range_json(const devices::ValueRange& range) {
 }
 
 /// Reads one request.
-class Parser {
+class RequestParser {
  public:
-  explicit Parser(Problems& problems) : problems_(problems) {}
+  explicit RequestParser(Problems& problems) : problems_(problems) {}
 
   std::optional<decltype(Request::what)> read(const ordered_json& message) {
     if (message.contains("act")) return read_act(message["act"]);
@@ -208,7 +208,7 @@ ordered_json opcua_json(const scenario::OpcuaSection& opcua) {
 }  // namespace
 
 std::optional<Request> parse_request(std::string_view message, Asker asker, double& id, Problems& problems) {
-  Parser parser(problems);
+  RequestParser parser(problems);
   const auto json = ordered_json::parse(message, nullptr, false);
   id = 0;
   if (!json.is_object()) {

@@ -31,8 +31,8 @@ fs::path next_in(const fs::path& folder) {
 
 }  // namespace
 
-Record::Record(const fs::path& folder, const scenario::Scenario& scenario, std::uint64_t fingerprint,
-               const record::Recording& recording) {
+SessionRecord::SessionRecord(const fs::path& folder, const scenario::Scenario& scenario, std::uint64_t fingerprint,
+                      const record::Recording& recording) {
   write([&] {
     folder_ = next_in(folder);
     session_.emplace(folder_ / session_file, scenario, fingerprint);
@@ -40,7 +40,7 @@ Record::Record(const fs::path& folder, const scenario::Scenario& scenario, std::
   });
 }
 
-void Record::write(const std::function<void()>& what) {
+void SessionRecord::write(const std::function<void()>& what) {
   if (!lost_.empty()) return;
   try {
     what();
@@ -49,23 +49,23 @@ void Record::write(const std::function<void()>& what) {
   }
 }
 
-void Record::sample(Time time) {
+void SessionRecord::sample(Time time) {
   write([&] { files_->sample(time); });
 }
 
-void Record::happened(const record::RecordedEvent& event) {
+void SessionRecord::happened(const record::RecordedEvent& event) {
   write([&] { files_->happened(event); });
 }
 
-void Record::finish() {
+void SessionRecord::finish() {
   write([&] { files_->finish(); });
 }
 
-void Record::add(const scenario::Stimulus& act) {
+void SessionRecord::add(const scenario::Stimulus& act) {
   write([&] { session_->add(act); });
 }
 
-void Record::reached(Time now) {
+void SessionRecord::reached(Time now) {
   write([&] { session_->reached(now); });
 }
 

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "sim/live/session.hpp"
-#include "sim/record/observer.hpp"
 #include "sim/record/recording.hpp"
 #include "sim/record/trace_files.hpp"
 
@@ -13,12 +12,12 @@ namespace drycut::sim::live {
 
 /// What a live run writes: its session, its trace and its events. When one of them cannot be written any more
 /// (a full disk), the record ends there, in whole lines, and the run goes on without.
-class Record final : public record::Observer {
+class SessionRecord final : public record::Observer {
  public:
   /// In a new folder in `folder`, which has the next number. `recording` has all its channels and outlives
   /// this.
-  Record(const std::filesystem::path& folder, const scenario::Scenario& scenario, std::uint64_t fingerprint,
-         const record::Recording& recording);
+  SessionRecord(const std::filesystem::path& folder, const scenario::Scenario& scenario,
+                std::uint64_t fingerprint, const record::Recording& recording);
 
   void sample(Time time) override;
   void happened(const record::RecordedEvent& event) override;

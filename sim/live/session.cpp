@@ -11,8 +11,6 @@
 #include "sim/record/own_file.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
-#include "sim/scenario/forms.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 #include "sim/studies/fingerprint.hpp"
 
 namespace drycut::sim::live {
@@ -69,9 +67,9 @@ void move_places(scenario::Stimulus& act, const Move& move) {
 }
 
 /// Reads the lines of a session, each on its own: a session of a day has a hundred thousand of them.
-class Reader {
+class SessionReader {
  public:
-  Reader(std::string file, Problems& problems) : file_(std::move(file)), problems_(problems) {}
+  SessionReader(std::string file, Problems& problems) : file_(std::move(file)), problems_(problems) {}
 
   std::optional<Session> read(std::string_view text) {
     const auto before = problems_.size();
@@ -124,7 +122,7 @@ class Reader {
       return;
     }
     session_.reached = std::max(session_.reached, *act.at);
-    move_places(act, [this](scenario::Place& place) {
+    move_places(act, [this](scenario::ScenePlace& place) {
       place.line += number_ - 1;
       place.column += static_cast<int>(item.size());
     });
@@ -162,7 +160,7 @@ std::optional<Session> read_lines(const std::filesystem::path& file, Problems& p
   constexpr std::uintmax_t largest_session = std::uintmax_t{1} << 30U;
   const auto text = read_file(file, problems, largest_session);
   if (!text) return {};
-  auto session = Reader(file.string(), problems).read(*text);
+  auto session = SessionReader(file.string(), problems).read(*text);
   if (session && session->scenario.is_relative())
     session->scenario = (file.parent_path() / session->scenario).lexically_normal();
   return session;
@@ -274,7 +272,7 @@ std::optional<Replay> read_session(const std::filesystem::path& file, std::optio
   scenario.sources.push_back(file.string());
   for (auto& act : session->acts) {
     if (until && *act.at >= *until) continue;
-    move_places(act, [source](scenario::Place& place) { place.source = source; });
+    move_places(act, [source](scenario::ScenePlace& place) { place.source = source; });
     scenario.timeline.push_back(std::move(act));
     ++replay.acts;
   }

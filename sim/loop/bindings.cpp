@@ -11,9 +11,9 @@ namespace drycut::sim::loop {
 
 namespace {
 
-class Binder {
+class RecordingBinder {
  public:
-  Binder(const Lookup& lookup, record::Recording& recording, Problems& problems)
+  RecordingBinder(const Lookup& lookup, record::Recording& recording, Problems& problems)
       : lookup_(lookup),
         scenario_(lookup.scenario),
         pictures_(lookup.scenario.pictures),
@@ -34,7 +34,7 @@ class Binder {
   }
 
  private:
-  void fault(const scenario::Place& place, std::string what, std::string remedy) {
+  void fault(const scenario::ScenePlace& place, std::string what, std::string remedy) {
     problems_.push_back(scenario::problem_at(scenario_, place, std::move(what), std::move(remedy)));
   }
   void no_channel(const scenario::Text& name) {
@@ -178,7 +178,7 @@ std::vector<std::string> motor_channels(const std::string& plant) {
 }
 
 Captions bind_recording(const Lookup& lookup, record::Recording& recording, Problems& problems) {
-  return Binder(lookup, recording, problems).bind();
+  return RecordingBinder(lookup, recording, problems).bind();
 }
 
 }  // namespace drycut::sim::loop

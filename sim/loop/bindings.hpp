@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/problem.hpp"
+#include "sim/loop/bus.hpp"
 #include "sim/loop/known_events.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/loop/watch.hpp"

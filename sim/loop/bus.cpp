@@ -54,7 +54,7 @@ std::string list(const std::vector<std::string>& names, std::string_view none) {
 
 }  // namespace
 
-void Panel::set(const std::string& name, bool on) {
+void OperatorPanel::set(const std::string& name, bool on) {
   auto& port = switches.at(name);
   if (port.level != on) port.add_edge(on, 0.0);
   if (on) pressed.insert(name);
@@ -155,7 +155,7 @@ class Connector {
     return bus_.filters_->zero_pulse(from, controller_.terminal_name(address), seconds(filter->pulse));
   }
 
-  void problem(const scenario::Place& place, std::string what, std::string remedy) {
+  void problem(const scenario::ScenePlace& place, std::string what, std::string remedy) {
     problems_.push_back(scenario::problem_at(scenario_, place, std::move(what), std::move(remedy)));
   }
 

@@ -1,17 +1,79 @@
 #pragma once
+#include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/problem.hpp"
 #include "devices/controller.hpp"
 #include "plants/plant.hpp"
-#include "sim/loop/input_filters.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
+
+/// What a filter of a card did not let through, for events.
+struct Loss {
+  std::string event;  ///< counts_lost, pulse_lost
+  std::string text;
+};
+
+/// The filters of the cards' inputs: each stands in a wire, from a plug of a plant to what the terminal sees.
+class InputFilters {
+ public:
+  /// A counter that follows `hertz` of one phase, four counts each, and loses what is beyond.
+  const plants::EncoderPort* counter(const plants::EncoderPort* from, std::string terminal, double hertz);
+  /// A line that sees zero pulses of `seconds` or more.
+  const plants::SignalPort* zero_pulse(const plants::SignalPort* from, std::string terminal, double seconds);
+  /// An input that takes a level when it has lasted `seconds`; shorter ones are swallowed. It gives no edges.
+  const plants::SignalPort* input(const plants::SignalPort* from, double seconds);
+
+  /// Lets the last step of `h` seconds through.
+  void pass(double h);
+
+  /// When a loss begins, once for each time that it does. A counter that was below its limit for 100 ms, a
+  /// line that saw a pulse, begin anew.
+  [[nodiscard]] std::vector<Loss> take_losses() { return std::exchange(losses_, {}); }
+  /// What was lost in all, a line a terminal.
+  [[nodiscard]] std::vector<std::string> lost() const;
+
+ private:
+  struct CounterFilter {
+    const plants::EncoderPort* from;
+    std::string terminal;
+    double hertz;
+    plants::EncoderPort to = {};
+    double behind = 0;  // the count stays behind by so much
+    double lost = 0;    // in either direction
+    double calm = 1;    // since it lost the last ones [s]
+  };
+  struct PulseFilter {
+    const plants::SignalPort* from;
+    std::string terminal;
+    double least;  // [s]
+    plants::SignalPort to = {};
+    std::int64_t lost = 0;
+    bool losing = false;
+  };
+  struct LevelFilter {
+    const plants::SignalPort* from;
+    double delay;  // [s]
+    plants::SignalPort to = {};
+    double lasted = 0;  // the level that is not let through yet [s]
+  };
+  void pass(CounterFilter& filter, double h);
+  void pass(PulseFilter& filter, double h);
+  static void pass(LevelFilter& filter, double h);
+
+  // Their ports are known by their place.
+  std::deque<CounterFilter> counters_;
+  std::deque<PulseFilter> pulses_;
+  std::deque<LevelFilter> levels_;
+  std::vector<Loss> losses_;
+};
 
 /// A plant of the running scenario, by its name there.
 struct NamedPlant {
@@ -22,7 +84,7 @@ struct NamedPlant {
 /// The operator's panel: switches that the timeline works and lamps that the controller lights. What it has
 /// is what is wired: a `panel.` plug on an input or interrupt terminal is a switch, on an output it is a
 /// lamp.
-struct Panel {
+struct OperatorPanel {
   std::map<std::string, plants::SignalPort> switches;
   std::map<std::string, plants::CommandPort> lamps;
   std::set<std::string> pressed;  ///< switches that have been on
@@ -78,8 +140,8 @@ class Bus {
   };
   [[nodiscard]] std::vector<AnalogueWire>& analogue_wires() { return analogue_outputs_; }
 
-  [[nodiscard]] Panel& panel() { return panel_; }
-  [[nodiscard]] const Panel& panel() const { return panel_; }
+  [[nodiscard]] OperatorPanel& panel() { return panel_; }
+  [[nodiscard]] const OperatorPanel& panel() const { return panel_; }
 
  private:
   struct CounterWire {
@@ -114,7 +176,7 @@ class Bus {
   devices::Controller* controller_ = nullptr;
   double h_ = 0;                           ///< [s]
   std::unique_ptr<InputFilters> filters_;  ///< nullptr without any
-  Panel panel_;
+  OperatorPanel panel_;
   std::vector<CounterWire> counters_;
   std::vector<InputWire> inputs_;
   std::vector<InterruptWire> interrupts_;

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/loop/played_cams.hpp"
-
 namespace drycut::sim::loop {
+
+struct PlayedCam;
 
 /// What speaks against a cam that a run played.
 struct CamDoubt {

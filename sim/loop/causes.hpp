@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/record/observer.hpp"
 #include "sim/record/outcome.hpp"
+#include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int shown_digits = 6;
 
-std::string window_text(const scenario::Check& check) {
+std::string window_text(const scenario::CheckRequest& check) {
   std::string text;
   if (check.from > 0) text += fmt::format(", from {} s", record::seconds_text(check.from));
   if (check.until) text += fmt::format(", until {} s", record::seconds_text(*check.until));
@@ -25,37 +25,38 @@ std::string window_text(const scenario::Check& check) {
   return text;
 }
 
-std::string expectation_text(const scenario::Check& check) {
+std::string expectation_text(const scenario::CheckRequest& check) {
   switch (check.kind) {
-    case scenario::Check::Kind::each:
+    case scenario::CheckRequest::Kind::each:
       return fmt::format("each {}: {}{}", check.event.text, check.expression.text, window_text(check));
-    case scenario::Check::Kind::all:
+    case scenario::CheckRequest::Kind::all:
       return fmt::format("all {}: {}{}", check.event.text, check.expression.text, window_text(check));
-    case scenario::Check::Kind::always:
+    case scenario::CheckRequest::Kind::always:
       return fmt::format("always {}{}", check.expression.text, window_text(check));
-    case scenario::Check::Kind::eventually:
+    case scenario::CheckRequest::Kind::eventually:
       return fmt::format("eventually {}{}", check.expression.text, window_text(check));
-    case scenario::Check::Kind::never:
+    case scenario::CheckRequest::Kind::never:
       return fmt::format("never {}{}", check.event.text, window_text(check));
   }
   return "";
 }
 
-Time last_instant(const scenario::Check& check) {
+Time last_instant(const scenario::CheckRequest& check) {
   if (check.within) return check.from + *check.within;
   return check.until.value_or(std::numeric_limits<Time>::max());
 }
 
-bool looks_at_instants(const scenario::Check& check) {
-  return check.kind == scenario::Check::Kind::always || check.kind == scenario::Check::Kind::eventually;
+bool looks_at_instants(const scenario::CheckRequest& check) {
+  return check.kind == scenario::CheckRequest::Kind::always ||
+         check.kind == scenario::CheckRequest::Kind::eventually;
 }
 
 // Over one window, the whole of it.
-bool is_judged_once(const scenario::Check& check) {
-  return check.kind == scenario::Check::Kind::always && !check.every;
+bool is_judged_once(const scenario::CheckRequest& check) {
+  return check.kind == scenario::CheckRequest::Kind::always && !check.every;
 }
 
-bool in_window(const scenario::Check& check, double at) {
+bool in_window(const scenario::CheckRequest& check, double at) {
   return at >= seconds(check.from) && (!check.until || at <= seconds(*check.until));
 }
 
@@ -79,7 +80,7 @@ const KnownEvent* Checks::bind_event(State& state, const scenario::Scenario& sce
   const auto* found = find_event(events, check.event, scenario, problems);
   if (found == nullptr) return nullptr;
   for (const auto& [name, unit] : found->values) {
-    if (check.kind == scenario::Check::Kind::all) {
+    if (check.kind == scenario::CheckRequest::Kind::all) {
       state.series.push_back({name, unit, {}});
       state.values.push_back({name, unit, 0.0});
       for (const auto* statistic : statistic_names) {
@@ -89,7 +90,7 @@ const KnownEvent* Checks::bind_event(State& state, const scenario::Scenario& sce
       state.slots.push_back({name, unit, 0.0});
     }
   }
-  if (check.kind == scenario::Check::Kind::all) state.slots.push_back({"count", "", 0.0});
+  if (check.kind == scenario::CheckRequest::Kind::all) state.slots.push_back({"count", "", 0.0});
   return found;
 }
 
@@ -97,7 +98,7 @@ void Checks::bind(State& state, const scenario::Scenario& scenario, std::vector<
                   const std::vector<KnownEvent>& events, Problems& problems) {
   const auto& check = state.check;
   if (!check.event.text.empty() && bind_event(state, scenario, events, problems) == nullptr) return;
-  if (check.kind == scenario::Check::Kind::never) return;
+  if (check.kind == scenario::CheckRequest::Kind::never) return;
 
   // The values of the event come before channels of the same name.
   std::set<std::string> units;
@@ -121,14 +122,14 @@ void Checks::bind(State& state, const scenario::Scenario& scenario, std::vector<
     return operand;
   };
   const auto inside = [&](const std::string& name) -> scenario::Expression::Operand {
-    for (const auto& slot : check.kind == scenario::Check::Kind::all ? state.values : state.slots) {
+    for (const auto& slot : check.kind == scenario::CheckRequest::Kind::all ? state.values : state.slots) {
       if (slot.name != name) continue;
-      if (check.kind == scenario::Check::Kind::all) return {&slot.number, slot.unit};
+      if (check.kind == scenario::CheckRequest::Kind::all) return {&slot.number, slot.unit};
       return scenario::Expression::Operand::refused(
           fmt::format("{} is a value of the event, and a cycle has one", name),
           fmt::format("write all: {} for statistics over the events", check.event.text));
     }
-    return check.kind == scenario::Check::Kind::all ? watch_.operand(name) : at_steps_.operand(name);
+    return check.kind == scenario::CheckRequest::Kind::all ? watch_.operand(name) : at_steps_.operand(name);
   };
   const auto of_all = known.size();
   for (const auto& slot : state.slots) known.push_back(slot.name);
@@ -141,7 +142,7 @@ void Checks::bind(State& state, const scenario::Scenario& scenario, std::vector<
       units.insert(statistic.unit);
       note(statistic.text, &statistic.value, statistic.unit);
     }
-    if (check.kind != scenario::Check::Kind::all) {
+    if (check.kind != scenario::CheckRequest::Kind::all) {
       stepped_.push_back(&state);
       state.rate =
           fmt::format(", at each step of {} ({:.4g} kHz)", scenario::format_time(scenario.scene.step),
@@ -185,7 +186,7 @@ void Checks::close_windows(State& state, Time now) {
 
 void Checks::take_into_window(State& state, Time now) {
   const auto& check = state.check;
-  if (check.kind == scenario::Check::Kind::each) {
+  if (check.kind == scenario::CheckRequest::Kind::each) {
     if (!state.open) return;
   } else {
     close_windows(state, now);
@@ -233,7 +234,7 @@ void Checks::evaluate(State& state, double at, const std::string& values) {
     state.last_failed_at = at;
     for (auto& operand : state.operands) operand.failed = *operand.number;
   }
-  const bool eventually = state.check.kind == scenario::Check::Kind::eventually;
+  const bool eventually = state.check.kind == scenario::CheckRequest::Kind::eventually;
   if (eventually && evaluation.holds && !state.held_at) state.held_at = at;
   // For "eventually" the moment that counts is the best one, for the others the worst. Without margins it is
   // the first that decided.
@@ -251,7 +252,7 @@ void Checks::evaluate(State& state, double at, const std::string& values) {
   if (decisive) {
     state.worst_at = at;
     state.worst_values = values;
-    if (state.check.kind == scenario::Check::Kind::always && !evaluation.margin && !state.windowed) {
+    if (state.check.kind == scenario::CheckRequest::Kind::always && !evaluation.margin && !state.windowed) {
       note_operands(state);
       state.worst_values = operands_text(state);
     }
@@ -269,8 +270,8 @@ void Checks::sample(Time now) {
   for (auto& state : states_) {
     const auto kind = state.check.kind;
     if (state.windowed) continue;
-    if (kind == scenario::Check::Kind::always && in_window(state.check, at)) evaluate(state, at, "");
-    if (kind == scenario::Check::Kind::eventually && now >= state.check.from && !state.held_at &&
+    if (kind == scenario::CheckRequest::Kind::always && in_window(state.check, at)) evaluate(state, at, "");
+    if (kind == scenario::CheckRequest::Kind::eventually && now >= state.check.from && !state.held_at &&
         (!state.check.within || now <= state.check.from + *state.check.within)) {
       evaluate(state, at, "");
     }
@@ -281,7 +282,7 @@ void Checks::happened(const record::RecordedEvent& event) {
   for (auto& state : states_) {
     if (!concerns(state, event)) continue;
     switch (state.check.kind) {
-      case scenario::Check::Kind::each:
+      case scenario::CheckRequest::Kind::each:
         for (auto& slot : state.slots) {
           if (const auto* value = event.find(slot.name)) slot.number = value->number;
         }
@@ -293,7 +294,7 @@ void Checks::happened(const record::RecordedEvent& event) {
         state.open = true;
         start_window(state, event.at_seconds());
         break;
-      case scenario::Check::Kind::all:
+      case scenario::CheckRequest::Kind::all:
         ++state.count;
         for (auto& series : state.series) {
           if (const auto* value = event.find(series.value)) series.numbers.push_back(value->number);
@@ -303,14 +304,14 @@ void Checks::happened(const record::RecordedEvent& event) {
         }
         if (state.windowed) state.expression->take(event.at_seconds());
         break;
-      case scenario::Check::Kind::never:
+      case scenario::CheckRequest::Kind::never:
         if (state.count++ == 0) {
           state.worst_at = event.at_seconds();
           state.worst_values = values_text(event, shown_digits);
         }
         break;
-      case scenario::Check::Kind::always:
-      case scenario::Check::Kind::eventually:
+      case scenario::CheckRequest::Kind::always:
+      case scenario::CheckRequest::Kind::eventually:
         break;
     }
   }
@@ -347,7 +348,7 @@ void Checks::finish_statistics(State& state) {
 std::string Checks::looked_at(const State& state) {
   const auto& check = state.check;
   if (looks_at_instants(check)) return state.windowed ? "periods" : "instants";
-  return state.windowed && check.kind == scenario::Check::Kind::each
+  return state.windowed && check.kind == scenario::CheckRequest::Kind::each
              ? fmt::format("cycles from {0} to {0}", check.event.text)
              : check.event.text + (state.count == 1 ? " event" : " events");
 }
@@ -367,7 +368,8 @@ std::vector<record::CheckResult> Checks::results(Time end) {
 std::vector<record::Tolerance> Checks::tolerances_of(const State& state) {
   std::vector<record::Tolerance> tolerances;
   const auto& check = state.check;
-  if (check.kind != scenario::Check::Kind::each || !state.expression || state.count == 0) return tolerances;
+  if (check.kind != scenario::CheckRequest::Kind::each || !state.expression || state.count == 0)
+    return tolerances;
   for (const auto& slot : state.slots) {
     const auto [low, high] = state.expression->range_of(&slot.number);
     if (std::isinf(low) && std::isinf(high)) continue;
@@ -381,9 +383,10 @@ record::CheckResult Checks::result(State& state, Time end) {
   const auto& check = state.check;
   record::CheckResult result{
       check.name.text, expectation_text(check) + state.rate, false, {}, state.unit, {}, ""};
-  const bool by_event = check.kind == scenario::Check::Kind::each || check.kind == scenario::Check::Kind::all;
+  const bool by_event =
+      check.kind == scenario::CheckRequest::Kind::each || check.kind == scenario::CheckRequest::Kind::all;
   if (by_event && state.count < check.at_least) {
-    const bool cycles = state.windowed && check.kind == scenario::Check::Kind::each;
+    const bool cycles = state.windowed && check.kind == scenario::CheckRequest::Kind::each;
     const auto what = cycles ? fmt::format("cycle from {0} to {0}", check.event.text) : check.event.text;
     result.detail =
         fmt::format("{} between {} s and {} s, at least {} expected",
@@ -397,11 +400,11 @@ record::CheckResult Checks::result(State& state, Time end) {
   const auto never_looked_at = [&] {
     return fmt::format("never looked at: the run ended at {} s", record::seconds_text(end));
   };
-  if (check.kind == scenario::Check::Kind::never && check.from > end) {
+  if (check.kind == scenario::CheckRequest::Kind::never && check.from > end) {
     result.detail = never_looked_at();
     return result;
   }
-  if (check.kind == scenario::Check::Kind::never) {
+  if (check.kind == scenario::CheckRequest::Kind::never) {
     result.passed = state.count == 0;
     result.detail = state.count == 0
                         ? "none"
@@ -411,7 +414,7 @@ record::CheckResult Checks::result(State& state, Time end) {
     if (state.count > 0) result.at = result.failed_at = state.worst_at;
     return result;
   }
-  if (check.kind == scenario::Check::Kind::all) finish_statistics(state);
+  if (check.kind == scenario::CheckRequest::Kind::all) finish_statistics(state);
   if (state.windowed && is_judged_once(check) && state.taken) judge_window(state, seconds(end));
   if (state.count == 0) {
     result.detail = never_looked_at();
@@ -419,7 +422,7 @@ record::CheckResult Checks::result(State& state, Time end) {
   }
   result.margin = state.worst;
   result.used = state.used;
-  if (check.kind == scenario::Check::Kind::eventually) {
+  if (check.kind == scenario::CheckRequest::Kind::eventually) {
     result.passed = state.held_at.has_value();
     result.at = state.held_at ? *state.held_at : state.worst ? state.worst_at : state.last_at;
     result.detail = state.held_at
@@ -442,23 +445,24 @@ record::CheckResult Checks::result(State& state, Time end) {
   if (!unmet.empty())
     result.doubt = fmt::format("check '{}' judged nothing: {} was 0 at all {} {}", check.name.text, unmet,
                                state.count, looked_at(state));
-  if (!result.passed && check.kind != scenario::Check::Kind::all) result.failed_at = state.first_failed_at;
+  if (!result.passed && check.kind != scenario::CheckRequest::Kind::all)
+    result.failed_at = state.first_failed_at;
   if (state.windowed && is_judged_once(check)) {
     result.detail = state.last_window;
     return result;
   }
-  if (check.kind != scenario::Check::Kind::all && (state.worst || state.failed > 0))
+  if (check.kind != scenario::CheckRequest::Kind::all && (state.worst || state.failed > 0))
     result.at = state.worst_at;
-  if (!state.worst && state.failed > 0 && check.kind != scenario::Check::Kind::all) {
+  if (!state.worst && state.failed > 0 && check.kind != scenario::CheckRequest::Kind::all) {
     result.detail = fmt::format("{} {}{}", state.count, looked_at(state), failed_text(state));
     return result;
   }
-  result.detail =
-      fmt::format("{} {}{}{}", state.count, looked_at(state),
-                  check.kind != scenario::Check::Kind::all ? failed_text(state) : "",
-                  state.worst_values.empty()
-                      ? ""
-                      : (check.kind == scenario::Check::Kind::all ? ": " : ", worst: ") + state.worst_values);
+  result.detail = fmt::format(
+      "{} {}{}{}", state.count, looked_at(state),
+      check.kind != scenario::CheckRequest::Kind::all ? failed_text(state) : "",
+      state.worst_values.empty()
+          ? ""
+          : (check.kind == scenario::CheckRequest::Kind::all ? ": " : ", worst: ") + state.worst_values);
   return result;
 }
 

@@ -8,7 +8,6 @@
 #include "sim/loop/known_events.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/loop/watch.hpp"
-#include "sim/record/observer.hpp"
 #include "sim/record/outcome.hpp"
 #include "sim/record/recording.hpp"
 #include "sim/scenario/expression.hpp"
@@ -71,7 +70,7 @@ class Checks : public record::Observer {
     std::string last_window;        ///< what the last one came to
   };
   struct State : Tally {
-    scenario::Check check;
+    scenario::CheckRequest check;
     std::optional<scenario::Expression> expression;
     std::vector<Operand> operands;  ///< what the expression names
     std::deque<Slot> slots;         ///< event values or statistics, by name in the expression

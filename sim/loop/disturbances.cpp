@@ -30,7 +30,7 @@ bool goes_both_ways(const scenario::Disturbance& of) {
 
 Disturbances::Disturbances(const scenario::Scenario& scenario, Names& names, Problems& problems) {
   const double h = seconds(scenario.scene.step);
-  const auto refuse = [&](const scenario::Place& place, std::string what) {
+  const auto refuse = [&](const scenario::ScenePlace& place, std::string what) {
     problems.push_back(
         scenario::problem_at(scenario, place, std::move(what),
                              fmt::format("less than {:g} Hz, or a shorter scene.step", 0.5 / h)));

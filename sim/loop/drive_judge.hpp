@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "plants/power_stage.hpp"
+#include "sim/loop/bus.hpp"
 #include "sim/loop/drive_cycles.hpp"
 #include "sim/loop/names.hpp"
-#include "sim/record/observer.hpp"
 #include "sim/record/outcome.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "devices/controller.hpp"
-#include "sim/record/observer.hpp"
+#include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
 

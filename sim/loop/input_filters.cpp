@@ -1,4 +1,4 @@
-#include "sim/loop/input_filters.hpp"
+#include "sim/loop/bus.hpp"
 
 #include <fmt/format.h>
 

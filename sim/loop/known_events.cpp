@@ -10,19 +10,20 @@
 #include "plants/plant.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/loop/specimens.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
 
 namespace {
 
-struct EventRow {
+struct RunEventRow {
   const char* source;
   const char* name;
   Severity severity;
   bool of_program = false;  ///< what a program may wait for in vain, or lose
 };
 using enum Severity;
-constexpr EventRow event_rows[] = {
+constexpr RunEventRow event_rows[] = {
     {"timeline", "set", note},
     {"timeline", "ramp", note},
     {"timeline", "fault", warning},
@@ -42,8 +43,8 @@ constexpr EventRow event_rows[] = {
     {"card", "pulse_lost", warning},
 };
 
-const EventRow* row_of(std::string_view event) {
-  const auto* found = std::ranges::find(event_rows, event, &EventRow::name);
+const RunEventRow* row_of(std::string_view event) {
+  const auto* found = std::ranges::find(event_rows, event, &RunEventRow::name);
   return found == std::end(event_rows) ? nullptr : found;
 }
 

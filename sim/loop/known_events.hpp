@@ -6,7 +6,11 @@
 
 #include "base/problem.hpp"
 #include "base/severity.hpp"
-#include "sim/scenario/scenario.hpp"
+
+namespace drycut::sim::scenario {
+struct Scenario;
+struct Text;
+}  // namespace drycut::sim::scenario
 
 namespace drycut::sim::loop {
 

@@ -8,6 +8,8 @@
 
 #include "base/text.hpp"
 #include "devices/plcopen/terminals.hpp"
+#include "sim/loop/bus.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
 
@@ -48,7 +50,7 @@ void refuse_shared_names(const scenario::Scenario& scenario, devices::Controller
   }
 }
 
-Names::Names(const std::vector<NamedPlant>& plants, devices::Controller* controller, Panel& panel)
+Names::Names(const std::vector<NamedPlant>& plants, devices::Controller* controller, OperatorPanel& panel)
     : controller_(controller), panel_(panel) {
   for (const auto& [name, plant] : plants) {
     for (auto& channel : plant->channels()) channels_.emplace(name + "." + channel.name, channel);

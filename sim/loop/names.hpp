@@ -8,10 +8,17 @@
 
 #include "base/problem.hpp"
 #include "devices/controller.hpp"
-#include "sim/loop/bus.hpp"
-#include "sim/scenario/scenario.hpp"
+#include "plants/plant.hpp"
+
+namespace drycut::sim::scenario {
+struct Scenario;
+struct Wire;
+}  // namespace drycut::sim::scenario
 
 namespace drycut::sim::loop {
+
+struct NamedPlant;
+struct OperatorPanel;
 
 /// A number that can be recorded or used in an expression.
 struct Reading {
@@ -39,7 +46,7 @@ inline constexpr std::size_t most_suggestions = 100;
 /// Plants come first, then the panel, then the controller; any of them may be absent.
 class Names {
  public:
-  Names(const std::vector<NamedPlant>& plants, devices::Controller* controller, Panel& panel);
+  Names(const std::vector<NamedPlant>& plants, devices::Controller* controller, OperatorPanel& panel);
   /// For a scenario whose controller has problems of its own: every name that no plant and no panel could
   /// have is taken for one of the controller's, and the panel has what `wiring` names, so that only what is
   /// wrong is told.
@@ -87,7 +94,7 @@ class Names {
   devices::Controller* controller_;
   [[nodiscard]] bool of_controller(const std::string& name) const;
 
-  Panel& panel_;
+  OperatorPanel& panel_;
   bool assumed_ = false;
   std::map<std::string, plants::Channel> channels_;
   std::map<std::string, plants::Setting> settings_;                         ///< and live parameters

@@ -12,7 +12,7 @@ namespace {
 /// A parameter's value by its name; not a number where the axis has none of that name.
 using Value = std::function<double(const char*)>;
 
-struct Row {
+struct OddRow {
   const char* parameter;
   bool (*is_odd)(double value, const Value& other);
   const char* why;
@@ -21,7 +21,7 @@ struct Row {
 constexpr double all_speed = 1000;    // feedfw: the reference is the whole speed
 constexpr double full_scale = 32767;  // offset: 10 V
 constexpr double much_offset = 0.05;  // of it
-constexpr Row rows[] = {
+constexpr OddRow rows[] = {
     {"feedfw", [](double value, const Value&) { return value > 0 && value < all_speed / 2; },
      "1000 is feed forward of the whole speed"},
     {"feedfw", [](double value, const Value&) { return value > 1.5 * all_speed; },

@@ -1,6 +1,7 @@
 #pragma once
 #include "sim/loop/known_events.hpp"
 #include "sim/loop/names.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
 

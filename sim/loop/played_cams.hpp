@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "devices/cam_axis.hpp"
-#include "sim/record/observer.hpp"
+#include "devices/controller.hpp"
+#include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
 

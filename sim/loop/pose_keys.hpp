@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "plants/part.hpp"
-#include "sim/record/observer.hpp"
+#include "plants/plant.hpp"
+#include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/record/observer.hpp"
+#include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
 

@@ -6,7 +6,6 @@
 
 #include "plants/plant.hpp"
 #include "sim/loop/pose_keys.hpp"
-#include "sim/record/observer.hpp"
 #include "sim/record/recording.hpp"
 #include "sim/scenario/scenario.hpp"
 

@@ -9,11 +9,29 @@
 #include <unordered_map>
 
 #include "base/text.hpp"
+#include "sim/loop/bindings.hpp"
+#include "sim/loop/checks.hpp"
+#include "sim/loop/consistency.hpp"
 #include "sim/loop/controller_loader.hpp"
+#include "sim/loop/directions.hpp"
+#include "sim/loop/disturbances.hpp"
+#include "sim/loop/drive_judge.hpp"
+#include "sim/loop/hunting.hpp"
+#include "sim/loop/names.hpp"
 #include "sim/loop/odd_parameters.hpp"
 #include "sim/loop/opcua_names.hpp"
 #include "sim/loop/overwritten.hpp"
+#include "sim/loop/played_cams.hpp"
+#include "sim/loop/remarks.hpp"
+#include "sim/loop/shutter.hpp"
+#include "sim/loop/standing.hpp"
+#include "sim/loop/strobe.hpp"
+#include "sim/loop/timeline.hpp"
+#include "sim/loop/unasked.hpp"
 #include "sim/loop/waits.hpp"
+#include "sim/loop/watch.hpp"
+#include "sim/loop/whereabouts.hpp"
+#include "sim/record/trace_files.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/motor_catalogue.hpp"
 #include "sim/scenario/variable_slips.hpp"
@@ -26,7 +44,9 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
       step_(scenario.scene.step),
       h_(seconds(scenario.scene.step)),
       world_(scenario.scene.seed),
-      shutter_(scenario.pictures) {
+      shutter_(std::make_unique<Shutter>(scenario.pictures)),
+      remarks_(std::make_unique<Remarks>()),
+      open_(std::make_unique<OpenTerminals>()) {
   const auto before = problems.size();
   load_controller(problems);
   build_plants();
@@ -54,11 +74,11 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
   all_events_ = known_events_;
   for (auto& event : events_of_every_run()) all_events_.push_back(std::move(event));
   checks_ = std::make_unique<Checks>(scenario, *watch_, *names_, all_events_, problems);
-  captions_ =
-      bind_recording({scenario, named_, *names_, *watch_, known_events_, all_events_}, recording_, problems);
+  captions_ = std::make_unique<Captions>(
+      bind_recording({scenario, named_, *names_, *watch_, known_events_, all_events_}, recording_, problems));
   drives_ = std::make_unique<DriveJudge>(scenario, named_);
   unasked_ = std::make_unique<Unasked>(scenario, known_events_);
-  observers_ = {checks_.get(), drives_.get(), unasked_.get(), &shutter_, &remarks_, &causes_};
+  observers_ = {checks_.get(), drives_.get(), unasked_.get(), shutter_.get(), remarks_.get(), &causes_};
   if (checks_->looks_at_steps()) tell_steps(*checks_);
   if (controller_ && problems.size() == before) look_after_program();
   if (problems.size() == before) compare_with_machine();
@@ -73,6 +93,10 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
 
 Simulation::~Simulation() = default;
 
+bool Simulation::act(const scenario::Stimulus& stimulus, Problems& problems) {
+  return timeline_->add(stimulus, problems);
+}
+
 void Simulation::load_controller(Problems& problems) {
   for (const auto& plant : scenario_.plants)
     for (auto& note : scenario::notes_of_models(plant)) notes_of_setup_.push_back(std::move(note));
@@ -84,9 +108,9 @@ void Simulation::compare_with_machine() {
   if (!controller_) return;
   contradictions_ = contradictions(scenario_, named_);
   for (const auto& note : contradictions_) notes_of_setup_.push_back(note);
-  open_ = open_terminals(*controller_, bus_.unwired(), named_);
-  warnings_ = open_.moving;
-  warnings_.insert(warnings_.end(), open_.others.begin(), open_.others.end());
+  *open_ = open_terminals(*controller_, bus_.unwired(), named_);
+  warnings_ = open_->moving;
+  warnings_.insert(warnings_.end(), open_->others.begin(), open_->others.end());
   for (auto& doubt : controller_->doubts())
     if (doubt.value.empty() || !scenario::sets(scenario_, doubt.value))
       doubts_of_program_.push_back(doubt.text);
@@ -174,7 +198,7 @@ void Simulation::write_to(std::unique_ptr<record::Observer> files, const std::fi
 
 void Simulation::keep_nothing() {
   recording_.keep_nothing();
-  shutter_.close();
+  shutter_->close();
 }
 
 void Simulation::follow_cams(CamJudge judge) {
@@ -220,7 +244,7 @@ void Simulation::step() {
   for (auto* observer : steppers_) observer->stepped(time_);
   if (!world_.failure().empty()) failure_ = world_.failure();
   if (time_ >= next_record_) record();
-  if (time_ >= shutter_.next()) snapshot();
+  if (time_ >= shutter_->next()) snapshot();
 }
 
 // A drive tells how long it was saturated, the machine cycle says how much that is.
@@ -289,32 +313,36 @@ void Simulation::snapshot() {
   if (parts_.empty())
     for (auto& plant : plants_)
       for (auto& part : plant->parts()) parts_.push_back(std::move(part));
-  auto* shot = shutter_.look(time_, parts_);
+  auto* shot = shutter_->look(time_, parts_);
   if (shot == nullptr) return;
   watch_->update();
   for (auto& plant : plants_) plant->callouts(shot->callouts);
-  for (const auto* slot : captions_.slots) shot->caption.push_back(*slot);
-  if (const auto& [plant, slot, metres] = captions_.quota; plant != nullptr)
+  for (const auto* slot : captions_->slots) shot->caption.push_back(*slot);
+  if (const auto& [plant, slot, metres] = captions_->quota; plant != nullptr)
     shot->quota = {plant->quota_line(*slot * metres).value(), *slot * metres};
 }
+
+const std::vector<Snapshot>& Simulation::snapshots() const { return shutter_->kept(); }
+std::optional<double> Simulation::frames_event() const { return shutter_->event_at(); }
+const std::vector<std::string>& Simulation::caption_units() const { return captions_->units; }
 
 std::vector<std::optional<Strobe>> Simulation::strobes() const {
   std::vector<PartWithPitch> parts;
   for (const auto& [name, plant] : named_)
     for (const auto& part : plant->parts())
       if (part.pitch > 0) parts.push_back({name + "." + part.name, part.pitch});
-  return loop::strobes(parts, shutter_.kept());
+  return loop::strobes(parts, shutter_->kept());
 }
 
 std::vector<std::string> Simulation::notes() const {
   std::vector<std::string> notes;
-  if (!open_.unnamed.empty()) notes.push_back(fmt::format("not wired: {}", fmt::join(open_.unnamed, ", ")));
+  if (!open_->unnamed.empty()) notes.push_back(fmt::format("not wired: {}", fmt::join(open_->unnamed, ", ")));
   notes.insert(notes.end(), notes_of_setup_.begin(), notes_of_setup_.end());
   for (auto& lost : bus_.lost()) notes.push_back(std::move(lost));
   const auto& around = scenario_.pictures.around;
-  if (around && scenario_.pictures.frames && !shutter_.event_at()) {
+  if (around && scenario_.pictures.frames && !shutter_->event_at()) {
     notes.push_back(fmt::format("no frames: {}[{}] did not happen; {} did", around->event.text,
-                                around->number, shutter_.seen()));
+                                around->number, shutter_->seen()));
   }
   if (const auto strobe = worst_strobe(strobes()))
     notes.push_back(text_of(*strobe, scenario_.pictures, scenario_.scene.step));
@@ -327,7 +355,7 @@ std::vector<std::string> Simulation::notes() const {
     if (auto never = standing_->never_on(); !never.empty()) notes.push_back(std::move(never));
   if (whereabouts_)
     for (auto& zero : whereabouts_->zeros()) notes.push_back(std::move(zero));
-  for (auto& remark : remarks_.notes()) notes.push_back(std::move(remark));
+  for (auto& remark : remarks_->notes()) notes.push_back(std::move(remark));
   if (time_ > 0 && drives_->judges())
     for (auto& drive : drives_->verdicts())
       for (auto& note : drive.notes) notes.push_back(std::move(note));
@@ -401,7 +429,7 @@ Causes::Known Simulation::known(const std::vector<CamDoubt>& cams) {
     if (cam.is_slip) known.contradictions.push_back(cam.text);
   known.contradictions.insert(known.contradictions.end(), doubts_of_program_.begin(),
                               doubts_of_program_.end());
-  for (const auto* open : {&open_.moving, &open_.others})
+  for (const auto* open : {&open_->moving, &open_->others})
     known.contradictions.insert(known.contradictions.end(), open->begin(), open->end());
   for (auto& told : contradicting_parameters()) known.contradictions.push_back(std::move(told));
   for (const auto& found : directions_ ? directions_->found() : std::vector<Directions::Found>())

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,32 +10,34 @@
 #include "devices/controller.hpp"
 #include "plants/plant.hpp"
 #include "plants/world.hpp"
-#include "sim/loop/bindings.hpp"
 #include "sim/loop/bus.hpp"
 #include "sim/loop/cam_doubt.hpp"
 #include "sim/loop/causes.hpp"
-#include "sim/loop/checks.hpp"
-#include "sim/loop/consistency.hpp"
-#include "sim/loop/directions.hpp"
-#include "sim/loop/disturbances.hpp"
-#include "sim/loop/drive_judge.hpp"
-#include "sim/loop/hunting.hpp"
-#include "sim/loop/names.hpp"
-#include "sim/loop/played_cams.hpp"
-#include "sim/loop/remarks.hpp"
-#include "sim/loop/shutter.hpp"
-#include "sim/loop/standing.hpp"
-#include "sim/loop/strobe.hpp"
-#include "sim/loop/timeline.hpp"
-#include "sim/loop/unasked.hpp"
-#include "sim/loop/watch.hpp"
-#include "sim/loop/whereabouts.hpp"
-#include "sim/record/observer.hpp"
 #include "sim/record/recording.hpp"
-#include "sim/record/trace_files.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
+
+class CamRecorder;
+struct Captions;
+class Checks;
+class Directions;
+class Disturbances;
+class DriveJudge;
+class Hunting;
+struct KnownEvent;
+class Names;
+struct OpenTerminals;
+struct Reading;
+class Remarks;
+class Shutter;
+struct Snapshot;
+class Standing;
+struct Strobe;
+class Timeline;
+class Unasked;
+class Watch;
+class Whereabouts;
 
 /// A scenario put together: controller, plants, wires, stimuli, checks; then run. One object is one run,
 /// always from time zero in a fresh world.
@@ -87,9 +90,7 @@ class Simulation {
   /// Takes an entry of the timeline more, before the step at which it is due: at() in the future, or now. The
   /// run is the same as if it had stood behind the scenario's own. False, and nothing taken, if it does not
   /// fit.
-  bool act(const scenario::Stimulus& stimulus, Problems& problems) {
-    return timeline_->add(stimulus, problems);
-  }
+  bool act(const scenario::Stimulus& stimulus, Problems& problems);
   /// What came of the run, if it ended now.
   [[nodiscard]] record::Outcome outcome();
   [[nodiscard]] Time time() const { return time_; }
@@ -123,14 +124,14 @@ class Simulation {
   [[nodiscard]] const record::Recording& recording() const { return recording_; }
   /// The same, given away after run().
   [[nodiscard]] record::Recording take_recording() { return std::move(recording_); }
-  [[nodiscard]] const std::vector<Snapshot>& snapshots() const { return shutter_.kept(); }
+  [[nodiscard]] const std::vector<Snapshot>& snapshots() const;
   /// What turned too far from the frame before to be seen as it turns, a frame each.
   [[nodiscard]] std::vector<std::optional<Strobe>> strobes() const;
   /// When the event happened that the frames are about [s]; absent if they are about none.
-  [[nodiscard]] std::optional<double> frames_event() const { return shutter_.event_at(); }
+  [[nodiscard]] std::optional<double> frames_event() const;
   [[nodiscard]] const std::vector<NamedPlant>& plants() const { return named_; }
   /// Units of the caption channels.
-  [[nodiscard]] const std::vector<std::string>& caption_units() const { return captions_.units; }
+  [[nodiscard]] const std::vector<std::string>& caption_units() const;
   /// Events that the plants can report.
   [[nodiscard]] const std::vector<KnownEvent>& known_events() const { return known_events_; }
   /// With those of timeline and controller.
@@ -184,10 +185,10 @@ class Simulation {
   CamJudge judge_cams_;
   std::size_t events_seen_ = 0;
   Time next_record_ = 0;
-  Shutter shutter_;
+  std::unique_ptr<Shutter> shutter_;
   std::vector<plants::Part> parts_;  ///< of all plants, from the first shot on
-  Captions captions_;
-  Remarks remarks_;
+  std::unique_ptr<Captions> captions_;
+  std::unique_ptr<Remarks> remarks_;
   Causes causes_;
   // Nullptr without a controller.
   std::unique_ptr<Directions> directions_;
@@ -200,7 +201,7 @@ class Simulation {
   std::vector<KnownEvent> all_events_;        ///< with those of timeline and controller
   std::string failure_;
   std::vector<std::string> notes_of_setup_;
-  OpenTerminals open_;
+  std::unique_ptr<OpenTerminals> open_;
   std::vector<std::string> doubts_of_program_;
   std::vector<std::string> warnings_;
   std::vector<std::string> contradictions_;  ///< of controller and machine; among those notes too

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "devices/controller.hpp"
-#include "sim/record/observer.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {

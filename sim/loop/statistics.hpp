@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/record/event_log.hpp"
+#include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
 

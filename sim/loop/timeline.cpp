@@ -25,7 +25,7 @@ class Binder {
   Binder(Names& names, const scenario::Scenario& scenario, Problems& problems)
       : names_(names), scenario_(scenario), problems_(problems) {}
 
-  void problem(const scenario::Place& place, std::string what, std::string remedy) {
+  void problem(const scenario::ScenePlace& place, std::string what, std::string remedy) {
     problems_.push_back(scenario::problem_at(scenario_, place, std::move(what), std::move(remedy)));
   }
 

@@ -12,7 +12,7 @@ namespace drycut::sim::loop {
 Unasked::Unasked(const scenario::Scenario& scenario, const std::vector<KnownEvent>& events) {
   for (const auto& event : events) {
     const bool asked =
-        std::any_of(scenario.checks.begin(), scenario.checks.end(), [&](const scenario::Check& check) {
+        std::any_of(scenario.checks.begin(), scenario.checks.end(), [&](const scenario::CheckRequest& check) {
           return names_event(check.event.text, event.source, event.name);
         });
     if (event.severity >= Severity::error && !asked) watched_.push_back({event.source, event.name, 0, 0, {}});

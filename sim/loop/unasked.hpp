@@ -4,7 +4,7 @@
 
 #include "sim/loop/checks.hpp"
 #include "sim/loop/known_events.hpp"
-#include "sim/record/observer.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {

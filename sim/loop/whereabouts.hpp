@@ -6,7 +6,7 @@
 
 #include "devices/controller.hpp"
 #include "sim/loop/names.hpp"
-#include "sim/record/observer.hpp"
+#include "sim/record/recording.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {

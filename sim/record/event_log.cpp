@@ -1,4 +1,4 @@
-#include "sim/record/event_log.hpp"
+#include "sim/record/recording.hpp"
 
 #include <algorithm>
 #include <tuple>

@@ -60,7 +60,7 @@ bool put_table(hid_t file, const hdf5::OutcomeTable& table, const Json& items) {
     if (field.text_size > 0)
       for (const auto& item : items)
         field.text_size = std::max(field.text_size, text_in(item.value(field.name, Json())).size());
-  hdf5::Rows rows(fields);
+  hdf5::Hdf5Rows rows(fields);
   for (const auto& item : items) {
     rows.add();
     for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -102,7 +102,7 @@ struct Hdf5File::Open {
   std::vector<hdf5::Handle> columns;  ///< as in the block
   hdf5::Handle event_type;
   hdf5::Handle events;
-  hdf5::Rows rows{hdf5::events::fields};  ///< that are not written yet
+  hdf5::Hdf5Rows rows{hdf5::events::fields};  ///< that are not written yet
 };
 
 void Hdf5File::require(bool good) const {
@@ -111,7 +111,7 @@ void Hdf5File::require(bool good) const {
 
 Hdf5File::Hdf5File(const Recording& recording, const std::filesystem::path& file, const About& about)
     : file_(file) {
-  const hdf5::Turn turn;
+  const hdf5::Hdf5Turn turn;
   errno = 0;
   auto made = std::make_unique<Open>();
   auto& open = *made;
@@ -148,7 +148,7 @@ Hdf5File::Hdf5File(const Recording& recording, const std::filesystem::path& file
 }
 
 Hdf5File::~Hdf5File() {
-  const hdf5::Turn turn;
+  const hdf5::Hdf5Turn turn;
   open_.reset();
 }
 
@@ -166,7 +166,7 @@ void Hdf5File::put_column(std::size_t number) {
   auto* const begin = block_.data() + number * stride;
   std::fill(begin + filled_, begin + block_rows, 0.0);
   const auto& bytes = deflate_(begin, block_rows);
-  const hdf5::Turn turn;
+  const hdf5::Hdf5Turn turn;
   const hsize_t place = written_;
   const hsize_t rows = written_ + filled_;
   const auto& column = open_->columns[number];
@@ -182,7 +182,7 @@ void Hdf5File::put_block() {
   const auto time = slots_.size();
   for (std::size_t i = 0; i < time; ++i) put_column(i);
   const auto flush = [&](herr_t (*flushed)(hid_t), hid_t what) {
-    const hdf5::Turn turn;
+    const hdf5::Hdf5Turn turn;
     errno = 0;
     require(flushed(what) >= 0);
   };
@@ -226,7 +226,7 @@ void Hdf5File::happened(const RecordedEvent& event) {
 void Hdf5File::put_events() {
   auto& rows = open_->rows;
   if (rows.count() == 0) return;
-  const hdf5::Turn turn;
+  const hdf5::Hdf5Turn turn;
   errno = 0;
   const hsize_t begin = event_rows_;
   const hsize_t count = rows.count();
@@ -244,7 +244,7 @@ void Hdf5File::put_events() {
 void Hdf5File::finish() {
   if (!open_) return;
   put_block();
-  const hdf5::Turn turn;
+  const hdf5::Hdf5Turn turn;
   errno = 0;
   const bool flushed = H5Fflush(open_->file, H5F_SCOPE_LOCAL) >= 0;
   open_.reset();
@@ -253,7 +253,7 @@ void Hdf5File::finish() {
 
 void add_outcome(const std::filesystem::path& file, const Outcome& outcome) {
   const auto json = json_of(outcome);
-  const hdf5::Turn turn;
+  const hdf5::Hdf5Turn turn;
   errno = 0;
   const hdf5::Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDWR, access()), H5Fclose);
   if (!opened.good()) fail(file);

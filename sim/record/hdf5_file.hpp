@@ -1,11 +1,14 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "base/problem.hpp"
+#include "base/severity.hpp"
 #include "sim/record/deflate.hpp"
-#include "sim/record/observer.hpp"
 #include "sim/record/record.hpp"
 #include "sim/record/recording.hpp"
 
@@ -50,5 +53,18 @@ class Hdf5File : public Observer {
 /// Adds the tables `outcome`, `checks`, `alarms` and `drives` to the file of a run that has come to its end.
 /// Throws std::runtime_error if it cannot be written.
 void add_outcome(const std::filesystem::path& file, const Outcome& outcome);
+
+/// The file is HDF5, by its first bytes.
+bool is_hdf5(const std::filesystem::path& file);
+
+/// Whether its attribute written_by names drycut; false of what HDF5 cannot open.
+bool names_drycut(const std::filesystem::path& file);
+
+/// How bad an event of a name is, which files do not say.
+using SeverityOf = std::function<Severity(const std::string& event)>;
+
+/// Reads trace.h5, also while it is written or after its run was killed: all rows that are whole in it. What
+/// is wrong goes to `problems`, and then the result is not to be used.
+Record read_hdf5(const std::filesystem::path& file, Problems& problems, const SeverityOf& severity_of = {});
 
 }  // namespace drycut::sim::record

@@ -1,4 +1,4 @@
-#include "sim/record/hdf5_reader.hpp"
+#include "sim/record/hdf5_file.hpp"
 
 #include <fmt/format.h>
 
@@ -79,19 +79,19 @@ std::vector<std::string> names_in(hid_t group) {
   return names;
 }
 
-struct Column {
+struct StoredColumn {
   std::string name;
   hdf5::Handle data;
 };
 
-Column open_column(hid_t place, const std::string& name) {
-  Column column{name, open_data(place, name)};
+StoredColumn open_column(hid_t place, const std::string& name) {
+  StoredColumn column{name, open_data(place, name)};
   const hdf5::Handle type(H5Dget_type(column.data), H5Tclose);
   if (H5Tget_class(type) != H5T_FLOAT) throw Wrong{fmt::format("{} are no numbers", in_quotes(name))};
   return column;
 }
 
-void read_numbers(const Column& column, hsize_t begin, hsize_t count, std::vector<double>& numbers) {
+void read_numbers(const StoredColumn& column, hsize_t begin, hsize_t count, std::vector<double>& numbers) {
   const hdf5::Handle there(H5Dget_space(column.data), H5Sclose);
   const hdf5::Handle here(H5Screate_simple(1, &count, nullptr), H5Sclose);
   numbers.resize(count);
@@ -113,7 +113,7 @@ void read_channels(hid_t file, Recording& recording) {
   const hdf5::Handle group(H5Gopen2(file, hdf5::channels_name, H5P_DEFAULT), H5Gclose);
   const auto time = open_column(file, hdf5::time_name);
   const auto rows = size_of(time.data, time.name);  // before the others, which may grow
-  std::vector<Column> columns;
+  std::vector<StoredColumn> columns;
   for (const auto& name : names_in(group)) {
     columns.push_back(open_column(group, name));
     const auto size = size_of(columns.back().data, name);
@@ -140,7 +140,7 @@ void read_channels(hid_t file, Recording& recording) {
 }
 
 /// A table, whatever room its texts take. `fields` has the names and kinds.
-hdf5::Rows read_table(hid_t data, const std::string& name, std::vector<hdf5::Field>& fields) {
+hdf5::Hdf5Rows read_table(hid_t data, const std::string& name, std::vector<hdf5::RowField>& fields) {
   const hdf5::Handle type(H5Dget_type(data), H5Tclose);
   for (auto& field : fields) {
     const int number = H5Tget_class(type) == H5T_COMPOUND ? H5Tget_member_index(type, field.name) : -1;
@@ -154,7 +154,7 @@ hdf5::Rows read_table(hid_t data, const std::string& name, std::vector<hdf5::Fie
       throw Wrong{fmt::format("the texts of {} are not of one length", in_quotes(field.name))};
     field.text_size = H5Tget_size(member);
   }
-  hdf5::Rows rows(fields);
+  hdf5::Hdf5Rows rows(fields);
   const auto count = size_of(data, name);
   rows.bytes().resize(count * hdf5::row_size(fields));
   const hsize_t size = count;
@@ -169,7 +169,7 @@ hdf5::Rows read_table(hid_t data, const std::string& name, std::vector<hdf5::Fie
 
 void read_events(hid_t file, Recording& recording, const SeverityOf& severity_of) {
   using namespace hdf5::events;
-  std::vector<hdf5::Field> kinds(std::begin(fields), std::end(fields));
+  std::vector<hdf5::RowField> kinds(std::begin(fields), std::end(fields));
   const auto data = open_data(file, hdf5::events_name);
   const auto rows = read_table(data, hdf5::events_name, kinds);
   const auto count = rows.count();
@@ -207,7 +207,7 @@ Json read_rows(hid_t file, const hdf5::OutcomeTable& table) {
   const auto data = open_data(file, table.name);
   const hdf5::Handle type(H5Dget_type(data), H5Tclose);
   auto fields = table.fields();
-  std::erase_if(fields, [&](const hdf5::Field& field) {
+  std::erase_if(fields, [&](const hdf5::RowField& field) {
     return H5Tget_class(type) == H5T_COMPOUND && H5Tget_member_index(type, field.name) < 0;
   });
   const auto rows = read_table(data, table.name, fields);
@@ -264,7 +264,7 @@ bool is_hdf5(const std::filesystem::path& file) {
 }
 
 bool names_drycut(const std::filesystem::path& file) {
-  const hdf5::Turn turn;
+  const hdf5::Hdf5Turn turn;
   try {
     return attribute_of(open_file(file), hdf5::writer_name) == hdf5::writer;
   } catch (const Wrong&) {
@@ -274,7 +274,7 @@ bool names_drycut(const std::filesystem::path& file) {
 
 Record read_hdf5(const std::filesystem::path& file, Problems& problems, const SeverityOf& severity_of) {
   Record record;
-  const hdf5::Turn turn;
+  const hdf5::Hdf5Turn turn;
   try {
     const auto opened = open_file(file);
     read_channels(opened, record.recording);

@@ -29,8 +29,8 @@ std::mutex& library() {
 
 }  // namespace
 
-std::vector<Field> OutcomeTable::fields() const {
-  std::vector<Field> fields;
+std::vector<RowField> OutcomeTable::fields() const {
+  std::vector<RowField> fields;
   for (const auto& [key, value] : row.items()) {
     const bool is_number = value.is_number() || value.is_boolean() || value.is_null();
     fields.push_back({key.c_str(), is_number ? 0U : 1U});
@@ -53,12 +53,12 @@ std::vector<OutcomeTable> outcome_tables() {
   return tables;
 }
 
-Turn::Turn() {
+Hdf5Turn::Hdf5Turn() {
   library().lock();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what fails is told in our words
 }
 
-Turn::~Turn() { library().unlock(); }
+Hdf5Turn::~Hdf5Turn() { library().unlock(); }
 
 Handle& Handle::operator=(Handle&& other) noexcept {
   std::swap(id_, other.id_);
@@ -81,7 +81,7 @@ Handle text_type(std::size_t size) {
 
 std::size_t row_size(Fields fields) {
   return std::accumulate(fields.begin(), fields.end(), std::size_t{0},
-                         [](std::size_t sum, const Field& field) { return sum + field.size(); });
+                         [](std::size_t sum, const RowField& field) { return sum + field.size(); });
 }
 
 Handle row_type(Fields fields) {
@@ -97,17 +97,17 @@ Handle row_type(Fields fields) {
   return type;
 }
 
-void Rows::add() { bytes_.resize(bytes_.size() + size_); }
+void Hdf5Rows::add() { bytes_.resize(bytes_.size() + size_); }
 
-std::size_t Rows::place(std::size_t row, std::size_t field) const {
+std::size_t Hdf5Rows::place(std::size_t row, std::size_t field) const {
   return row * size_ + row_size(fields_.first(field));
 }
 
-void Rows::set(std::size_t field, double number) {
+void Hdf5Rows::set(std::size_t field, double number) {
   std::memcpy(bytes_.data() + place(count() - 1, field), &number, sizeof(number));
 }
 
-std::string_view Rows::set(std::size_t field, std::string_view text) {
+std::string_view Hdf5Rows::set(std::size_t field, std::string_view text) {
   auto taken = std::min(text.size(), fields_[field].text_size);
   const auto goes_on = [&](std::size_t at) {
     return (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
@@ -117,13 +117,13 @@ std::string_view Rows::set(std::size_t field, std::string_view text) {
   return text.substr(taken);
 }
 
-double Rows::number(std::size_t row, std::size_t field) const {
+double Hdf5Rows::number(std::size_t row, std::size_t field) const {
   double number = 0;
   std::memcpy(&number, bytes_.data() + place(row, field), sizeof(number));
   return number;
 }
 
-std::string Rows::text(std::size_t row, std::size_t field) const {
+std::string Hdf5Rows::text(std::size_t row, std::size_t field) const {
   const std::string_view all(bytes_.data() + place(row, field), fields_[field].text_size);
   return std::string(all.substr(0, all.find('\0')));
 }

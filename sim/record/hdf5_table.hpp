@@ -15,12 +15,12 @@
 namespace drycut::sim::record::hdf5 {
 
 /// Debian's library serves one thread at a time: whoever calls it has one of these.
-class Turn {
+class Hdf5Turn {
  public:
-  Turn();
-  ~Turn();
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
+  Hdf5Turn();
+  ~Hdf5Turn();
+  Hdf5Turn(const Hdf5Turn&) = delete;
+  Hdf5Turn& operator=(const Hdf5Turn&) = delete;
 };
 
 /// Something of the library that is given back.
@@ -44,12 +44,12 @@ class Handle {
 };
 
 /// A column of a table: a number (double), or a text of so many bytes at most, filled up with zeros.
-struct Field {
+struct RowField {
   const char* name;
   std::size_t text_size = 0;  ///< 0 = a number
   [[nodiscard]] std::size_t size() const { return text_size == 0 ? sizeof(double) : text_size; }
 };
-using Fields = std::span<const Field>;
+using Fields = std::span<const RowField>;
 
 inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -60,9 +60,9 @@ Handle row_type(Fields fields);
 std::size_t row_size(Fields fields);
 
 /// Rows as they lie in a file.
-class Rows {
+class Hdf5Rows {
  public:
-  explicit Rows(Fields fields) : fields_(fields), size_(row_size(fields)) {}
+  explicit Hdf5Rows(Fields fields) : fields_(fields), size_(row_size(fields)) {}
   /// One more, all zeros.
   void add();
   void set(std::size_t field, double number);
@@ -97,8 +97,8 @@ inline constexpr auto* writer = "drycut";
 /// below, which has no time.
 namespace events {
 enum : std::size_t { time, id, source, event, name, value, unit, text };
-inline constexpr Field fields[] = {{"time"},     {"id"},    {"source", 32}, {"event", 24},
-                                   {"name", 24}, {"value"}, {"unit", 16},   {"text", 64}};
+inline constexpr RowField fields[] = {{"time"},     {"id"},    {"source", 32}, {"event", 24},
+                                      {"name", 24}, {"value"}, {"unit", 16},   {"text", 64}};
 }  // namespace events
 
 /// What came of a run: a table for each of its lists, and of one row for the rest. Columns are the keys of
@@ -106,7 +106,7 @@ inline constexpr Field fields[] = {{"time"},     {"id"},    {"source", 32}, {"ev
 struct OutcomeTable {
   std::string name;  ///< of the list, or outcome_name
   Json row;          ///< with all defaults
-  [[nodiscard]] std::vector<Field> fields() const;
+  [[nodiscard]] std::vector<RowField> fields() const;
 };
 inline constexpr auto* outcome_name = "outcome";
 std::vector<OutcomeTable> outcome_tables();

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "sim/record/observer.hpp"
 #include "sim/record/record.hpp"
 #include "sim/record/recording.hpp"
 #include "sim/record/trace_files.hpp"

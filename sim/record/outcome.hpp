@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "plants/power_stage.hpp"
+#include "plants/plant.hpp"
 #include "sim/time.hpp"
 
 namespace drycut::sim::record {

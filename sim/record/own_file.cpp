@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string>
 
-#include "sim/record/hdf5_reader.hpp"
+#include "sim/record/hdf5_file.hpp"
 
 namespace drycut::sim::record {
 

@@ -1,4 +1,4 @@
-#include "sim/record/spool.hpp"
+#include "sim/record/recording.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

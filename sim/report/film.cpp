@@ -16,6 +16,8 @@
 #include "renders/mesh.hpp"
 #include "renders/part_models.hpp"
 #include "renders/pictures.hpp"
+#include "sim/loop/shutter.hpp"
+#include "sim/loop/strobe.hpp"
 #include "sim/report/gallery_plots.hpp"
 
 namespace drycut::sim::report {
@@ -90,14 +92,14 @@ renders::Film shown(const renders::Film& film, const std::string& camera, bool g
   return view;
 }
 
-std::vector<renders::Callout> chosen_callouts(const scenario::PicturesSection::Overlays& overlays,
-                                              const std::vector<plants::Callout>& callouts) {
-  std::vector<renders::Callout> chosen;
+std::vector<renders::DrawnCallout> chosen_callouts(const scenario::PicturesSection::Overlays& overlays,
+                                                   const std::vector<plants::Callout>& callouts) {
+  std::vector<renders::DrawnCallout> chosen;
   for (const auto& [kind, text, at, to] : callouts) {
     const bool length = kind == plants::Callout::Kind::length;
     const bool force = kind == plants::Callout::Kind::force;
     if (length ? !overlays.lengths : force ? !overlays.forces : !overlays.speeds) continue;
-    using Kind = renders::Callout::Kind;
+    using Kind = renders::DrawnCallout::Kind;
     chosen.push_back({length  ? Kind::length
                       : force ? Kind::force
                               : Kind::speed,

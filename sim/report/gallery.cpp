@@ -21,6 +21,7 @@
 #include "renders/video.hpp"
 #include "sim/controllers/kinds.hpp"
 #include "sim/file.hpp"
+#include "sim/loop/shutter.hpp"
 #include "sim/report/chosen_frames.hpp"
 #include "sim/report/drives.hpp"
 #include "sim/report/gallery_plots.hpp"

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "renders/decimate.hpp"
+#include "sim/loop/known_events.hpp"
 #include "sim/report/gallery.hpp"
 #include "sim/report/gallery_plots.hpp"
 
@@ -26,7 +27,7 @@ Rows rows_between(const record::Recording& recording, Time from, const std::opti
 
 renders::Curve channel_curve(const record::Recording& recording, const record::Recording::Column& column,
                              Rows rows) {
-  renders::Envelope envelope(rows.count());
+  renders::Extremes envelope(rows.count());
   for (auto row = rows.first; row < rows.end; ++row)
     envelope.add(seconds(recording.times()[row]), column.values[row]);
   auto kept = envelope.take();
@@ -34,7 +35,7 @@ renders::Curve channel_curve(const record::Recording& recording, const record::R
 }
 
 std::string time_label(const record::Recording& recording, Rows rows) {
-  const renders::Envelope envelope(rows.count());
+  const renders::Extremes envelope(rows.count());
   if (envelope.stretch() == 1) return "time [s]";
   const auto& times = recording.times();
   const double every =

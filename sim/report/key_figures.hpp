@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "renders/report.hpp"
+#include "sim/loop/known_events.hpp"
 #include "sim/loop/simulation.hpp"
 
 namespace drycut::sim::report {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "renders/report.hpp"
-#include "sim/loop/checks.hpp"
 #include "sim/output_folder.hpp"
+#include "sim/record/outcome.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::report {

@@ -8,6 +8,7 @@
 #include "renders/gltf.hpp"
 #include "sim/cams/judged.hpp"
 #include "sim/loop/controller_loader.hpp"
+#include "sim/loop/shutter.hpp"
 #include "sim/record/hdf5_file.hpp"
 #include "sim/report/film.hpp"
 #include "sim/report/gallery.hpp"

@@ -16,27 +16,27 @@ using devices::plcopen::Measure;
 
 namespace {
 
-struct Row {
+struct UnitRow {
   std::string_view kernel;  ///< as axis_parameter_table writes it
   std::string_view length;
   std::string_view angle;
   double factor;
 };
 constexpr std::array rows{
-    Row{"0.1 um, 0.0001 deg", "mm", "deg", 10'000},
-    Row{"0.1 um", "mm", "deg", 10'000},
-    Row{"um/s, 0.001 deg/s", "mm/s", "deg/s", 1'000},
-    Row{"mm/s2, deg/s2", "mm/s^2", "deg/s^2", 1},
-    Row{"mm/s3, deg/s3", "mm/s^3", "deg/s^3", 1},
-    Row{"us", "us", "us", 1},
-    Row{"0.01/s", "1/s", "1/s", 100},
-    Row{"0.1 %", "%", "%", 10},
+    UnitRow{"0.1 um, 0.0001 deg", "mm", "deg", 10'000},
+    UnitRow{"0.1 um", "mm", "deg", 10'000},
+    UnitRow{"um/s, 0.001 deg/s", "mm/s", "deg/s", 1'000},
+    UnitRow{"mm/s2, deg/s2", "mm/s^2", "deg/s^2", 1},
+    UnitRow{"mm/s3, deg/s3", "mm/s^3", "deg/s^3", 1},
+    UnitRow{"us", "us", "us", 1},
+    UnitRow{"0.01/s", "1/s", "1/s", 100},
+    UnitRow{"0.1 %", "%", "%", 10},
 };
 
 }  // namespace
 
 AxisUnit axis_unit(const AxisParameter& parameter, Measure measure) {
-  for (const Row& row : rows)
+  for (const UnitRow& row : rows)
     if (row.kernel == parameter.unit)
       return {measure == Measure::length ? row.length : row.angle, row.factor};
   return {};

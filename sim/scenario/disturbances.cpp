@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/scenario/forms.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/units.hpp"
 
 namespace drycut::sim::scenario {

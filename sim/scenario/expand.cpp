@@ -6,7 +6,6 @@
 #include <array>
 #include <cctype>
 
-#include "sim/controllers/kinds.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
 

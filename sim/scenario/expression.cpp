@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "base/text.hpp"
-#include "sim/scenario/expression_functions.hpp"
 #include "sim/scenario/expression_tree.hpp"
 #include "sim/scenario/scenario.hpp"
 

@@ -1,4 +1,4 @@
-#include "sim/scenario/expression_faults.hpp"
+#include "sim/scenario/expression_tree.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +8,6 @@
 
 #include "base/problem.hpp"
 #include "base/text.hpp"
-#include "sim/scenario/expression_functions.hpp"
 #include "sim/scenario/units.hpp"
 
 namespace drycut::sim::scenario {

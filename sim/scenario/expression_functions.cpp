@@ -1,5 +1,5 @@
 // What the functions and operators of expressions compute.
-#include "sim/scenario/expression_functions.hpp"
+#include "sim/scenario/expression_tree.hpp"
 
 #include <algorithm>
 #include <array>

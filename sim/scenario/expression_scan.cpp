@@ -1,4 +1,4 @@
-#include "sim/scenario/expression_scan.hpp"
+#include "sim/scenario/expression_tree.hpp"
 
 #include <fmt/format.h>
 
@@ -25,9 +25,10 @@ bool is_unit_character(char c) {
 }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-class Scanner {
+class ExpressionScanner {
  public:
-  Scanner(std::string_view text, std::vector<ExpressionFault>& faults) : text_(text), faults_(faults) {}
+  ExpressionScanner(std::string_view text, std::vector<ExpressionFault>& faults)
+      : text_(text), faults_(faults) {}
 
   ExpressionTokens run() {
     for (skip_blanks(); at_ < text_.size() && !failed_; skip_blanks()) {
@@ -181,7 +182,7 @@ ExpressionTokens scan_expression(std::string_view text, std::vector<ExpressionFa
     return {};
   }
   const std::size_t before = faults.size();
-  auto tokens = Scanner(text, faults).run();
+  auto tokens = ExpressionScanner(text, faults).run();
   if (tokens.empty() && faults.size() == before)
     faults.push_back({0, "the expression is empty", "write a comparison, for example follerr < 400"});
   return tokens;

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "sim/scenario/expression_faults.hpp"
-#include "sim/scenario/expression_functions.hpp"
 #include "sim/scenario/units.hpp"
 
 namespace drycut::sim::scenario {

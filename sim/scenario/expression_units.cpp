@@ -1,4 +1,4 @@
-#include "sim/scenario/expression_units.hpp"
+#include "sim/scenario/expression_tree.hpp"
 
 #include <fmt/format.h>
 

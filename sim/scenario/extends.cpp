@@ -10,7 +10,7 @@
 
 #include "base/text.hpp"
 #include "sim/file.hpp"
-#include "sim/scenario/yaml_reader.hpp"
+#include "sim/scenario/archive.hpp"
 
 namespace drycut::sim::scenario {
 

@@ -1,5 +1,5 @@
 // The forms of values: how each is read, written and described.
-#include "sim/scenario/forms.hpp"
+#include "sim/scenario/archive.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

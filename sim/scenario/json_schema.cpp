@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sim/controllers/kinds.hpp"
 #include "sim/scenario/archive.hpp"
 
 namespace drycut::sim::scenario {
@@ -75,7 +74,7 @@ class SchemaWriter final : public Archive {
 
   void controller(const Key& key, std::unique_ptr<ControllerSection>&) override {
     Json kinds = Json::object();
-    for (const auto& kind : controllers::controller_kinds()) {
+    for (const auto& kind : controller_kinds()) {
       const auto scratch = kind.make();
       kinds[std::string(kind.name)] = inner([&](Archive& archive) { scratch->visit(archive); });
     }

@@ -12,11 +12,10 @@
 #include "base/embedded.hpp"
 #include "base/text.hpp"
 #include "sim/file.hpp"
-#include "sim/scenario/forms.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/motor_estimates.hpp"
 #include "sim/scenario/parameter_text.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::scenario {
 

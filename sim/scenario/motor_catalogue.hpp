@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "plants/parameters.hpp"
+#include "plants/plant.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/scenario/yaml_node.hpp"

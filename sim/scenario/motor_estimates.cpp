@@ -17,16 +17,16 @@ namespace {
 constexpr double rpm_in_si = std::numbers::pi / 30;
 
 // The field of a motor on the mains.
-struct Field {
+struct EstimatedField {
   double frequency;  // [Hz]
   double speed;      // [rad/s]
 };
 
 // With 2 to 8 poles at 50 or 60 Hz, or at the frequency that is given: the field that turns the least faster
 // than the rotor at rated load.
-Field field_above(double rated_speed, double frequency) {
+EstimatedField field_above(double rated_speed, double frequency) {
   constexpr int most_pole_pairs = 4;
-  Field nearest{0, std::numeric_limits<double>::infinity()};
+  EstimatedField nearest{0, std::numeric_limits<double>::infinity()};
   for (const double mains : {50.0, 60.0}) {
     const double each = frequency > 0 ? frequency : mains;
     for (int pairs = 1; pairs <= most_pole_pairs; ++pairs) {
@@ -34,7 +34,7 @@ Field field_above(double rated_speed, double frequency) {
       if (speed > rated_speed && speed < nearest.speed) nearest = {each, speed};
     }
   }
-  return nearest.frequency > 0 ? nearest : Field{frequency > 0 ? frequency : 60, 1.05 * rated_speed};
+  return nearest.frequency > 0 ? nearest : EstimatedField{frequency > 0 ? frequency : 60, 1.05 * rated_speed};
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "plants/induction_motor.hpp"
-#include "plants/parameters.hpp"
+#include "plants/plant.hpp"
 #include "plants/servo_drive.hpp"
 
 namespace drycut::sim::scenario {

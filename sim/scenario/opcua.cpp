@@ -1,5 +1,5 @@
 // The section opcua of a scenario.
-#include "sim/scenario/forms.hpp"
+#include "sim/scenario/archive.hpp"
 
 namespace drycut::sim::scenario {
 

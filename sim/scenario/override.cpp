@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/sections.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::scenario {
 
@@ -176,7 +176,7 @@ class OverrideSetter {
   }
 
   const Override& override_;
-  Place place_;
+  ScenePlace place_;
   Findings& findings_;
   YamlNode value_;
   const YamlNode* root_ = nullptr;

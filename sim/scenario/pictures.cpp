@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "base/picture_size.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
-#include "sim/scenario/forms.hpp"
 
 namespace drycut::sim::scenario {
 

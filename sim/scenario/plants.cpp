@@ -9,7 +9,7 @@
 #include <unordered_map>
 
 #include "base/text.hpp"
-#include "sim/scenario/forms.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/motor_catalogue.hpp"
 #include "sim/scenario/parameter_text.hpp"
 #include "sim/scenario/sections.hpp"
@@ -52,7 +52,7 @@ std::optional<PlantEntry> read_plant(const YamlNode::Entry& entry, std::span<con
   return PlantEntry{entry.key, wanted, known->define(), {}};
 }
 
-Place place_of(const PlantEntry& plant, const std::string& parameter) {
+ScenePlace place_of(const PlantEntry& plant, const std::string& parameter) {
   for (const auto& [name, place] : plant.places) {
     if (name == parameter) return place;
   }
@@ -226,7 +226,7 @@ void object_to_each_other(const std::vector<PlantEntry>& all, Time step, Finding
 }
 
 // One that refers to the same plant by a parameter that is `sole`, and what it takes of it.
-struct Standing {
+struct StandingPlant {
   const PlantEntry* plant;
   std::string target;
   plants::PlantDefinition::Stretch stretch;
@@ -238,15 +238,15 @@ std::string millimetres(const plants::PlantDefinition::Stretch& stretch) {
 
 // A reference that is `sole` is a place for one: two machines cannot stand in one place on a line.
 void refuse_shared_places(const std::vector<PlantEntry>& all, Findings& findings) {
-  std::vector<Standing> taken;
+  std::vector<StandingPlant> taken;
   for (const auto& plant : all) {
     for (const auto& parameter : plant.definition->parameters()) {
       if (!parameter.sole) continue;
       const auto everywhere = std::numeric_limits<double>::infinity();
-      const Standing one = {
+      const StandingPlant one = {
           &plant, *std::get<std::string*>(parameter.value),
           plant.definition->stretch().value_or(plants::PlantDefinition::Stretch{-everywhere, everywhere})};
-      const auto other = std::find_if(taken.begin(), taken.end(), [&](const Standing& there) {
+      const auto other = std::find_if(taken.begin(), taken.end(), [&](const StandingPlant& there) {
         return there.target == one.target && there.stretch.from < one.stretch.to &&
                one.stretch.from < there.stretch.to;
       });

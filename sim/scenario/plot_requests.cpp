@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
-#include "sim/scenario/forms.hpp"
 
 namespace drycut::sim::scenario {
 

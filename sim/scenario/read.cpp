@@ -5,14 +5,13 @@
 #include <filesystem>
 
 #include "base/text.hpp"
-#include "sim/controllers/kinds.hpp"
 #include "sim/file.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/extends.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/sections.hpp"
 #include "sim/scenario/variable_slips.hpp"
 #include "sim/scenario/variables.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::scenario {
 
@@ -45,12 +44,12 @@ class ScenarioReader final : public MapReader {
     refuse_duplicates(node, "controller", findings());
     std::vector<std::string> known;
     std::vector<std::string> examples;
-    for (const auto& kind : controllers::controller_kinds()) {
+    for (const auto& kind : controller_kinds()) {
       known.emplace_back(kind.name);
       examples.push_back(fmt::format("{{{}: {}}}", kind.name, kind.example));
     }
     for (const auto& entry : node.entries) {
-      const auto* const kind = controllers::controller_kind(entry.key.text);
+      const auto* const kind = controller_kind(entry.key.text);
       if (kind == nullptr) {
         findings().add(entry.key.place, fmt::format("unknown controller '{}'", entry.key.text),
                        fmt::format("known: {}", fmt::join(known, ", ")));
@@ -79,7 +78,7 @@ class ScenarioReader final : public MapReader {
 };
 
 // Where the value at `path` stands: the place of what makes two numbers not fit.
-Place place_at(const YamlNode& root, std::initializer_list<std::string_view> path) {
+ScenePlace place_at(const YamlNode& root, std::initializer_list<std::string_view> path) {
   const YamlNode* node = &root;
   for (const auto& key : path) {
     const auto* const next = child(*node, key);
@@ -154,7 +153,7 @@ void read_sections(const YamlNode& root, std::span<const plants::PlantType> type
 }
 
 /// What the file and what it extends say of a variable.
-void take_origin(const YamlNode& root, Variable& variable) {
+void take_origin(const YamlNode& root, VariableEntry& variable) {
   const auto* section = child(root, "variables");
   const auto* value = section == nullptr ? nullptr : child(*section, variable.name.text);
   if (value == nullptr) return;
@@ -226,8 +225,8 @@ bool refuse_comparison(const YamlNode& root, Findings& findings) {
 
 }  // namespace
 
-Place Text::at(std::size_t offset) const {
-  Place base = place;
+ScenePlace Text::at(std::size_t offset) const {
+  ScenePlace base = place;
   std::size_t from = 0;
   for (const auto& next : breaks) {
     if (next.offset > offset) break;
@@ -251,7 +250,7 @@ bool sets(const Scenario& scenario, std::string_view value) {
          });
 }
 
-Problem problem_at(const Scenario& scenario, const Place& place, std::string what, std::string remedy) {
+Problem problem_at(const Scenario& scenario, const ScenePlace& place, std::string what, std::string remedy) {
   const auto source = static_cast<std::size_t>(place.source);
   const auto name = source < scenario.sources.size() ? scenario.sources[source] : scenario.file.string();
   return {name, place.line, place.column, std::move(what), std::move(remedy)};

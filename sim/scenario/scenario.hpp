@@ -11,9 +11,12 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "devices/controller.hpp"
 #include "plants/plant.hpp"
 #include "sim/time.hpp"
+
+namespace drycut::devices {
+class Controller;
+}
 
 namespace drycut::sim::scenario {
 
@@ -21,25 +24,25 @@ namespace drycut::sim::scenario {
 // (design §5). Everything that can be wrong later (a name that no plant has) keeps its place in the file.
 
 /// Where in the scenario something stands: line and column (in characters), 1-based.
-struct Place {
+struct ScenePlace {
   int line = 0;
   int column = 0;
   /// Which text: 0 the scenario file, n the n-th override, then files that it extends; index of
   /// Scenario::sources.
   int source = 0;
-  bool operator==(const Place&) const = default;
+  bool operator==(const ScenePlace&) const = default;
 };
 struct Text {
   std::string text;
-  Place place;  ///< of the first character of `text`, inside quotes if it has some
+  ScenePlace place;  ///< of the first character of `text`, inside quotes if it has some
   /// From byte `offset` of `text` on, the file continues at `place` (escapes, folded lines, UTF-8).
   struct Break {
     std::size_t offset = 0;
-    Place place;
+    ScenePlace place;
   };
   std::vector<Break> breaks = {};
   /// Where byte `offset` of `text` stands.
-  [[nodiscard]] Place at(std::size_t offset) const;
+  [[nodiscard]] ScenePlace at(std::size_t offset) const;
 };
 
 struct SceneSection {
@@ -47,19 +50,19 @@ struct SceneSection {
   Time step = 100 * microsecond;
   Time duration = 10 * second;
   std::uint64_t seed = 1;
-  Place step_place;
+  ScenePlace step_place;
 };
 
 struct PlantEntry {
   Text name;
   Text type;
-  std::unique_ptr<plants::PlantDefinition> definition;  ///< parameters already read
-  std::vector<std::pair<std::string, Place>> places;    ///< of the parameters that the file gives
+  std::unique_ptr<plants::PlantDefinition> definition;     ///< parameters already read
+  std::vector<std::pair<std::string, ScenePlace>> places;  ///< of the parameters that the file gives
   /// A parameter that the model of a motor gives.
   struct Modelled {
     std::string parameter;
     std::string from;  ///< "HG-SR202, sheet: ..."
-    Place place;       ///< where the scenario names the model
+    ScenePlace place;  ///< where the scenario names the model
   };
   std::vector<Modelled> modelled = {};
 };
@@ -67,8 +70,8 @@ struct PlantEntry {
 class Archive;
 struct Scenario;
 
-/// What a scenario says of its controller. sim/controllers/kinds.hpp lists the kinds; what one of them is, is
-/// in its file there.
+/// What a scenario says of its controller. What a kind of it is, is in its file of
+/// sim/controllers/.
 struct ControllerSection {
   ControllerSection() = default;
   virtual ~ControllerSection() = default;
@@ -82,7 +85,7 @@ struct ControllerSection {
   /// From the latch of the counters to the analogue output: what a device takes to compute. At most its
   /// sampling time.
   Time compute_time = 0;
-  Place place;
+  ScenePlace place;
 
   /// As the scenario writes it: "qmove".
   [[nodiscard]] virtual std::string_view kind() const = 0;
@@ -113,6 +116,17 @@ struct ControllerSection {
                                                     std::vector<std::string>* notes) const = 0;
 };
 
+/// A kind of controller that a scenario can name.
+struct ControllerKind {
+  std::string_view name;     ///< "qmove"
+  std::string_view example;  ///< of its section: "{configuration: ...}"
+  std::unique_ptr<ControllerSection> (*make)();
+};
+/// All of them, as sim/controllers/kinds.cpp lists them.
+std::span<const ControllerKind> controller_kinds();
+/// nullptr if there is none of that name.
+const ControllerKind* controller_kind(std::string_view name);
+
 /// wiring: {2.CNT01: knife.encoder}
 struct Wire {
   Text terminal;  ///< of the controller
@@ -140,7 +154,7 @@ struct PanelSection {
 struct Quantity {
   double number = 0;
   std::string unit;
-  Place place;
+  ScenePlace place;
 };
 
 /// One entry of the timeline: when, then what.
@@ -159,7 +173,7 @@ struct Stimulus {
   };
   std::vector<FaultAction> faults;
   std::optional<bool> power;  ///< controller power on or off
-  Place place;
+  ScenePlace place;
 };
 
 /// One entry of disturbances: what is added to a setting, a live parameter or a fault of a plant.
@@ -172,7 +186,7 @@ struct Disturbance {
   struct Band {
     double low = 0;  ///< [Hz]
     double high = 0;
-    Place place;
+    ScenePlace place;
   };
   Band band;       ///< of noise
   Quantity step;   ///< of a walk, up or down
@@ -188,7 +202,7 @@ struct RecordSection {
   Format format = Format::csv;
   Time every = 2 * millisecond;
   std::vector<Text> channels;
-  Place place;
+  ScenePlace place;
 };
 
 /// How the drives are judged by their ratings (sim/loop/drive_judge.hpp).
@@ -197,7 +211,7 @@ struct DrivesSection {
   bool judge = true;  ///< the check "drive within its ratings" is among the checks
 };
 
-struct Check {
+struct CheckRequest {
   enum class Kind {
     each,        ///< every event of this name satisfies `expect`; with statistics: from one event to the next
     all,         ///< `expect` over statistics of all events of this name: count, mean_x, p99(x) ...
@@ -272,7 +286,7 @@ struct PicturesSection {
   int slow = 1;        ///< frames every `every` / slow: at the film's pace, that many times slower
   bool video = false;  ///< the frames as a film file too
   bool view = true;    ///< the machine in 3-D in the report, as long as the frames
-  Place slow_place;
+  ScenePlace slow_place;
   /// A camera of the user's own in place of a named one.
   struct Eye {
     std::array<double, 3> eye = {0, 0, 0};     ///< [m]
@@ -368,10 +382,10 @@ struct Override {
 };
 
 /// variables: {length: 800 mm}, used as ${length}
-struct Variable {
+struct VariableEntry {
   Text name;
   Text value;                            ///< what it comes to: a quantity, a switch, a text
-  std::vector<Place> uses = {};          ///< in the scenario; tables that it names are not looked at
+  std::vector<ScenePlace> uses = {};     ///< in the scenario; tables that it names are not looked at
   std::vector<std::string> beside = {};  ///< what is extended has none of this name but these
   bool given_anew = false;               ///< another value than what is extended or the file has
 };
@@ -379,7 +393,7 @@ struct Variable {
 struct Scenario {
   std::filesystem::path file;
   Text extends;  ///< never kept: for the schema
-  std::vector<Variable> variables;
+  std::vector<VariableEntry> variables;
   SceneSection scene;
   std::vector<PlantEntry> plants;
   std::unique_ptr<ControllerSection> controller;  ///< nullptr without
@@ -390,7 +404,7 @@ struct Scenario {
   std::vector<Disturbance> disturbances;
   RecordSection record;
   DrivesSection drives;
-  std::vector<Check> checks;
+  std::vector<CheckRequest> checks;
   PicturesSection pictures;
   OpcuaSection opcua;
   /// True if the machine can be built: plants and controller have no problem and all periods are multiples
@@ -413,7 +427,7 @@ struct Trial {
 bool sets(const Scenario& scenario, std::string_view value);
 
 /// A problem at a place of the scenario, with the right file name.
-Problem problem_at(const Scenario& scenario, const Place& place, std::string what, std::string remedy);
+Problem problem_at(const Scenario& scenario, const ScenePlace& place, std::string what, std::string remedy);
 
 /// Reads a scenario. Syntax, unknown and duplicate keys, kinds, units, dimensions and ranges are checked and
 /// reported with their place in `problems`, all of the file in one run. The scenario is usable only if no

@@ -6,8 +6,8 @@
 #include <limits>
 #include <unordered_set>
 
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
-#include "sim/scenario/forms.hpp"
 
 namespace drycut::sim::scenario {
 
@@ -142,30 +142,30 @@ void judge_stimulus(MapReader& reader, Stimulus& stimulus) {
 
 struct KindName {
   std::string_view key;
-  Check::Kind kind;
+  CheckRequest::Kind kind;
   std::string_view meaning;
 };
 constexpr KindName kinds[] = {
-    {"each", Check::Kind::each,
+    {"each", CheckRequest::Kind::each,
      "every event of this name satisfies expect; statistics look from one event to the next"},
-    {"all", Check::Kind::all,
+    {"all", CheckRequest::Kind::all,
      "expect holds over statistics of all events of this name: mean_x, max_x, ..., p99(x), rms(x), ..."},
-    {"always", Check::Kind::always,
+    {"always", CheckRequest::Kind::always,
      "the expression holds at every record instant; statistics look at every step of the whole window, or of "
      "every period"},
-    {"eventually", Check::Kind::eventually,
+    {"eventually", CheckRequest::Kind::eventually,
      "the expression holds at one record instant at least, or over one period"},
-    {"never", Check::Kind::never, "no event of this name happens"}};
+    {"never", CheckRequest::Kind::never, "no event of this name happens"}};
 
-bool is_of_events(const Check& check) {
-  return check.kind == Check::Kind::each || check.kind == Check::Kind::all;
+bool is_of_events(const CheckRequest& check) {
+  return check.kind == CheckRequest::Kind::each || check.kind == CheckRequest::Kind::all;
 }
 
 // The value of a kind's key: an expression, or an event. `said` once one of the keys has been read.
-Form kind_form(Check& check, const KindName& of, bool& said) {
+Form kind_form(CheckRequest& check, const KindName& of, bool& said) {
   auto expression = expression_form(check.expression);
   auto event = form(check.event);
-  const bool of_time = of.kind == Check::Kind::always || of.kind == Check::Kind::eventually;
+  const bool of_time = of.kind == CheckRequest::Kind::always || of.kind == CheckRequest::Kind::eventually;
   auto made = of_time ? expression : event;
   made.read = [&check, &said, &of, read = made.read](const YamlNode& node, const Form::Name& name,
                                                      Findings& findings) {
@@ -178,9 +178,9 @@ Form kind_form(Check& check, const KindName& of, bool& said) {
 }
 
 // Statistics look at the whole window, or at one period of it after the other.
-void judge_period(MapReader& reader, const Check& check) {
-  const bool eventually = check.kind == Check::Kind::eventually;
-  if (reader.has("every") && check.kind != Check::Kind::always && !eventually)
+void judge_period(MapReader& reader, const CheckRequest& check) {
+  const bool eventually = check.kind == CheckRequest::Kind::eventually;
+  if (reader.has("every") && check.kind != CheckRequest::Kind::always && !eventually)
     return reader.refuse("every", fmt::format("{} does not go with this kind of check", reader.full("every")),
                          "every belongs to always and eventually");
   if (check.expression.text.empty() || reader.has("every") == has_statistics(check.expression)) return;
@@ -192,7 +192,7 @@ void judge_period(MapReader& reader, const Check& check) {
                   "add every: 0.8 s, or write always");
 }
 
-void judge_check(MapReader& reader, const Check& check) {
+void judge_check(MapReader& reader, const CheckRequest& check) {
   // A key that belongs to other kinds of check only.
   const auto refuse_misplaced = [&](std::string_view key, std::string_view belongs_to) {
     if (!reader.has(key)) return;
@@ -210,7 +210,7 @@ void judge_check(MapReader& reader, const Check& check) {
     reader.refuse(given[1], fmt::format("{} is both {} and {}", reader.name(), given[0], given[1]),
                   "make two checks of it");
   }
-  const bool eventually = check.kind == Check::Kind::eventually;
+  const bool eventually = check.kind == CheckRequest::Kind::eventually;
   if (!eventually) refuse_misplaced("within", "eventually");
   if (eventually) refuse_misplaced("until", "each, all, always and never");
   if (!is_of_events(check)) refuse_misplaced("at_least", "each and all");
@@ -296,7 +296,7 @@ void visit(Archive& archive, Stimulus& stimulus) {
   archive.judge([&stimulus](MapReader& reader) { judge_stimulus(reader, stimulus); });
 }
 
-void visit(Archive& archive, Check& check) {
+void visit(Archive& archive, CheckRequest& check) {
   archive.in_line();
   archive.value({"name", "what reports call it, once a scenario"}, form(check.name));
   archive.require("name", "a check needs a name of its own");
@@ -319,7 +319,7 @@ void visit(Archive& archive, Check& check) {
   archive.judge([&check](MapReader& reader) { judge_check(reader, check); });
 }
 
-void visit(Archive& archive, Variable& variable) { archive.alone(form(variable.value)); }
+void visit(Archive& archive, VariableEntry& variable) { archive.alone(form(variable.value)); }
 
 void visit(Archive& archive, Scenario& scenario) {
   archive.value({"extends",
@@ -331,7 +331,7 @@ void visit(Archive& archive, Scenario& scenario) {
                  "by names of your own; ${name} stands for its value anywhere below, and in cam "
                  "tables and registers, also in arithmetic: ${length} / 2 + 3 mm",
                  !scenario.variables.empty()},
-                scenario.variables, &Variable::name);
+                scenario.variables, &VariableEntry::name);
   archive.section({"scene", "title, time and chance"},
                   [&](Archive& inner) { visit_scene(inner, scenario.scene); });
   archive.plants({"plants", "the machine's parts, by names of your own; 'drycut plants' lists the types",

@@ -94,9 +94,9 @@ std::string with_forces(std::string_view text) {
 }
 
 // The table of units, loaded once (5 ms). UDUNITS is not safe for several threads, hence one lock over all.
-class Table {
+class UnitTable {
  public:
-  Table() {
+  UnitTable() {
     ut_set_error_message_handler(ut_ignore);
     system_ = ut_read_xml(nullptr);
     if (system_ == nullptr) return;
@@ -125,9 +125,9 @@ class Table {
       add(counted, "1");
     }
   }
-  Table(const Table&) = delete;
-  Table& operator=(const Table&) = delete;
-  ~Table() { ut_free_system(system_); }
+  UnitTable(const UnitTable&) = delete;
+  UnitTable& operator=(const UnitTable&) = delete;
+  ~UnitTable() { ut_free_system(system_); }
 
   std::optional<Conversion> find(std::string_view unit) {
     const std::scoped_lock lock(mutex_);
@@ -184,15 +184,15 @@ class Table {
 };
 
 std::optional<Conversion> find(std::string_view unit) {
-  static Table table;
+  static UnitTable table;
   return table.find(unit);
 }
 
-struct Named {
+struct NamedUnit {
   std::string_view unit;
   std::string_view name;
 };
-constexpr std::array<Named, 27> dimension_names = {{
+constexpr std::array<NamedUnit, 27> dimension_names = {{
     {"", "a pure number"},
     {"m", "a length"},
     {"m^2", "an area"},

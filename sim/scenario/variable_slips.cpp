@@ -8,8 +8,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::scenario {
 
@@ -36,7 +36,7 @@ constexpr std::array<TriedUnit, 14> tried_units = {{{"m", "mm"},
                                                     {"%", "%"}}};
 
 /// Another value, and what would be wrong with the present one if that is right.
-struct Candidate {
+struct SlipCandidate {
   std::string value;
   std::string what;
 };
@@ -45,10 +45,10 @@ std::string written(double number, std::string_view unit) {
   return fmt::format("{:.15g}{}{}", number, unit.empty() ? "" : " ", unit);
 }
 
-std::vector<Candidate> candidates_for(const ParsedQuantity& present) {
+std::vector<SlipCandidate> candidates_for(const ParsedQuantity& present) {
   const auto& [number, unit, offset] = present;
   const auto is = written(number, unit);
-  std::vector<Candidate> candidates;
+  std::vector<SlipCandidate> candidates;
   if (number < 0) candidates.push_back({written(-number, unit), fmt::format("is {}, below 0", is)});
   if (number == 0)
     for (const double other : {1, 100})
@@ -88,11 +88,11 @@ Problems places_given_anew(const Scenario& scenario) {
 }
 
 // Whether one of the problems is in a line that uses the variable, or in a table, where uses are not known.
-bool may_be_to_blame(const Variable& variable, const Scenario& scenario, const Problems& problems) {
+bool may_be_to_blame(const VariableEntry& variable, const Scenario& scenario, const Problems& problems) {
   return std::any_of(problems.begin(), problems.end(), [&](const Problem& problem) {
     const auto source = std::find(scenario.sources.begin(), scenario.sources.end(), problem.file);
     if (source == scenario.sources.end()) return true;
-    return std::any_of(variable.uses.begin(), variable.uses.end(), [&](const Place& use) {
+    return std::any_of(variable.uses.begin(), variable.uses.end(), [&](const ScenePlace& use) {
       return use.line == problem.line && use.source == source - scenario.sources.begin();
     });
   });
@@ -145,7 +145,7 @@ void blame_variables(const Scenario& scenario, Problems& problems, std::size_t f
     if (told.empty()) return;
     if (!present || !is_unit(present->unit) || !may_be_to_blame(variable, scenario, told)) continue;
     auto least = told;
-    Candidate best;
+    SlipCandidate best;
     for (auto& candidate : candidates_for(*present)) {
       auto left = again({variable.name.text, candidate.value});
       std::erase_if(left, is_its_own);

@@ -12,9 +12,9 @@
 
 #include "base/text.hpp"
 #include "sim/file.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/constant.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::scenario {
 
@@ -35,9 +35,9 @@ bool is_quantity(std::string_view value) {
   return parsed && is_unit(parsed->unit);
 }
 
-using Report = std::function<void(const Place& place, std::string what, std::string remedy)>;
+using Report = std::function<void(const ScenePlace& place, std::string what, std::string remedy)>;
 /// The value of a variable; nullptr if there is none, which has been told at the place.
-using Lookup = std::function<const std::string*(const std::string& name, const Place& place)>;
+using Lookup = std::function<const std::string*(const std::string& name, const ScenePlace& place)>;
 
 /// A value taken apart: literal pieces of the text, and variables between them.
 struct Piece {
@@ -215,7 +215,7 @@ class Resolver {
       if (value_of(*entries_.at(name)) != nullptr) sound[name] = entries_.at(name)->value.text;
     return sound;
   }
-  std::map<std::string, std::vector<Place>> run(YamlNode& root) {
+  std::map<std::string, std::vector<ScenePlace>> run(YamlNode& root) {
     note_names(root);
     values();
     for (auto& entry : root.entries)
@@ -234,7 +234,7 @@ class Resolver {
     for (const auto& entry : node.entries) note_names(entry.value);
   }
   // Of several uses and a variable of nearly this name that nothing uses that one is the slip.
-  void refuse_unknown(const std::string& name, const Place& place) {
+  void refuse_unknown(const std::string& name, const ScenePlace& place) {
     const auto meant = nearest(name, names_);
     if (meant.empty() || named_.contains(meant) || named_[name] < 2) {
       findings_.add(place, fmt::format("there is no variable '{}'", name),
@@ -260,8 +260,8 @@ class Resolver {
   bool compute(Text& text) {
     if (text.text.find(opening) == std::string::npos) return true;
     const auto made = computed(
-        text, [this](const std::string& name, const Place& place) { return find(name, place); },
-        [this](const Place& place, std::string what, std::string remedy) {
+        text, [this](const std::string& name, const ScenePlace& place) { return find(name, place); },
+        [this](const ScenePlace& place, std::string what, std::string remedy) {
           findings_.add(place, std::move(what), std::move(remedy));
         });
     if (made)
@@ -271,7 +271,7 @@ class Resolver {
     return made.has_value();
   }
 
-  const std::string* find(const std::string& name, const Place& place) {
+  const std::string* find(const std::string& name, const ScenePlace& place) {
     used_[name].push_back(place);
     const auto entry = entries_.find(name);
     if (entry == entries_.end()) {
@@ -341,7 +341,7 @@ class Resolver {
   std::map<std::string, YamlNode::Entry*> entries_;
   std::map<std::string, bool> sound_;  ///< that have been computed
   std::vector<std::string> open_;      ///< being computed, each for the one before
-  std::map<std::string, std::vector<Place>> used_;
+  std::map<std::string, std::vector<ScenePlace>> used_;
   std::map<std::string, int> named_;  ///< in ${ }, how often
   std::set<std::string> misspelt_;    ///< told at the variable that was meant
 };
@@ -377,8 +377,8 @@ bool is_remark(std::string_view table, std::size_t at) {
 bool is_separator(char c) { return std::string_view(",;\t=:\"\n\r").find(c) != std::string_view::npos; }
 
 /// By the scenario or a file of its controller.
-std::vector<const Variable*> unused(const Scenario& scenario) {
-  std::vector<const Variable*> found;
+std::vector<const VariableEntry*> unused(const Scenario& scenario) {
+  std::vector<const VariableEntry*> found;
   for (const auto& variable : scenario.variables)
     if (variable.uses.empty()) found.push_back(&variable);
   if (found.empty() || !scenario.controller) return found;
@@ -386,7 +386,7 @@ std::vector<const Variable*> unused(const Scenario& scenario) {
   Problems ignored;
   for (const auto& file : scenario.controller->files())
     files += read_file(scenario.file.parent_path() / file.text, ignored).value_or("");
-  std::erase_if(found, [&](const Variable* variable) {
+  std::erase_if(found, [&](const VariableEntry* variable) {
     return files.find("${" + variable->name.text + "}") != std::string::npos;
   });
   return found;
@@ -394,21 +394,21 @@ std::vector<const Variable*> unused(const Scenario& scenario) {
 
 }  // namespace
 
-std::map<std::string, std::vector<Place>> resolve_variables(YamlNode& root, Findings& findings) {
+std::map<std::string, std::vector<ScenePlace>> resolve_variables(YamlNode& root, Findings& findings) {
   YamlNode* section = nullptr;
   for (auto& entry : root.entries)
     if (entry.key.text == "variables" && !entry.is_repeated()) section = &entry.value;
   return Resolver(section, first_values(section, findings), findings).run(root);
 }
 
-std::string with_variables(std::string_view table, const std::vector<Variable>& variables,
+std::string with_variables(std::string_view table, const std::vector<VariableEntry>& variables,
                            const std::string& file, Problems& problems) {
   std::vector<std::string> names;
   for (const auto& variable : variables) names.push_back(variable.name.text);
-  const Report report = [&](const Place& place, std::string what, std::string remedy) {
+  const Report report = [&](const ScenePlace& place, std::string what, std::string remedy) {
     problems.push_back({file, place.line, place.column, std::move(what), std::move(remedy)});
   };
-  const Lookup lookup = [&](const std::string& name, const Place& place) -> const std::string* {
+  const Lookup lookup = [&](const std::string& name, const ScenePlace& place) -> const std::string* {
     for (const auto& variable : variables)
       if (variable.name.text == name) return &variable.value.text;
     report(place, fmt::format("the scenario has no variable '{}'", name),
@@ -461,10 +461,10 @@ std::vector<std::string> unused_variables(const Scenario& scenario) {
 }
 
 void refuse_slips(const Scenario& scenario, Findings& findings) {
-  const auto meant = [](const Variable& variable) {
+  const auto meant = [](const VariableEntry& variable) {
     return did_you_mean(variable.name.text, variable.beside, "");
   };
-  const auto is_slip = [&](const Variable& variable) {
+  const auto is_slip = [&](const VariableEntry& variable) {
     return variable.uses.empty() && !variable.beside.empty() && !meant(variable).empty();
   };
   if (std::none_of(scenario.variables.begin(), scenario.variables.end(), is_slip)) return;

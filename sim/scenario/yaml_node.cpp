@@ -36,7 +36,7 @@ class Lines {
         std::clamp<std::size_t>(static_cast<std::size_t>(std::max(mark.line, 0)), 0, starts_.size() - 1);
     return std::min(text_.size(), starts_[line] + static_cast<std::size_t>(std::max(mark.column, 0)));
   }
-  [[nodiscard]] Place place(std::size_t offset) const {
+  [[nodiscard]] ScenePlace place(std::size_t offset) const {
     const auto after = std::upper_bound(starts_.begin(), starts_.end(), offset);
     const auto line = static_cast<std::size_t>(after - starts_.begin()) - 1;
     // From the place asked for last, if it is before this one in the line: a line may be a whole file.
@@ -49,7 +49,7 @@ class Lines {
     }
     return {static_cast<int>(line) + 1, last_column_, source_};
   }
-  [[nodiscard]] Place place(const YAML::Mark& mark) const { return place(offset(mark)); }
+  [[nodiscard]] ScenePlace place(const YAML::Mark& mark) const { return place(offset(mark)); }
   [[nodiscard]] std::string_view text() const { return text_; }
   // A variable stands before `mark` in its line.
   [[nodiscard]] bool has_variable(const YAML::Mark& mark) const {
@@ -84,7 +84,7 @@ class Lines {
     return {};
   }
   // A tab before the first word of the line of `mark`; yaml-cpp's own message is not always about it.
-  [[nodiscard]] std::optional<Place> indenting_tab(const YAML::Mark& mark) const {
+  [[nodiscard]] std::optional<ScenePlace> indenting_tab(const YAML::Mark& mark) const {
     const auto line = std::min(static_cast<std::size_t>(std::max(mark.line, 0)), starts_.size() - 1);
     for (std::size_t i = starts_[line]; i < text_.size() && is_blank(text_[i]) && text_[i] != '\n'; ++i) {
       if (text_[i] == '\t') return place(i);
@@ -214,7 +214,7 @@ std::string in_utf8(const std::string& value) {
 
 // Thrown to leave yaml-cpp from inside its events; caught in parse_yaml.
 struct TooDeep {
-  Place place;
+  ScenePlace place;
 };
 
 // Builds the tree from yaml-cpp's events.
@@ -261,7 +261,7 @@ class Builder : public YAML::EventHandler {
 
   YamlNode take() { return std::move(root_); }
   // Where the innermost [ or { that is still open stands.
-  [[nodiscard]] std::optional<Place> open_bracket() const {
+  [[nodiscard]] std::optional<ScenePlace> open_bracket() const {
     for (auto level = open_.rbegin(); level != open_.rend(); ++level) {
       const auto& place = level->node.text.place;
       if (level->bracket) return place;
@@ -332,8 +332,8 @@ class Builder : public YAML::EventHandler {
 };
 
 // yaml-cpp's words for the commonest slips, in words that say what to do.
-void refuse_yaml(const YAML::ParserException& error, const Lines& lines, const std::optional<Place>& open,
-                 Findings& findings) {
+void refuse_yaml(const YAML::ParserException& error, const Lines& lines,
+                 const std::optional<ScenePlace>& open, Findings& findings) {
   auto place = lines.place(error.mark);
   const auto told = [&](std::string what, std::string remedy) {
     findings.add(place, std::move(what), std::move(remedy));
@@ -371,7 +371,7 @@ void refuse_yaml(const YAML::ParserException& error, const Lines& lines, const s
 
 }  // namespace
 
-void Findings::add(const Place& place, std::string what, std::string remedy) {
+void Findings::add(const ScenePlace& place, std::string what, std::string remedy) {
   if (std::find(silent_.begin(), silent_.end(), place) != silent_.end()) return;
   found_.push_back({place, std::move(what), std::move(remedy)});
 }

@@ -43,14 +43,14 @@ inline YamlNode::YamlNode(Kind of, Text given) : kind(of), text(std::move(given)
 class Findings {
  public:
   explicit Findings(std::vector<std::string> sources) : sources_(std::move(sources)) {}
-  void add(const Place& place, std::string what, std::string remedy);
+  void add(const ScenePlace& place, std::string what, std::string remedy);
   /// Another text takes part: its number. `folder`: of the file, seen from that of the scenario; "" = the
   /// same.
   int add_source(std::string name, const std::filesystem::path& folder = {});
   /// A file name that `text` gives, relative to the scenario's folder, whichever file it stands in.
   [[nodiscard]] std::string path_from(const Text& text) const;
   /// Nothing more is said of what stands exactly here: it has been told.
-  void silence(const Place& place) { silent_.push_back(place); }
+  void silence(const ScenePlace& place) { silent_.push_back(place); }
   [[nodiscard]] bool empty() const { return found_.empty(); }
   [[nodiscard]] std::size_t count() const { return found_.size(); }
   [[nodiscard]] const std::vector<std::string>& sources() const { return sources_; }
@@ -59,14 +59,14 @@ class Findings {
 
  private:
   struct Found {
-    Place place;
+    ScenePlace place;
     std::string what;
     std::string remedy;
   };
   std::vector<std::string> sources_;
   std::map<int, std::filesystem::path> folders_;  ///< of sources that stand in another one than the scenario
   std::vector<Found> found_;
-  std::vector<Place> silent_;
+  std::vector<ScenePlace> silent_;
 };
 
 /// A scenario's text as a tree: a YAML text of scenario's size.

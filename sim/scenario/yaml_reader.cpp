@@ -1,4 +1,4 @@
-#include "sim/scenario/yaml_reader.hpp"
+#include "sim/scenario/archive.hpp"
 
 #include <fmt/format.h>
 
@@ -100,13 +100,13 @@ std::string MapReader::full(std::string_view key) const { return below(name_, ke
 
 bool MapReader::has(std::string_view key) const { return child(node_, key) != nullptr; }
 
-Place MapReader::place(std::string_view key) const {
+ScenePlace MapReader::place(std::string_view key) const {
   for (const auto& entry : node_.entries)
     if (entry.key.text == key) return entry.key.place;
   return node_.text.place;
 }
 
-Place MapReader::value_place(std::string_view key) const {
+ScenePlace MapReader::value_place(std::string_view key) const {
   const auto* value = child(node_, key);
   return value == nullptr ? node_.text.place : value->text.place;
 }

@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/expression.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::scenario {
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "sim/record/csv_files.hpp"
 #include "sim/record/hdf5_file.hpp"
 #include "sim/record/json.hpp"
 #include "sim/record/mcap_file.hpp"

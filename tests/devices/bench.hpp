@@ -134,7 +134,7 @@ class DeviceBench : public testing::Test {
   /// Every command but INIT is refused before INIT.
   void none_runs_before_init() {
     static_cast<void>(diagnostics());
-    for (const Command& entry : device->type().commands.subspan(1)) {
+    for (const DeviceCommand& entry : device->type().commands.subspan(1)) {
       const std::string name(entry.name);
       command(name);
       EXPECT_THAT(diagnostics(),

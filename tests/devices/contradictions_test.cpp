@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/catalogue.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/qmove_controller.hpp"
 
 // Opposite commands of one sample (issue: an emergency is never lost in silence). The table's order stays.
@@ -64,7 +64,7 @@ struct Panel {
     const qmove::Configuration configuration = qmove::parse_configuration(
         "GLOBAL\ngfGo F\nBUS\n1 1CPUB 02\n2 1MIXA 00\nINTDEVICE\nAxis EPICPOS 2 2.CNT01 X X.X 2.AN01\nEND\n",
         "panel.cnf", catalogue(), problems);
-    std::vector<qmove::Program> programs;
+    std::vector<qmove::QclProgram> programs;
     for (const auto& [name, orders] : tasks)
       programs.push_back(qmove::compile_module(
           "INIT Axis\nWAIT Axis:st_init\nMAIN:\nWAIT gfGo\n" + orders + "WAIT NOT gfGo\nJUMP MAIN\nEND\n",

@@ -25,7 +25,7 @@ using Marks = std::set<std::string>;
 inline void add_table(const DeviceType& type, Marks& marks) {
   for (const Variable& variable : type.variables) marks.emplace(variable.name);
   for (const State& state : type.states) marks.emplace(state.name);
-  for (const Command& command : type.commands) {
+  for (const DeviceCommand& command : type.commands) {
     marks.insert(std::string(command.name) + " accepted");
     marks.insert(std::string(command.name) + " refused");
   }
@@ -60,12 +60,12 @@ inline Marks marks_of(std::FILE* output) {
   return covered;
 }
 
-/// Runs, in one process, those of this program's tests that `filter` names, and gives what is `known` and none of them covers.
+/// Runs, in one process, those of this program's tests that `filter` names, and gives what is `known` and
+/// none of them covers.
 inline std::vector<std::string> missing(const Marks& known, const std::string& filter) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
-  const std::string command =
-      "DRYCUT_COVERS=1 env -u GTEST_TOTAL_SHARDS -u GTEST_SHARD_INDEX '" + program +
-      "' --gtest_color=no --gtest_filter='" + filter + "'";
+  const std::string command = "DRYCUT_COVERS=1 env -u GTEST_TOTAL_SHARDS -u GTEST_SHARD_INDEX '" + program +
+                              "' --gtest_color=no --gtest_filter='" + filter + "'";
   std::FILE* output = popen(command.c_str(), "r");
   if (output == nullptr) return {"the tests do not run"};
   const Marks covered = marks_of(output);

@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "devices/camming4/camming4.hpp"
-#include "devices/catalogue.hpp"
-#include "devices/eanpos/eanpos.hpp"
 #include "devices/epicpos/epicpos.hpp"
 #include "devices/oopos2/oopos2.hpp"
+#include "devices/qmove/catalogue.hpp"
 
 namespace drycut::devices {
 namespace {

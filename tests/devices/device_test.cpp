@@ -12,7 +12,7 @@ using testing::IsEmpty;
 
 enum State { st_init, st_busy, st_kept };
 enum Value { level, byte, shown, flag, table };
-enum Command { c_INIT, c_FIRST, c_SECOND, c_QUIET };
+enum DeviceCommand { c_INIT, c_FIRST, c_SECOND, c_QUIET };
 
 constexpr std::array variables = {
     Variable{"level", Size::L, "Um", -100, 100},
@@ -33,9 +33,10 @@ constexpr std::array variables = {
 };
 constexpr std::array states = {devices::State{"st_init"}, devices::State{"st_busy"},
                                devices::State{"st_kept", Retention::retentive}};
-constexpr std::array commands = {devices::Command{"INIT", {0b1, 0}}, devices::Command{"FIRST", {0b11, 0b01}},
-                                 devices::Command{"SECOND", {0b11, 0b11}},
-                                 devices::Command{"QUIET", {0b11, 0b11}, "", "", {st_kept, true, true}}};
+constexpr std::array commands = {
+    devices::DeviceCommand{"INIT", {0b1, 0}}, devices::DeviceCommand{"FIRST", {0b11, 0b01}},
+    devices::DeviceCommand{"SECOND", {0b11, 0b11}},
+    devices::DeviceCommand{"QUIET", {0b11, 0b11}, "", "", {st_kept, true, true}}};
 constexpr std::array aliases = {Alias{"lvl", "level"}, Alias{"lost", "nothing"}};
 const DeviceType fake_type = {"FAKE", "", variables, states, commands, {}, aliases};
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "devices/catalogue.hpp"
 #include "devices/lx3vp/il_program.hpp"
 #include "devices/plcopen/st/program.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/program.hpp"
 

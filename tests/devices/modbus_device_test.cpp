@@ -1,8 +1,8 @@
 // The device MODBUS of the QMOVE: its tables, its commands, and what a master reaches of it.
 #include <gmock/gmock.h>
 
-#include "devices/catalogue.hpp"
 #include "devices/modbus/modbus.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/qmove_controller.hpp"
 #include "tests/test_folder.hpp"
 
@@ -160,7 +160,7 @@ TEST_F(ModbusCnf, IsReachedWhileItIsAnOpenSlave) {
   EXPECT_FALSE(face.answers(3)) << "closed";
   const auto command = [&](const char* module) {
     Problems wrong;
-    std::vector<qmove::Program> programs;
+    std::vector<qmove::QclProgram> programs;
     programs.push_back(qmove::compile_module(module, "t.mod", configuration, catalogue(), wrong));
     EXPECT_EQ(lines_of(wrong), "");
     return programs;

@@ -6,9 +6,9 @@
 #include <map>
 #include <string>
 
-#include "devices/lx3vp/block.hpp"
+#include "devices/controller.hpp"
 #include "devices/lx3vp/modbus_map.hpp"
-#include "devices/modbus_face.hpp"
+#include "devices/lx3vp/registers.hpp"
 #include "devices/plcopen/modbus_map.hpp"
 
 namespace drycut::devices {
@@ -58,7 +58,7 @@ std::string at(const ModbusFace& face, ModbusTable table, int address, bool writ
 
 TEST(ModbusLx3vp, BeginsAndEndsEachRangeWhereWeconSays) {
   constexpr bool on = true;
-  const lx3vp::ModbusMap map(on);
+  const lx3vp::RegisterFace map(on);
   struct Row {
     int address;
     const char* name;
@@ -83,7 +83,7 @@ TEST(ModbusLx3vp, BeginsAndEndsEachRangeWhereWeconSays) {
 
 TEST(ModbusLx3vp, HasEveryRegisterOnceAndWritesAllButInputs) {
   constexpr bool on = true;
-  const lx3vp::ModbusMap map(on);
+  const lx3vp::RegisterFace map(on);
   std::map<std::string, int> seen;
   for (const auto table : {ModbusTable::coils, ModbusTable::holding_registers})
     for (int address = 0; address < 65536; ++address) {
@@ -110,7 +110,7 @@ TEST(ModbusLx3vp, HasEveryRegisterOnceAndWritesAllButInputs) {
 
 TEST(ModbusLx3vp, AnswersAsAnyUnitWhileItHasPower) {
   bool powered = true;
-  const lx3vp::ModbusMap map(powered);
+  const lx3vp::RegisterFace map(powered);
   for (const int unit : {0, 1, 247, 255}) EXPECT_TRUE(map.answers(static_cast<std::uint8_t>(unit)));
   powered = false;
   EXPECT_FALSE(map.answers(1));
@@ -139,7 +139,7 @@ TEST(ModbusMemory, PlacesCountInTheirOwnSize) {
 
 TEST(ModbusMemory, HasGapsThatReadZeroAndCannotBeWritten) {
   bool powered = true;
-  plcopen::ModbusMap map(powered);
+  plcopen::MemoryFace map(powered);
   EXPECT_TRUE(map.empty());
   EXPECT_EQ(map.add(ModbusTable::holding_registers, 4, "a", ModbusFormat::int16, true), "");
   EXPECT_EQ(map.add(ModbusTable::holding_registers, 6, "b", ModbusFormat::real32, true), "");

@@ -1,6 +1,5 @@
 // What CAMMING4 (000 1.1, 1.9), EPICPOS (002) and EANPOS do alike as positioners, on the same ideal axis.
 #include "devices/camming4/camming4.hpp"
-#include "devices/eanpos/eanpos.hpp"
 #include "devices/epicpos/epicpos.hpp"
 #include "tests/devices/ideal_axis.hpp"
 #include "tests/devices/search_bench.hpp"

@@ -4,9 +4,9 @@
 #include <set>
 #include <string>
 
-#include "devices/catalogue.hpp"
+#include "devices/qmove/catalogue.hpp"
+#include "devices/qmove/cnf.hpp"
 #include "devices/qmove/language.hpp"
-#include "devices/qmove/text.hpp"
 
 // Readings of ours stand beside what they are about, each with the place that leaves it open.
 namespace drycut::devices {
@@ -69,7 +69,7 @@ TEST(Readings, SayWhatTheDevicesDecide) {
 TEST(Readings, OfTheLanguageCoverWhatNoManualShows) {
   for (const char* word :
        {"NEXT", "ENDWHILE", "ENDSUB", "CALL", "RESOUT", "timer", "NEQ", "order of operators"})
-    EXPECT_TRUE(std::ranges::any_of(qmove::language, [&](const qmove::LanguageRow& row) {
+    EXPECT_TRUE(std::ranges::any_of(qmove::language, [&](const qmove::QclRow& row) {
       return row.form.find(word) != std::string_view::npos && !row.reading.empty();
     })) << word;
 }
@@ -77,7 +77,7 @@ TEST(Readings, OfTheLanguageCoverWhatNoManualShows) {
 // The table forgets no word of the language.
 TEST(Readings, TheLanguageTableHasEveryReservedWord) {
   std::string forms;
-  for (const qmove::LanguageRow& row : qmove::language) forms += std::string(row.form) + " ";
+  for (const qmove::QclRow& row : qmove::language) forms += std::string(row.form) + " ";
   for (const std::string& word : qmove::reserved_words())
     EXPECT_NE(forms.find(word), std::string::npos) << word;
 }

@@ -1,5 +1,5 @@
 // QMOVE configurations.
-#include "devices/catalogue.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/qmove_controller.hpp"
 #include "tests/fuzz/fuzz.hpp"

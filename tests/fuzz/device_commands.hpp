@@ -12,8 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "devices/camming4/codes.hpp"
-#include "devices/catalogue.hpp"
+#include "base/problem.hpp"
+#include "devices/camming4/sector.hpp"
+#include "devices/qmove/catalogue.hpp"
 
 // Bytes played as what can happen to a device inside a controller: writes and commands of a program, counts,
 // inputs and index pulses of a machine, samples, power cycles. For fuzzers, which find the bytes, and for
@@ -108,7 +109,7 @@ class DevicePlayer {
   }
   /// Parameters at the ends of what 32 bits hold, and in between.
   void set_up_anyhow(Bytes& bytes) {
-    for (const devices::Variable& variable : type.variables)
+    for (const devices::DeviceVariable& variable : type.variables)
       if (variable.rows == 1) set({{variable.name, extreme(bytes)}});
   }
   /// A cam of any sectors.
@@ -234,7 +235,7 @@ class DevicePlayer {
 
   void write(Bytes& bytes) {
     const int index = bytes.below(type.variables.size());
-    const devices::Variable& variable = type.variables[static_cast<std::size_t>(index)];
+    const devices::DeviceVariable& variable = type.variables[static_cast<std::size_t>(index)];
     const int row = bytes.below(static_cast<std::size_t>(std::min(variable.rows, 8)));
     device->write({devices::Symbol::Kind::variable, index, row}, value_of(variable, bytes));
   }
@@ -246,7 +247,7 @@ class DevicePlayer {
     return ends.at(static_cast<std::size_t>(bytes.below(ends.size())));
   }
 
-  static std::int32_t value_of(const devices::Variable& variable, Bytes& bytes) {
+  static std::int32_t value_of(const devices::DeviceVariable& variable, Bytes& bytes) {
     switch (bytes.byte() % 8) {
       case 0:
         return extreme(bytes);
@@ -281,7 +282,7 @@ class DevicePlayer {
     static_cast<void>(device->take_diagnostics());
     for (const auto& [address, dac] : cards.analogue_outputs)
       if (dac.word < -devices::dac_full_scale) return "the DAC's word is beyond full scale";
-    for (int index = 0; const devices::Variable& variable : type.variables) {
+    for (int index = 0; const devices::DeviceVariable& variable : type.variables) {
       const std::int32_t value = device->read({devices::Symbol::Kind::variable, index++, 0});
       const bool fits = devices::wrap(variable.size, value) == value;
       // A row number of 128 is in a byte that the manual gives too small.

@@ -1,5 +1,5 @@
 // QCL modules, against a configuration with one device of each type.
-#include "devices/catalogue.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/program.hpp"
 #include "devices/qmove/qmove_controller.hpp"

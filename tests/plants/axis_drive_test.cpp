@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-#include "plants/friction.hpp"
+#include "plants/motor_load.hpp"
 #include "tests/plants/plants_lookup.hpp"
 
 namespace drycut::plants {
@@ -113,7 +113,7 @@ TEST(AxisDrive, TripsAreToldOnce) {
   for (int i = 0; i < 100; ++i) {
     drive.drive(rotor, h);
     world.step(h);
-    for (const Event& event : drive.take_events(rotor)) told += event.name == "trip" ? 1 : 0;
+    for (const MachineEvent& event : drive.take_events(rotor)) told += event.name == "trip" ? 1 : 0;
   }
   EXPECT_EQ(told, 1);
 }

@@ -93,7 +93,7 @@ TEST(Callouts, TheKnifesForceIsThatOfItsCutUpwardsAndThereOnlyDuringIt) {
     largest = std::max(largest, forces[0].to[1]);
   }
   double cut = 0;
-  for (const Event& event : line.events)
+  for (const MachineEvent& event : line.events)
     if (event.name == "cut") cut = std::max(cut, value(event, "force"));
   EXPECT_NEAR(largest, cut, 1e-9 * cut);
   EXPECT_GT(with, 0);

@@ -176,9 +176,9 @@ TEST(ContactorDrive, WithAPhaseLostItRunsButDoesNotStart) {
 
 /// The events of a drive that tell that its motor was pulled out.
 template <class AnyStand>
-std::vector<Event> pulled_out(AnyStand& stand) {
+std::vector<MachineEvent> pulled_out(AnyStand& stand) {
   auto events = stand.drive.power().take_events();
-  std::erase_if(events, [](const Event& event) { return event.name != "pulled_out"; });
+  std::erase_if(events, [](const MachineEvent& event) { return event.name != "pulled_out"; });
   return events;
 }
 

@@ -38,7 +38,7 @@ TEST(FlyingSaw, CrashTakesMassTimesSpeedAndItsRebound) {
     SawLine line(definition);
     line.carriage().speed = side * 0.8;
     line.run(0.3);
-    const Event& crash = line.only("crash");
+    const MachineEvent& crash = line.only("crash");
     EXPECT_EQ(value(crash, "side"), side);
     EXPECT_NEAR(value(crash, "speed"), 800, 1e-6);
     // Spring and damper that only push part when their force is 0 (Schwager and Poeschel 2007).
@@ -150,7 +150,7 @@ TEST(FlyingSaw, CutsTheTubeInTheTimeOfItsLaw) {
   SawLine line(definition, tube(0.0));
   line.command("head.plunge", true);
   line.run(1);
-  const Event& cut = line.only("cut");
+  const MachineEvent& cut = line.only("cut");
   const double area = std::numbers::pi * 2e-3 * (0.04 - 2e-3);
   const double force = 350 + 0.1 * 9.80665;
   const double time = (600 * 0.04 + 4e5 * area) / force;
@@ -217,7 +217,7 @@ TEST(FlyingSaw, PinchIsStiffnessTimesDisplacement) {
   EXPECT_EQ(line.events[0].name, "pinch");
   EXPECT_NEAR(value(line.events[0], "force"), 150, 2);
   EXPECT_NEAR(value(line.events[0], "displacement"), 150 / 2e5 * 1000, 0.01);
-  const Event& cut = line.events[1];
+  const MachineEvent& cut = line.events[1];
   EXPECT_NEAR(value(cut, "slant"), 1000 * slid, 5 * h);  // it ends within the step
   EXPECT_NEAR(value(cut, "mismatch"), 5, 0.1);
   EXPECT_NEAR(value(cut, "pinch"), largest, 1e-9);

@@ -74,7 +74,7 @@ TEST(Inverter, AtTheTorqueLimitTheFrequencyFollowsTheRotor) {
   const auto is_pulled_out = [&] {
     const auto events = stand.drive.power().take_events();
     return std::count_if(events.begin(), events.end(),
-                         [](const Event& event) { return event.name == "pulled_out"; });
+                         [](const MachineEvent& event) { return event.name == "pulled_out"; });
   };
   EXPECT_EQ(is_pulled_out(), 0) << "its ramp has waited";
   fault(stand.faults(), "drive", "torque_limit", 10);

@@ -117,7 +117,7 @@ TEST(LinearAxis, EndStopTakesTheMomentumOfAFreeCarriage) {
     Unit unit(definition);
     unit.carriage().speed = side * 0.5;
     while (unit.events.empty() && unit.steps < 20000) unit.step(1e-5);
-    const Event& hit = unit.only("end_stop");
+    const MachineEvent& hit = unit.only("end_stop");
     EXPECT_EQ(value(hit, "side"), side);
     const double speed = value(hit, "speed") / 1000;
     EXPECT_NEAR(speed, 0.5, 1e-9);

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "plants/encoder.hpp"
 #include "plants/measuring_wheel.hpp"
 #include "plants/rotary_knife.hpp"
+#include "plants/transducers.hpp"
 #include "plants/web.hpp"
 #include "tests/plants/plants_lookup.hpp"
 #include "tests/plants/web_line.hpp"

@@ -25,7 +25,7 @@ TEST(RotaryKnife, CutsTheCircumferenceAtWebSpeed) {
   line.run(6);
   ASSERT_GE(line.events.size(), 9U);
   for (std::size_t i = 0; i < line.events.size(); ++i) {
-    const Event& cut = line.events[i];
+    const MachineEvent& cut = line.events[i];
     EXPECT_EQ(cut.name, "cut");
     EXPECT_EQ(value(cut, "number"), static_cast<double>(i + 1));
     if (i < 2) continue;  // the run-up
@@ -100,7 +100,7 @@ TEST(RotaryKnife, FastDrumTearsAndSlowDrumBuckles) {
     line.run(2.5);
     int cuts = 0;
     int faults = 0;
-    for (const Event& event : line.events) {
+    for (const MachineEvent& event : line.events) {
       cuts += event.name == "cut" ? 1 : 0;
       faults += event.name == (factor > 1 ? "tear" : "buckle") ? 1 : 0;
       if (event.name != "cut") {
@@ -195,8 +195,8 @@ TEST(RotaryKnife, RunsAreEqualToTheBit) {
     std::vector<double> values;
     for (const Channel& c : line.plant->channels()) values.push_back(c.read());
     for (const Channel& c : line.supply->channels()) values.push_back(c.read());
-    for (const Event& e : line.events)
-      for (const Event::Value& v : e.values) values.push_back(v.number);
+    for (const MachineEvent& e : line.events)
+      for (const MachineEvent::Value& v : e.values) values.push_back(v.number);
     return values;
   };
   EXPECT_EQ(run(1), run(1));

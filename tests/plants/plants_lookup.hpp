@@ -51,8 +51,8 @@ inline void fault(const std::vector<Fault>& faults, const std::string& component
   ADD_FAILURE() << "no fault " << component << " " << name;
 }
 
-inline double value(const Event& event, const std::string& name) {
-  for (const Event::Value& v : event.values)
+inline double value(const MachineEvent& event, const std::string& name) {
+  for (const MachineEvent::Value& v : event.values)
     if (v.name == name) return v.number;
   ADD_FAILURE() << "no value " << name;
   return 0;
@@ -84,9 +84,9 @@ struct Machine {
   World world;
   std::unique_ptr<Plant> supply;  ///< the web, null without one
   std::unique_ptr<Plant> plant;
-  std::vector<Event> events;  ///< of the machine
-  std::vector<double> times;  ///< of the events [s]
-  int unclamped = 0;          ///< events `unclamped`, which are not among them
+  std::vector<MachineEvent> events;  ///< of the machine
+  std::vector<double> times;         ///< of the events [s]
+  int unclamped = 0;                 ///< events `unclamped`, which are not among them
   int steps = 0;
   explicit Machine(PlantDefinition& definition, PlantDefinition* supplied = nullptr, std::uint64_t seed = 1)
       : world(seed), supply(supplied != nullptr ? supplied->build(world, nullptr) : nullptr) {
@@ -113,7 +113,7 @@ struct Machine {
   }
 
   /// The one event that there was, of that name.
-  const Event& only(const std::string& name) {
+  const MachineEvent& only(const std::string& name) {
     EXPECT_EQ(events.size(), 1U);
     EXPECT_EQ(events.at(0).name, name);
     return events.at(0);
@@ -125,7 +125,7 @@ struct Machine {
     world.step(dt);
     if (supply) supply->sense(dt);
     plant->sense(dt);
-    for (Event& event : plant->take_events()) {
+    for (MachineEvent& event : plant->take_events()) {
       if (event.name == "unclamped") {  // as most cuts are here
         ++unclamped;
         continue;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "plants/cutting.hpp"
-#include "plants/friction.hpp"
+#include "plants/motor_load.hpp"
 #include "plants/servo_drive.hpp"
 #include "plants/transmission.hpp"
 #include "plants/world.hpp"

@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-#include "plants/encoder.hpp"
 #include "plants/measuring_wheel.hpp"
-#include "plants/position_switch.hpp"
+#include "plants/transducers.hpp"
 #include "tests/plants/plants_lookup.hpp"
 
 namespace drycut::plants {

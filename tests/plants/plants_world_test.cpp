@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "plants/random.hpp"
 #include "plants/world.hpp"
 #include "tests/plants/plants_lookup.hpp"
 

@@ -20,7 +20,7 @@ struct PulseAxis {
   ServoAxis servo;
   std::vector<Port> ports;
   std::vector<Fault> faults;
-  std::vector<Event> trips;
+  std::vector<MachineEvent> trips;
   double rate = 0;  // pulses a step, either sign
   double sent = 0;
   double load_torque = 0;
@@ -48,7 +48,7 @@ struct PulseAxis {
     rotor.add_torque(load_torque);
     world.step(h);
     servo.sense(rotor);
-    for (const Event& event : servo.take_events(rotor))
+    for (const MachineEvent& event : servo.take_events(rotor))
       if (event.name == "following_error") trips.push_back(event);
   }
   void run(double seconds) {

@@ -115,7 +115,7 @@ TEST(SawCut, MismatchAndSlipCountFromWhenTheClampsTakeHold) {
   line.command("head.plunge", true);
   line.run(0.5);
   ASSERT_EQ(line.events.size(), 2U);
-  const Event& cut = line.events[1];
+  const MachineEvent& cut = line.events[1];
   ASSERT_EQ(cut.name, "cut");
   EXPECT_NEAR(value(cut, "mismatch"), 500, 0.1);
   EXPECT_NEAR(value(cut, "slip"), slip, 1e-6);

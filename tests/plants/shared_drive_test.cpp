@@ -18,7 +18,7 @@ struct SharedLine {
   std::map<std::string, LinearAxisDefinition> definitions;
   World world{1};
   std::map<std::string, std::unique_ptr<Plant>> plants;
-  std::map<std::string, std::vector<Event>> events;
+  std::map<std::string, std::vector<MachineEvent>> events;
   double now = 0;
 
   explicit SharedLine(const std::string& kind = "servo", int axes = 2) {
@@ -68,7 +68,7 @@ struct SharedLine {
     world.step(h);
     for (auto& [name, plant] : plants) {
       plant->sense(h);
-      for (Event& event : plant->take_events()) events[name].push_back(std::move(event));
+      for (MachineEvent& event : plant->take_events()) events[name].push_back(std::move(event));
     }
     now += h;
   }
@@ -84,8 +84,8 @@ struct SharedLine {
     return (now - from) * 1e3;
   }
   bool closed(const std::string& axis) { return read(axis, "shared.closed") == 1; }
-  std::vector<Event> switched_live() {
-    std::vector<Event> found;
+  std::vector<MachineEvent> switched_live() {
+    std::vector<MachineEvent> found;
     for (const auto& event : events["a"])
       if (event.name == "switched_live") found.push_back(event);
     return found;

@@ -15,7 +15,7 @@ struct StationLine {
   World world{1};
   std::unique_ptr<Plant> supply;
   std::vector<std::unique_ptr<Plant>> stations;
-  std::vector<std::vector<Event>> events;  ///< of each station
+  std::vector<std::vector<MachineEvent>> events;  ///< of each station
 
   explicit StationLine(WebData web) {
     WebDefinition definition;
@@ -37,7 +37,7 @@ struct StationLine {
     supply->sense(dt);
     for (std::size_t i = 0; i < stations.size(); ++i) {
       stations[i]->sense(dt);
-      for (Event& event : stations[i]->take_events())
+      for (MachineEvent& event : stations[i]->take_events())
         if (event.name != "saturated") events[i].push_back(std::move(event));
     }
   }
@@ -55,9 +55,9 @@ struct StationLine {
       plug<ReferencePort>(*stations[i], "servo.reference").volts = 2.5 * speed;
     }
   }
-  std::vector<Event> only(std::size_t station, const std::string& name) {
-    std::vector<Event> found;
-    for (const Event& event : events[station])
+  std::vector<MachineEvent> only(std::size_t station, const std::string& name) {
+    std::vector<MachineEvent> found;
+    for (const MachineEvent& event : events[station])
       if (event.name == name) found.push_back(event);
     return found;
   }
@@ -102,7 +102,7 @@ TEST(Stations, APieceIsHalvedDownTheLine) {
     }
     EXPECT_EQ(channel(line.web(), "pieces"), static_cast<double>(first.size() + second.size()));
     EXPECT_EQ(value(first[0], "number"), 1);
-    for (const Event::Value& v : first[0].values) EXPECT_NE(v.name, "rest");
+    for (const MachineEvent::Value& v : first[0].values) EXPECT_NE(v.name, "rest");
   }
 }
 
@@ -318,8 +318,8 @@ TEST(Stations, ABladeOnALightWebIsFollowedInAnyStep) {
     EXPECT_EQ(line.events[0].size(), 3U);  // no tear, no buckle
     return cuts.back();
   };
-  const Event coarse = cut(1e-4);
-  const Event fine = cut(2e-6);
+  const MachineEvent coarse = cut(1e-4);
+  const MachineEvent fine = cut(2e-6);
   EXPECT_NEAR(value(coarse, "length"), value(fine, "length"), 0.3);
   EXPECT_NEAR(value(coarse, "mismatch"), value(fine, "mismatch"), 10);
 }

@@ -110,8 +110,9 @@ TEST(VerticalPress, ADriveThatWorksAgainstItsBrakeIsTold) {
       press.run(held);
       press.command("brake.release", true);
       press.run(1);
-      const auto told = std::count_if(press.events.begin(), press.events.end(),
-                                      [](const Event& event) { return event.name == "against_brake"; });
+      const auto told =
+          std::count_if(press.events.begin(), press.events.end(),
+                        [](const MachineEvent& event) { return event.name == "against_brake"; });
       EXPECT_EQ(told, held > 0.2 ? 1 : 0) << kind << held;
     }
 }

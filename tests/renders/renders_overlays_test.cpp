@@ -118,7 +118,7 @@ TEST(RendersOverlays, ATrailHasAGapWhereTheToolWasNotThere) {
 
 TEST(RendersOverlays, LengthIsMarkedFromEndToEnd) {
   Film film = turning_tool();
-  film.frames[2].callouts = {{Callout::Kind::length, "800.0 mm", {-0.6, 0.2, 0}, {0.6, 0.2, 0}}};
+  film.frames[2].callouts = {{DrawnCallout::Kind::length, "800.0 mm", {-0.6, 0.2, 0}, {0.6, 0.2, 0}}};
   const Image image = drawn(film, 2);
   for (const double x : {-0.6, -0.4, 0.4, 0.6}) EXPECT_GT(pixel(film, image, {x, 0.2, 0})[1], 220) << x;
   EXPECT_EQ(pixel(film, image, {0.7, 0.2, 0})[1], 128);
@@ -128,8 +128,8 @@ TEST(RendersOverlays, LengthIsMarkedFromEndToEnd) {
 
 TEST(RendersOverlays, ArrowPointsAlongTheForceAndGrowsWithIt) {
   Film film = turning_tool();
-  film.frames[0].callouts = {{Callout::Kind::force, "cut", {0, 0, 0}, {0, 400, 0}}};
-  film.frames[1].callouts = {{Callout::Kind::force, "cut", {0, 0, 0}, {0, 25, 0}}};
+  film.frames[0].callouts = {{DrawnCallout::Kind::force, "cut", {0, 0, 0}, {0, 400, 0}}};
+  film.frames[1].callouts = {{DrawnCallout::Kind::force, "cut", {0, 0, 0}, {0, 25, 0}}};
   const auto red = [&](std::size_t frame) {
     const Image image = drawn(film, frame);
     int rows = 0;
@@ -146,8 +146,8 @@ TEST(RendersOverlays, ArrowPointsAlongTheForceAndGrowsWithIt) {
   EXPECT_NEAR(red(1), (0.04 + 0.14 * 0.25) * (film.height - kCaption), 4);
 }
 
-Callout speed_at(double y, double speed) {
-  return {Callout::Kind::speed, "tube", {-0.4, y, 0}, {speed, 0, 0}};
+DrawnCallout speed_at(double y, double speed) {
+  return {DrawnCallout::Kind::speed, "tube", {-0.4, y, 0}, {speed, 0, 0}};
 }
 /// Columns with the green of a speed's arrow in the row of that height: the first, and how many.
 std::pair<int, int> green_columns(const Film& film, const Image& image, double y) {
@@ -184,14 +184,14 @@ TEST(RendersOverlays, ArrowsOfSpeedsAreInProportion) {
 
 TEST(RendersOverlays, NoWordsCoverASpeedsArrow) {
   Film film = turning_tool();
-  const Callout speed = speed_at(0, 0.8);
+  const DrawnCallout speed = speed_at(0, 0.8);
   film.frames[0].callouts = {speed};
   const auto bare = green_columns(film, drawn(film, 0), 0);
   // A force right above it, whose words would stand on the arrow.
   const double metre = projected(film.camera, film.width, film.height - kCaption, {0, 0, 0})[1] -
                        projected(film.camera, film.width, film.height - kCaption, {0, 1, 0})[1];
   const double above = (0.18 * (film.height - kCaption) + 14 * film.height / 540.0) / metre;
-  film.frames[0].callouts.push_back({Callout::Kind::force, "clamp", {-0.3, above, 0}, {0, -2400, 0}});
+  film.frames[0].callouts.push_back({DrawnCallout::Kind::force, "clamp", {-0.3, above, 0}, {0, -2400, 0}});
   EXPECT_EQ(green_columns(film, drawn(film, 0), 0), bare);
 }
 
@@ -210,7 +210,7 @@ TEST(RendersOverlays, TheQuotaIsALineAndItsGaugeShowsHowFarOffItIs) {
   for (const auto& [miss, tolerances, in] :
        {Case{0, 0, true}, Case{0.29e-3, 0.29 / 0.3, true}, Case{0.6e-3, 2, false},
         Case{-0.31e-3, -0.31 / 0.3, false}, Case{0.1, 4, false}, Case{-0.1, -4, false}}) {
-    film.frames[0].quota = Quota{{-0.6, 0.2, 0}, {0, 0.2, 0}, 0.3, miss, tolerance};
+    film.frames[0].quota = DrawnQuota{{-0.6, 0.2, 0}, {0, 0.2, 0}, 0.3, miss, tolerance};
     const Image image = drawn(film, 0);
     const auto line = pixel(film, image, {-0.48, 0.2, 0});
     EXPECT_TRUE(line[0] > line[2] + 60 && line[1] > line[2] + 40) << "yellow";
@@ -305,7 +305,7 @@ TEST(RendersLabels, StayInThePictureAndOffWhatIsTaken) {
 
 TEST(RendersOverlays, LabelsOfShortPiecesBesideEachOtherDoNotMeet) {
   Film film = turning_tool();
-  const auto plates = [&](std::vector<Callout> callouts) {  // pixels as dark as a plate
+  const auto plates = [&](std::vector<DrawnCallout> callouts) {  // pixels as dark as a plate
     film.frames[2].callouts = std::move(callouts);
     const Image image = drawn(film, 2);
     int count = 0;
@@ -313,8 +313,8 @@ TEST(RendersOverlays, LabelsOfShortPiecesBesideEachOtherDoNotMeet) {
       if (image.rgb[i] < 60 && image.rgb[i + 2] < 70) ++count;
     return count;
   };
-  const Callout left = {Callout::Kind::length, "800.0 mm", {-0.1, 0.2, 0}, {0.02, 0.2, 0}};
-  const Callout right = {Callout::Kind::length, "740.0 mm", {0.02, 0.2, 0}, {0.1, 0.2, 0}};
+  const DrawnCallout left = {DrawnCallout::Kind::length, "800.0 mm", {-0.1, 0.2, 0}, {0.02, 0.2, 0}};
+  const DrawnCallout right = {DrawnCallout::Kind::length, "740.0 mm", {0.02, 0.2, 0}, {0.1, 0.2, 0}};
   EXPECT_GT(plates({left, right}), 1.8 * plates({left}));
 }
 
@@ -333,7 +333,7 @@ TEST(RendersOverlays, EachCameraHasItsNameAndItsMarks) {
   Film film = turning_tool();
   film.camera_name = "operator";
   film.beside = {{"knife", film.camera}};
-  film.frames[2].callouts = {{Callout::Kind::length, "800.0 mm", {-0.3, 0.2, 0}, {0.3, 0.2, 0}}};
+  film.frames[2].callouts = {{DrawnCallout::Kind::length, "800.0 mm", {-0.3, 0.2, 0}, {0.3, 0.2, 0}}};
   const Image image = drawn(film, 2);
   const auto tiles = tiles_of(2, film.width, film.height - kCaption);
   for (const Tile& tile : tiles) {

@@ -31,7 +31,7 @@ Curve ramp(std::size_t count) {
   return curve;
 }
 
-TEST(Envelope, KeepsEveryPeakOfALongCurve) {
+TEST(Extremes, KeepsEveryPeakOfALongCurve) {
   Curve curve = ramp(1'000'000);
   curve.y[123'456] = 7;
   curve.y[123'457] = -5;
@@ -55,7 +55,7 @@ TEST(Envelope, KeepsEveryPeakOfALongCurve) {
   }
 }
 
-TEST(Envelope, LeavesWhatIsShortAsItIs) {
+TEST(Extremes, LeavesWhatIsShortAsItIs) {
   Curve curve = ramp(kMostSamples);
   const Curve before = curve;
   thin(curve.x, curve.y);

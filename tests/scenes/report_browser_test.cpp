@@ -114,7 +114,7 @@ class ReportInABrowser : public ::testing::TestWithParam<Page> {
   void SetUp() override {
     if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
     for (const Call& call : GetParam().calls) {
-      renders::Command command = {DRYCUT_PROGRAM, "drycut", {}};
+      renders::ProcessCommand command = {DRYCUT_PROGRAM, "drycut", {}};
       for (std::string word : call) {
         if (word.starts_with("SCENES")) word.replace(0, 6, std::string(DRYCUT_SOURCE_DIR) + "/scenes");
         if (word.starts_with("OUT")) word.replace(0, 3, folder.path.string());

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "sim/cli/size_command.hpp"
-#include "sim/studies/compare/recorded_csv.hpp"
+#include "sim/studies/recorded_csv.hpp"
 #include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim::cli {

@@ -29,7 +29,7 @@ const auto* const library = "/usr/share/javascript/three/three.min.js";
 
 /// Runs the short pieces, with small frames, into `out`.
 std::filesystem::path report_in(const std::filesystem::path& out, const std::vector<std::string>& more = {}) {
-  renders::Command command = {
+  renders::ProcessCommand command = {
       DRYCUT_PROGRAM,
       "drycut",
       {"run", std::string(DRYCUT_SOURCE_DIR) + "/scenes/rotary_knife_short.yaml", "--out", out.string()}};

@@ -19,7 +19,8 @@ struct ChecksTest : testing::Test {
     scenario.sources = {"line.yaml"};
     controller.values["error"] = 0;
   }
-  scenario::Check& add(scenario::Check::Kind kind, const std::string& event, const std::string& expression) {
+  scenario::CheckRequest& add(scenario::CheckRequest::Kind kind, const std::string& event,
+                              const std::string& expression) {
     auto& check = scenario.checks.emplace_back();
     check.name = text("the check");
     check.kind = kind;
@@ -44,7 +45,7 @@ struct ChecksTest : testing::Test {
 
   scenario::Scenario scenario;
   fakes::FakeController controller;
-  Panel panel;
+  OperatorPanel panel;
   Names names{{}, &controller, panel};
   Watch watch{names};
   std::vector<KnownEvent> events = {{"knife", "cut", {{"length", "mm"}, {"force", "N"}}},
@@ -57,11 +58,11 @@ struct ChecksTest : testing::Test {
 TEST_F(ChecksTest, ACheckWhoseConditionNeverCameJudgedNothing) {
   controller.values["step"] = 1;
   controller.values["flag"] = 0;
-  add(scenario::Check::Kind::always, "", "(step == 2) * abs(error) <= 5");
-  add(scenario::Check::Kind::always, "", "flag * abs(error) <= 5");
-  add(scenario::Check::Kind::always, "", "(step == 1) * error <= 5");
-  add(scenario::Check::Kind::always, "", "error == 0");
-  add(scenario::Check::Kind::always, "", "2 * error <= 5");
+  add(scenario::CheckRequest::Kind::always, "", "(step == 2) * abs(error) <= 5");
+  add(scenario::CheckRequest::Kind::always, "", "flag * abs(error) <= 5");
+  add(scenario::CheckRequest::Kind::always, "", "(step == 1) * error <= 5");
+  add(scenario::CheckRequest::Kind::always, "", "error == 0");
+  add(scenario::CheckRequest::Kind::always, "", "2 * error <= 5");
   start();
   for (int i = 0; i < 3; ++i) sample(i * second, 0);
   const auto doubts = [&] {
@@ -79,7 +80,7 @@ TEST_F(ChecksTest, ACheckWhoseConditionNeverCameJudgedNothing) {
 }
 
 TEST_F(ChecksTest, EachTellsTheWorstEventAndItsMargin) {
-  add(scenario::Check::Kind::each, "cut", "abs(length - 800) <= 0.2").from = second;
+  add(scenario::CheckRequest::Kind::each, "cut", "abs(length - 800) <= 0.2").from = second;
   start();
   cut(500 * millisecond, 700);  // before the time looked at
   cut(2 * second, 800.05);
@@ -104,7 +105,7 @@ TEST_F(ChecksTest, EachTellsTheWorstEventAndItsMargin) {
 }
 
 TEST_F(ChecksTest, EachFailsBeyondTheLimit) {
-  add(scenario::Check::Kind::each, "knife.cut", "abs(length - 800) <= 0.2");
+  add(scenario::CheckRequest::Kind::each, "knife.cut", "abs(length - 800) <= 0.2");
   start();
   cut(2 * second, 800.5);
   cut(3 * second, 800.0);
@@ -117,7 +118,7 @@ TEST_F(ChecksTest, EachFailsBeyondTheLimit) {
 }
 
 TEST_F(ChecksTest, WhatFailsOftenTellsItsFirstTimeItsLastAndItsLastValue) {
-  add(scenario::Check::Kind::each, "knife.cut", "abs(length - 800) <= 0.2");
+  add(scenario::CheckRequest::Kind::each, "knife.cut", "abs(length - 800) <= 0.2");
   start();
   cut(2 * second, 800.5);
   cut(3 * second, 801);
@@ -129,7 +130,7 @@ TEST_F(ChecksTest, WhatFailsOftenTellsItsFirstTimeItsLastAndItsLastValue) {
 }
 
 TEST_F(ChecksTest, SoDoesAnAlwaysWithAMargin) {
-  add(scenario::Check::Kind::always, "", "error < 100");
+  add(scenario::CheckRequest::Kind::always, "", "error < 100");
   start();
   sample(second, 500);
   sample(2 * second, 120);
@@ -138,7 +139,7 @@ TEST_F(ChecksTest, SoDoesAnAlwaysWithAMargin) {
 }
 
 TEST_F(ChecksTest, EachWithoutAnEventFails) {
-  add(scenario::Check::Kind::each, "cut", "length > 0");
+  add(scenario::CheckRequest::Kind::each, "cut", "length > 0");
   start();
   EXPECT_FALSE(result().passed);
   EXPECT_TRUE(result().tolerances.empty());
@@ -147,7 +148,7 @@ TEST_F(ChecksTest, EachWithoutAnEventFails) {
 }
 
 TEST_F(ChecksTest, AllLooksAtStatistics) {
-  add(scenario::Check::Kind::all, "cut", "abs(slope_length) * count <= 0.5 && mean_length > 800");
+  add(scenario::CheckRequest::Kind::all, "cut", "abs(slope_length) * count <= 0.5 && mean_length > 800");
   start();
   for (int i = 0; i < 10; ++i) cut((i + 1) * second, 800 + 0.01 * i);
   const auto r = result();
@@ -157,7 +158,7 @@ TEST_F(ChecksTest, AllLooksAtStatistics) {
 }
 
 TEST_F(ChecksTest, AlwaysFindsTheWorstInstantInItsWindow) {
-  auto& check = add(scenario::Check::Kind::always, "", "error < 100");
+  auto& check = add(scenario::CheckRequest::Kind::always, "", "error < 100");
   check.from = second;
   check.until = 3 * second;
   start();
@@ -174,7 +175,7 @@ TEST_F(ChecksTest, AlwaysFindsTheWorstInstantInItsWindow) {
 }
 
 TEST_F(ChecksTest, AlwaysWithoutMarginTellsTheFirstFailure) {
-  add(scenario::Check::Kind::always, "", "error == 0 || error == 7");
+  add(scenario::CheckRequest::Kind::always, "", "error == 0 || error == 7");
   start();
   sample(second, 7);
   sample(2 * second, 3);
@@ -187,7 +188,7 @@ TEST_F(ChecksTest, AlwaysWithoutMarginTellsTheFirstFailure) {
 }
 
 TEST_F(ChecksTest, EachWithoutMarginTellsTheFirstFailure) {
-  add(scenario::Check::Kind::each, "cut", "length == 800 || force == 0");
+  add(scenario::CheckRequest::Kind::each, "cut", "length == 800 || force == 0");
   start();
   cut(2 * second, 800);
   cut(3 * second, 801);
@@ -195,7 +196,7 @@ TEST_F(ChecksTest, EachWithoutMarginTellsTheFirstFailure) {
 }
 
 TEST_F(ChecksTest, AlwaysNeverLookedAtFails) {
-  add(scenario::Check::Kind::always, "", "error < 100").from = 20 * second;
+  add(scenario::CheckRequest::Kind::always, "", "error < 100").from = 20 * second;
   start();
   sample(second, 0);
   EXPECT_FALSE(result().passed);
@@ -203,7 +204,7 @@ TEST_F(ChecksTest, AlwaysNeverLookedAtFails) {
 }
 
 TEST_F(ChecksTest, EventuallyTellsWhenAndTheTimeLeft) {
-  add(scenario::Check::Kind::eventually, "", "error > 5").within = 3 * second;
+  add(scenario::CheckRequest::Kind::eventually, "", "error > 5").within = 3 * second;
   start();
   sample(second, 1);
   sample(2 * second, 6);
@@ -217,7 +218,7 @@ TEST_F(ChecksTest, EventuallyTellsWhenAndTheTimeLeft) {
 }
 
 TEST_F(ChecksTest, EventuallyTooLateFails) {
-  add(scenario::Check::Kind::eventually, "", "error > 5").within = second;
+  add(scenario::CheckRequest::Kind::eventually, "", "error > 5").within = second;
   start();
   sample(second, 1);
   sample(2 * second, 6);
@@ -226,7 +227,7 @@ TEST_F(ChecksTest, EventuallyTooLateFails) {
 }
 
 TEST_F(ChecksTest, EventuallyNeverTrueTellsTheValueAtTheEnd) {
-  add(scenario::Check::Kind::eventually, "", "error == 7").within = 3 * second;
+  add(scenario::CheckRequest::Kind::eventually, "", "error == 7").within = 3 * second;
   start();
   sample(second, 1);
   sample(2 * second, 6);
@@ -238,7 +239,7 @@ TEST_F(ChecksTest, EventuallyNeverTrueTellsTheValueAtTheEnd) {
 }
 
 TEST_F(ChecksTest, RoundingNoiseIsPrintedAsZero) {
-  add(scenario::Check::Kind::each, "cut", "length >= -1");
+  add(scenario::CheckRequest::Kind::each, "cut", "length >= -1");
   start();
   cut(2 * second, -1.8e-12);
   EXPECT_EQ(result().detail, "1 cut event, worst: length=0 mm; force=130 N");
@@ -253,7 +254,7 @@ TEST_F(ChecksTest, RoundingNoiseIsPrintedAsZero) {
 }
 
 TEST_F(ChecksTest, NeverCountsEvents) {
-  add(scenario::Check::Kind::never, "cut", "");
+  add(scenario::CheckRequest::Kind::never, "cut", "");
   start();
   EXPECT_TRUE(result().passed);
   cut(2 * second, 800);
@@ -262,7 +263,7 @@ TEST_F(ChecksTest, NeverCountsEvents) {
 }
 
 TEST_F(ChecksTest, NeverOfATimeThatDidNotComeFails) {
-  add(scenario::Check::Kind::never, "cut", "");
+  add(scenario::CheckRequest::Kind::never, "cut", "");
   scenario.checks.back().from = 99 * second;
   start();
   EXPECT_FALSE(result().passed);
@@ -270,8 +271,8 @@ TEST_F(ChecksTest, NeverOfATimeThatDidNotComeFails) {
 }
 
 TEST_F(ChecksTest, UnknownNamesAreProblems) {
-  add(scenario::Check::Kind::never, "tearr", "");
-  add(scenario::Check::Kind::each, "cut", "lenght > 3");
+  add(scenario::CheckRequest::Kind::never, "tearr", "");
+  add(scenario::CheckRequest::Kind::each, "cut", "lenght > 3");
   Checks bad(scenario, watch, names, events, problems);
   ASSERT_EQ(problems.size(), 2U);
   EXPECT_EQ(to_string(problems[0]),

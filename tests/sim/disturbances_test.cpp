@@ -6,6 +6,7 @@
 #include <complex>
 #include <numbers>
 
+#include "sim/loop/bus.hpp"
 #include "sim/loop/timeline.hpp"
 #include "tests/sim/fakes.hpp"
 
@@ -156,7 +157,7 @@ struct DisturbancesTest : testing::Test {
   scenario::Scenario scenario;
   fakes::FakeController controller;
   DisturbedPlant plant;
-  loop::Panel panel;
+  loop::OperatorPanel panel;
   Problems problems;
   record::Recording recording;
 };

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/slot_terminals.hpp"
+#include "devices/controller.hpp"
 #include "plants/plant.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/scenario/scenario.hpp"

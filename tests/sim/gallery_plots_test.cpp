@@ -53,7 +53,7 @@ struct GalleryPlots : ::testing::Test {
   }
 
   fakes::FakePlant web;
-  loop::Panel panel;
+  loop::OperatorPanel panel;
   loop::Names names{{{"web", &web}}, nullptr, panel};
   loop::Watch watch{names};
   record::Recording recording;

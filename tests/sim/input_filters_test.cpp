@@ -1,8 +1,7 @@
-#include "sim/loop/input_filters.hpp"
+#include "sim/loop/bus.hpp"
 
 #include <gmock/gmock.h>
 
-#include "sim/loop/bus.hpp"
 #include "tests/sim/fakes.hpp"
 
 namespace drycut::sim {

@@ -28,7 +28,7 @@ struct Lx3vpBus : testing::Test {
     scenario.file = "line.yaml";
     scenario.sources = {"line.yaml"};
   }
-  static devices::lx3vp::il::Program program() {
+  static devices::lx3vp::il::IlProgram program() {
     Problems problems;
     auto compiled = devices::lx3vp::il::compile(
         "LD X10\nOUT C251 K0\nOUT Y7\nDPLSV K1000 Y1 Y5\nDECAM C251 D2000 X2 Y0 Y4\nEND\n", "saw.il",

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "devices/lx3vp/block.hpp"
-#include "devices/lx3vp/il_mnemonics.hpp"
+#include "devices/lx3vp/il_program.hpp"
+#include "devices/lx3vp/registers.hpp"
 #include "sim/cli/commands.hpp"
 #include "tests/sim/command_bench.hpp"
 

@@ -76,7 +76,7 @@ std::pair<bool, bool> lengths_and_forces(const renders::Film& film) {
   std::pair<bool, bool> found;
   for (const auto& frame : film.frames)
     for (const auto& one : frame.callouts)
-      (one.kind == renders::Callout::Kind::length ? found.first : found.second) = true;
+      (one.kind == renders::DrawnCallout::Kind::length ? found.first : found.second) = true;
   return found;
 }
 
@@ -140,7 +140,7 @@ TEST(PicturesFilm, SpeedsOfTubeAndCarriageAreShownUnlessOthersAreAskedFor) {
     ASSERT_FALSE(film.frames.empty());
     std::vector<std::string> moving;
     for (const auto& one : film.frames[0].callouts)
-      if (one.kind == renders::Callout::Kind::speed) moving.push_back(one.text);
+      if (one.kind == renders::DrawnCallout::Kind::speed) moving.push_back(one.text);
     if (shown)
       EXPECT_THAT(moving, ElementsAre("tube", "carriage")) << overlays;
     else
@@ -229,9 +229,9 @@ TEST(PicturesFilm, PiecesTellTheLengthOfTheirCutAndTheBladeItsForce) {
   ASSERT_GE(cuts.size(), 2U);
   // The newest piece lies nearest to the cut.
   const auto& last = film.frames.back();
-  const renders::Callout* newest = nullptr;
+  const renders::DrawnCallout* newest = nullptr;
   for (const auto& one : last.callouts)
-    if (one.kind == renders::Callout::Kind::length && (newest == nullptr || one.at[0] < newest->at[0]))
+    if (one.kind == renders::DrawnCallout::Kind::length && (newest == nullptr || one.at[0] < newest->at[0]))
       newest = &one;
   ASSERT_NE(newest, nullptr);
   char length[32];
@@ -240,7 +240,7 @@ TEST(PicturesFilm, PiecesTellTheLengthOfTheirCutAndTheBladeItsForce) {
   double largest = 0;
   for (const auto& frame : film.frames)
     for (const auto& one : frame.callouts)
-      if (one.kind == renders::Callout::Kind::force) largest = std::max(largest, one.to[1]);
+      if (one.kind == renders::DrawnCallout::Kind::force) largest = std::max(largest, one.to[1]);
   EXPECT_LE(largest, cuts[1].find("force")->number * (1 + 1e-9));
   EXPECT_GT(largest, 0.5 * cuts[1].find("force")->number);
 }

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "devices/plcopen/axis_values.hpp"
+#include "devices/plcopen/axis.hpp"
 #include "devices/plcopen/errors.hpp"
 #include "devices/plcopen/pins.hpp"
 #include "devices/plcopen/readings.hpp"
-#include "devices/plcopen/st/functions.hpp"
-#include "devices/plcopen/st/keywords.hpp"
 #include "devices/plcopen/st/language.hpp"
+#include "devices/plcopen/st/lexer.hpp"
+#include "devices/plcopen/st/values.hpp"
 #include "devices/plcopen/terminals.hpp"
 #include "sim/cli/commands.hpp"
 #include "tests/sim/command_bench.hpp"

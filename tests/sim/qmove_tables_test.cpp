@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.hpp"
-#include "devices/camming4/codes.hpp"
 #include "devices/camming4/messages.hpp"
-#include "devices/catalogue.hpp"
+#include "devices/camming4/sector.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/language.hpp"
 #include "sim/cli/commands.hpp"

@@ -36,7 +36,7 @@ struct RecorderTest : testing::Test {
       fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
   fakes::FakeController controller;
   fakes::FakePlant plant;
-  Panel panel;
+  OperatorPanel panel;
   Names names{{{"web", &plant}}, &controller, panel};
   Watch watch{names};
   record::Recording recording;

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "sim/loop/bus.hpp"
 #include "tests/sim/fakes.hpp"
 
 namespace drycut::sim::loop {
@@ -33,7 +34,7 @@ struct TimelineTest : testing::Test {
   scenario::Scenario scenario;
   fakes::FakeController controller;
   fakes::FakePlant plant;
-  Panel panel;
+  OperatorPanel panel;
   Names names{{{"web", &plant}}, &controller, panel};
   Problems problems;
   record::Recording recording;

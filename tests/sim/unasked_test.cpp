@@ -14,8 +14,8 @@ record::RecordedEvent held(double at) {
 
 scenario::Scenario asking(const std::string& event) {
   scenario::Scenario scenario;
-  scenario::Check check;
-  check.kind = scenario::Check::Kind::never;
+  scenario::CheckRequest check;
+  check.kind = scenario::CheckRequest::Kind::never;
   check.event.text = event;
   if (!event.empty()) scenario.checks.push_back(check);
   return scenario;

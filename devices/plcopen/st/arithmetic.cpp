@@ -1,4 +1,4 @@
-#include "devices/plcopen/st/arithmetic.hpp"
+#include "devices/plcopen/st/code.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,62 +42,62 @@ std::uint64_t in_width(Basic basic, Cell a) {
   return width == 64 ? bits(a) : bits(a) & ((std::uint64_t{1} << width) - 1);
 }
 
-Cell shifted(Op op, Basic basic, Cell a, Cell count) {
+Cell shifted(StOp op, Basic basic, Cell a, Cell count) {
   const int width = bits_of(basic);
   const std::uint64_t value = in_width(basic, a);
-  const bool rotates = op == Op::rotate_left || op == Op::rotate_right;
+  const bool rotates = op == StOp::rotate_left || op == StOp::rotate_right;
   std::int64_t by = rotates ? count % width : count;
   if (rotates && by < 0) by += width;
   if (rotates && by != 0) {
-    const std::int64_t left = op == Op::rotate_left ? by : width - by;
+    const std::int64_t left = op == StOp::rotate_left ? by : width - by;
     return wrapped(basic, cell((value << left) | (value >> (width - left))));
   }
   if (by <= 0 && (rotates || by == 0)) return a;
   if (by < 0 || by >= width) return 0;
-  return wrapped(basic, cell(op == Op::shift_left ? value << by : value >> by));
+  return wrapped(basic, cell(op == StOp::shift_left ? value << by : value >> by));
 }
 
-double real_result(Op op, double a, double b) {
+double real_result(StOp op, double a, double b) {
   switch (op) {
-    case Op::add_real:
+    case StOp::add_real:
       return a + b;
-    case Op::subtract_real:
+    case StOp::subtract_real:
       return a - b;
-    case Op::multiply_real:
+    case StOp::multiply_real:
       return a * b;
-    case Op::divide_real:
+    case StOp::divide_real:
       return a / b;
-    case Op::negate_real:
+    case StOp::negate_real:
       return -a;
-    case Op::round_real:
+    case StOp::round_real:
       return a;
-    case Op::absolute_real:
+    case StOp::absolute_real:
       return std::abs(a);
-    case Op::square_root:
+    case StOp::square_root:
       return std::sqrt(a);
-    case Op::sine:
+    case StOp::sine:
       return std::sin(a);
-    case Op::cosine:
+    case StOp::cosine:
       return std::cos(a);
-    case Op::tangent:
+    case StOp::tangent:
       return std::tan(a);
-    case Op::arc_sine:
+    case StOp::arc_sine:
       return std::asin(a);
-    case Op::arc_cosine:
+    case StOp::arc_cosine:
       return std::acos(a);
-    case Op::arc_tangent:
+    case StOp::arc_tangent:
       return std::atan(a);
-    case Op::arc_tangent_2:
+    case StOp::arc_tangent_2:
       return std::atan2(a, b);
-    case Op::exponential:
+    case StOp::exponential:
       return std::exp(a);
-    case Op::logarithm:
+    case StOp::logarithm:
       return std::log(a);
-    case Op::logarithm_10:
+    case StOp::logarithm_10:
       return std::log10(a);
-    case Op::power:
+    case StOp::power:
       return std::pow(a, b);
-    case Op::minimum_real:
+    case StOp::minimum_real:
       return b < a ? b : a;
     default:
       return a < b ? b : a;  // maximum_real
@@ -115,31 +115,31 @@ std::optional<NoResult> outside(std::string_view function, double value, bool ta
 
 }  // namespace
 
-std::optional<NoResult> no_result(Op op, Basic basic, Cell a, Cell b) {
+std::optional<NoResult> no_result(StOp op, Basic basic, Cell a, Cell b) {
   switch (op) {
-    case Op::divide:
-    case Op::modulo:
+    case StOp::divide:
+    case StOp::modulo:
       if (b == 0) return division_by_zero();
       return std::nullopt;
-    case Op::divide_real:
-    case Op::divide_time:
+    case StOp::divide_real:
+    case StOp::divide_time:
       if (real_of(b) == 0) return division_by_zero();
       return std::nullopt;
-    case Op::square_root:
+    case StOp::square_root:
       return outside("SQRT", real_of(a), real_of(a) >= 0, "0 and more");
-    case Op::logarithm:
+    case StOp::logarithm:
       return outside("LN", real_of(a), real_of(a) > 0, "more than 0");
-    case Op::logarithm_10:
+    case StOp::logarithm_10:
       return outside("LOG", real_of(a), real_of(a) > 0, "more than 0");
-    case Op::arc_sine:
+    case StOp::arc_sine:
       return outside("ASIN", real_of(a), std::abs(real_of(a)) <= 1, "-1 to 1");
-    case Op::arc_cosine:
+    case StOp::arc_cosine:
       return outside("ACOS", real_of(a), std::abs(real_of(a)) <= 1, "-1 to 1");
-    case Op::power:
+    case StOp::power:
       if (std::isfinite(rounded(basic, std::pow(real_of(a), real_of(b))))) return std::nullopt;
       return NoResult{fmt::format("{} to the power of {} is no finite number", real_of(a), real_of(b)),
                       "test both before"};
-    case Op::exponential:
+    case StOp::exponential:
       if (std::isfinite(rounded(basic, std::exp(real_of(a))))) return std::nullopt;
       return NoResult{fmt::format("EXP of {} is no finite number", real_of(a)), "test the value before"};
     default:
@@ -147,82 +147,82 @@ std::optional<NoResult> no_result(Op op, Basic basic, Cell a, Cell b) {
   }
 }
 
-Cell apply(Op op, Basic basic, Cell a, Cell b) {
+Cell apply(StOp op, Basic basic, Cell a, Cell b) {
   switch (op) {
-    case Op::add:
+    case StOp::add:
       return wrapped(basic, cell(bits(a) + bits(b)));
-    case Op::subtract:
+    case StOp::subtract:
       return wrapped(basic, cell(bits(a) - bits(b)));
-    case Op::multiply:
+    case StOp::multiply:
       return wrapped(basic, cell(bits(a) * bits(b)));
-    case Op::divide:
+    case StOp::divide:
       return is_wide(basic) ? cell(bits(a) / bits(b)) : wrapped(basic, quotient(a, b));
-    case Op::modulo:
+    case StOp::modulo:
       return is_wide(basic) ? cell(bits(a) % bits(b)) : wrapped(basic, remainder(a, b));
-    case Op::negate:
+    case StOp::negate:
       return wrapped(basic, cell(0 - bits(a)));
-    case Op::scale_time:
+    case StOp::scale_time:
       return wrapped(basic, whole(std::nearbyint(static_cast<double>(a) * real_of(b))));
-    case Op::divide_time:
+    case StOp::divide_time:
       return wrapped(basic, whole(std::nearbyint(static_cast<double>(a) / real_of(b))));
-    case Op::bit_and:
+    case StOp::bit_and:
       return a & b;
-    case Op::bit_or:
+    case StOp::bit_or:
       return a | b;
-    case Op::bit_xor:
+    case StOp::bit_xor:
       return a ^ b;
-    case Op::bit_not:
+    case StOp::bit_not:
       return wrapped(basic, ~a);
-    case Op::equal:
+    case StOp::equal:
       return a == b ? 1 : 0;
-    case Op::not_equal:
+    case StOp::not_equal:
       return a != b ? 1 : 0;
-    case Op::less:
+    case StOp::less:
       return a < b ? 1 : 0;
-    case Op::less_equal:
+    case StOp::less_equal:
       return a <= b ? 1 : 0;
-    case Op::greater:
+    case StOp::greater:
       return a > b ? 1 : 0;
-    case Op::greater_equal:
+    case StOp::greater_equal:
       return a >= b ? 1 : 0;
-    case Op::equal_real:
+    case StOp::equal_real:
       return real_of(a) == real_of(b) ? 1 : 0;
-    case Op::not_equal_real:
+    case StOp::not_equal_real:
       return real_of(a) != real_of(b) ? 1 : 0;
-    case Op::less_real:
+    case StOp::less_real:
       return real_of(a) < real_of(b) ? 1 : 0;
-    case Op::less_equal_real:
+    case StOp::less_equal_real:
       return real_of(a) <= real_of(b) ? 1 : 0;
-    case Op::greater_real:
+    case StOp::greater_real:
       return real_of(a) > real_of(b) ? 1 : 0;
-    case Op::greater_equal_real:
+    case StOp::greater_equal_real:
       return real_of(a) >= real_of(b) ? 1 : 0;
-    case Op::shift_left:
-    case Op::shift_right:
-    case Op::rotate_left:
-    case Op::rotate_right:
+    case StOp::shift_left:
+    case StOp::shift_right:
+    case StOp::rotate_left:
+    case StOp::rotate_right:
       return shifted(op, basic, a, b);
-    case Op::wrap:
+    case StOp::wrap:
       return wrapped(basic, a);
-    case Op::to_real:
+    case StOp::to_real:
       return cell_of(rounded(basic, static_cast<double>(a)));
-    case Op::unsigned_to_real:
+    case StOp::unsigned_to_real:
       return cell_of(rounded(basic, static_cast<double>(bits(a))));
-    case Op::to_whole:
+    case StOp::to_whole:
       return whole_in(basic, std::nearbyint(real_of(a)));
-    case Op::truncate:
+    case StOp::truncate:
       return whole_in(basic, std::trunc(real_of(a)));
-    case Op::seconds_of_day:
+    case StOp::seconds_of_day:
       return a % 86400;
-    case Op::nonzero:
+    case StOp::nonzero:
       return a != 0 ? 1 : 0;
-    case Op::nonzero_real:
+    case StOp::nonzero_real:
       return real_of(a) != 0 ? 1 : 0;
-    case Op::absolute:
+    case StOp::absolute:
       return a < 0 && !is_wide(basic) ? wrapped(basic, cell(0 - bits(a))) : a;
-    case Op::minimum:
+    case StOp::minimum:
       return is_wide(basic) ? cell(std::min(bits(a), bits(b))) : std::min(a, b);
-    case Op::maximum:
+    case StOp::maximum:
       return is_wide(basic) ? cell(std::max(bits(a), bits(b))) : std::max(a, b);
     default:
       return cell_of(rounded(basic, real_result(op, real_of(a), real_of(b))));

@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
-#include "devices/plcopen/st/expressions.hpp"
-#include "devices/plcopen/st/functions.hpp"
+#include "devices/plcopen/st/compiler.hpp"
+#include "devices/plcopen/st/values.hpp"
 
 // Assignments, and calls of functions and function blocks.
 namespace drycut::devices::plcopen::st {
 namespace {
 
 /// VAR_INPUT and VAR_IN_OUT.
-bool takes(const Variable& pin) { return pin.section == Section::input || pin.section == Section::in_out; }
+bool takes(const Variable& pin) { return pin.section == VarClass::input || pin.section == VarClass::in_out; }
 
 std::vector<const Variable*> inputs_of(const Type& type) {
   std::vector<const Variable*> inputs;
@@ -21,7 +21,7 @@ std::vector<const Variable*> inputs_of(const Type& type) {
 
 }  // namespace
 
-int Expressions::assign(const Expression& target, const Expression& value) {
+int Expressions::assign(const TypedExpression& target, const TypedExpression& value) {
   if (target.unknown()) return -1;
   if (!target.locked.empty() || !target.address) {
     complain(target.place,
@@ -41,33 +41,33 @@ int Expressions::assign(const Expression& target, const Expression& value) {
                                           : "it holds function blocks: assign its other members");
     return -1;
   }
-  const Expression source = converted(value, type);
+  const TypedExpression source = converted(value, type);
   if (source.unknown() || target.node < 0) return -1;
   return store(target, value_node(source));
 }
 
-int Expressions::store(const Expression& target, int value) {
+int Expressions::store(const TypedExpression& target, int value) {
   const Type& type = *target.type;
   if (target.bits)
-    return add_node(Op::store_bits, target.bits->of->basic, target.place, target.node, value,
+    return add_node(StOp::store_bits, target.bits->of->basic, target.place, target.node, value,
                     target.bits->width, target.bits->shift);
   if (is_elementary(type.basic) || type.basic == Basic::axis) {
     const Node address = node(target.node);
-    if (address.op == Op::address || address.op == Op::address_own)
-      return add_node(address.op == Op::address ? Op::store : Op::store_own, type.basic, target.place, value,
-                      -1, -1, address.imm);
-    return add_node(Op::store_at, type.basic, target.place, target.node, value);
+    if (address.op == StOp::address || address.op == StOp::address_own)
+      return add_node(address.op == StOp::address ? StOp::store : StOp::store_own, type.basic, target.place,
+                      value, -1, -1, address.imm);
+    return add_node(StOp::store_at, type.basic, target.place, target.node, value);
   }
   if (type.basic == Basic::string)
-    return add_node(Op::copy_string, type.basic, target.place, target.node, value, -1,
+    return add_node(StOp::copy_string, type.basic, target.place, target.node, value, -1,
                     static_cast<std::int64_t>(type.length));
-  return add_node(Op::copy, type.basic, target.place, target.node, value, -1, type.cells);
+  return add_node(StOp::copy, type.basic, target.place, target.node, value, -1, type.cells);
 }
 
-void Expressions::cam_file(const Token& text) {
+void Expressions::cam_file(const StToken& text) {
   const auto known = std::any_of(code_->tables.begin(), code_->tables.end(),
                                  [&](const Program::Name& table) { return table.name == text.string; });
-  if (text.kind == Token::Kind::string && !text.string.empty() && !known)
+  if (text.kind == StToken::Kind::string && !text.string.empty() && !known)
     code_->tables.push_back({text.string, text.place.line, text.place.column});
 }
 
@@ -93,18 +93,18 @@ Expressions::Enable Expressions::take_enable(std::vector<Argument>& given, const
 
 int Expressions::enable_condition(const Enable& enable, Place place) {
   if (enable.condition == nullptr) return value_node(constant(type_of(Basic::boolean), 1, place));
-  const Expression condition = converted(typed(*enable.condition), *type_of(Basic::boolean));
+  const TypedExpression condition = converted(typed(*enable.condition), *type_of(Basic::boolean));
   return condition.unknown() ? -1 : value_node(condition);
 }
 
 int Expressions::enable_store(const Enable& enable, bool on) {
   if (enable.result == nullptr) return -1;
-  const Expression target = typed(*enable.result);
+  const TypedExpression target = typed(*enable.result);
   return assign(target, constant(type_of(Basic::boolean), on ? 1 : 0, target.place));
 }
 
 /// A function that is not enabled gives its type's initial value (IEC 61131-3 leaves open which).
-Expression Expressions::enabled(const Enable& enable, Expression value, const Type* wanted) {
+TypedExpression Expressions::enabled(const Enable& enable, TypedExpression value, const Type* wanted) {
   if (value.unknown() || (enable.condition == nullptr && enable.result == nullptr)) return value;
   if (value.untyped && wanted != nullptr) value = literal_as(std::move(value), *base_of(wanted));
   const Basic basic = value.type->basic;
@@ -119,7 +119,7 @@ Expression Expressions::enabled(const Enable& enable, Expression value, const Ty
             "IF condition THEN");
   const int condition = enable_condition(enable, value.place);
   const int list = add_list({condition, on, off, enable_store(enable, true), enable_store(enable, false)});
-  return {value.type, value.place, add_node(Op::enabled, basic, value.place, list), value.depth + 1};
+  return {value.type, value.place, add_node(StOp::enabled, basic, value.place, list), value.depth + 1};
 }
 
 bool Expressions::names_function(const Tree& callee) {
@@ -128,11 +128,11 @@ bool Expressions::names_function(const Tree& callee) {
   return find_unit(callee.token->text) == unit_ || !variable(*callee.token);
 }
 
-Expression Expressions::call(const Tree& tree, const Type* wanted) {
+TypedExpression Expressions::call(const Tree& tree, const Type* wanted) {
   const Tree& callee = tree.parts[0];
-  const Token& name = *callee.token;
+  const StToken& name = *callee.token;
   if (!names_function(callee)) {
-    const Expression named = typed(callee);
+    const TypedExpression named = typed(callee);
     if (named.unknown()) return named;
     const bool block = named.type->basic == Basic::block;
     give_up(name.place,
@@ -147,8 +147,8 @@ Expression Expressions::call(const Tree& tree, const Type* wanted) {
   return enabled(enable, function_call(name, given, wanted), wanted);
 }
 
-Expression Expressions::function_call(const Token& name, const std::vector<Argument>& given,
-                                      const Type* wanted) {
+TypedExpression Expressions::function_call(const StToken& name, const std::vector<Argument>& given,
+                                           const Type* wanted) {
   if (Unit* unit = find_unit(name.text); unit != nullptr && unit->kind == Unit::Kind::function)
     return user_call(*unit, name, given);
   const auto argument_of = [this](const Tree& tree, const Type* type) { return typed(tree, type); };
@@ -173,13 +173,13 @@ Expression Expressions::function_call(const Token& name, const std::vector<Argum
 std::vector<std::string> Expressions::pins_of(const Type& type, bool output) {
   std::vector<std::string> names;
   for (const Variable& member : type.members)
-    if (output ? member.section == Section::output : takes(member)) names.push_back(member.name);
+    if (output ? member.section == VarClass::output : takes(member)) names.push_back(member.name);
   return names;
 }
 
-const Variable* Expressions::pin_of(const Type& type, const Token& name, bool output) {
+const Variable* Expressions::pin_of(const Type& type, const StToken& name, bool output) {
   const Variable* pin = find_member(type, name.text);
-  const bool is_output = pin != nullptr && pin->section == Section::output;
+  const bool is_output = pin != nullptr && pin->section == VarClass::output;
   const bool is_input = pin != nullptr && takes(*pin);
   if (output ? is_output : is_input) return pin;
   if (is_input || is_output) {
@@ -200,7 +200,8 @@ const Variable* Expressions::pin_of(const Type& type, const Token& name, bool ou
   return nullptr;
 }
 
-int Expressions::in_out_store(const Type& type, const Variable& pin, const Expression& value, int place) {
+int Expressions::in_out_store(const Type& type, const Variable& pin, const TypedExpression& value,
+                              int place) {
   if (value.unknown()) return -1;
   // A motion block takes its axes by value: they do not change.
   const bool by_value = type.motion != nullptr;
@@ -217,12 +218,12 @@ int Expressions::in_out_store(const Type& type, const Variable& pin, const Expre
              fmt::format("{} may write it: connect a variable", in_quotes(pin.name)));
     return -1;
   }
-  return add_node(Op::store_at, pin.type->basic, value.place, place,
+  return add_node(StOp::store_at, pin.type->basic, value.place, place,
                   by_value ? value_node(value) : value.node);
 }
 
 int Expressions::output_store(const Type& owner, const Variable& pin, const Argument& argument, int place) {
-  const Expression target = typed(*argument.tree);
+  const TypedExpression target = typed(*argument.tree);
   if (target.unknown()) return -1;
   if (!target.address) {
     complain(target.place, fmt::format("the output {} goes into a variable", in_quotes(pin.name)),
@@ -232,7 +233,7 @@ int Expressions::output_store(const Type& owner, const Variable& pin, const Argu
   return assign(target, variable_at(pin.type, place, owner.name + "." + pin.name, argument.name->place));
 }
 
-void Expressions::input_of(const Expression& instance, const Argument& argument, BlockCall& call) {
+void Expressions::input_of(const TypedExpression& instance, const Argument& argument, BlockCall& call) {
   const Type& type = *instance.type;
   if (argument.name == nullptr) {
     const std::vector<std::string> inputs = pins_of(type, false);
@@ -257,24 +258,24 @@ void Expressions::input_of(const Expression& instance, const Argument& argument,
   const int place = address_plus(instance.node, pin->offset);
   if (argument.output) {
     call.after.push_back(output_store(type, *pin, argument, place));
-  } else if (pin->section == Section::in_out) {
+  } else if (pin->section == VarClass::in_out) {
     call.before.push_back(in_out_store(type, *pin, typed(*argument.tree), place));
   } else {
-    const Expression target =
+    const TypedExpression target =
         variable_at(pin->type, place, instance.name + "." + pin->name, argument.name->place);
     call.before.push_back(assign(target, typed(*argument.tree, pin->type)));
   }
 }
 
 /// The statements that give an instance's inputs and take its outputs.
-Expressions::BlockCall Expressions::block_arguments(const Expression& instance,
+Expressions::BlockCall Expressions::block_arguments(const TypedExpression& instance,
                                                     const std::vector<Argument>& given) {
   const Type& type = *instance.type;
   BlockCall call;
   for (const Argument& argument : given) input_of(instance, argument, call);
   std::vector<std::string> missing;
   for (const Variable& member : type.members)
-    if (member.section == Section::in_out && !call.given.contains(member.name))
+    if (member.section == VarClass::in_out && !call.given.contains(member.name))
       missing.push_back(member.name);
   if (!missing.empty() && !call.given.contains("?"))
     complain(instance.place,
@@ -284,7 +285,7 @@ Expressions::BlockCall Expressions::block_arguments(const Expression& instance,
   return call;
 }
 
-int Expressions::block_call(const Expression& instance, const Tree& tree) {
+int Expressions::block_call(const TypedExpression& instance, const Tree& tree) {
   const Type& type = *instance.type;
   const Place place = instance.place;
   std::vector<Argument> given = arguments(tree);
@@ -292,35 +293,35 @@ int Expressions::block_call(const Expression& instance, const Tree& tree) {
   const BlockCall call = block_arguments(instance, given);
   if (type.motion == nullptr && unit_ != nullptr) unit_->calls.insert(type.pou);
   std::vector<int> all = call.before;
-  all.push_back(
-      add_node(Op::call_block, Basic::unknown, place, instance.node, type.motion != nullptr ? -1 : type.pou));
+  all.push_back(add_node(StOp::call_block, Basic::unknown, place, instance.node,
+                         type.motion != nullptr ? -1 : type.pou));
   all.insert(all.end(), call.after.begin(), call.after.end());
   if (enable.condition == nullptr && enable.result == nullptr) return sequence_node(all, place);
   all.push_back(enable_store(enable, true));
   const int condition = enable_condition(enable, place);
   const int list = add_list({condition, sequence_node(all, place)});
-  return add_node(Op::branch, Basic::unknown, place, list, 1,
+  return add_node(StOp::branch, Basic::unknown, place, list, 1,
                   sequence_node({enable_store(enable, false)}, place));
 }
 
 int Expressions::sequence_node(std::vector<int> statements, Place place) {
   std::erase(statements, -1);
   const int first = add_list(statements);
-  return add_node(Op::sequence, Basic::unknown, place, first, static_cast<int>(statements.size()));
+  return add_node(StOp::sequence, Basic::unknown, place, first, static_cast<int>(statements.size()));
 }
 
 /// What an argument of a FUNCTION gives: a node, a place, and how many cells (see Op::call_function).
 std::vector<int> Expressions::input_triple(const Type& function, const Variable& pin,
                                            const Argument& argument, int frame, int& depth) {
   const int at = frame + pin.offset;
-  const Expression given = typed(*argument.tree, pin.type);
+  const TypedExpression given = typed(*argument.tree, pin.type);
   depth = std::max(depth, given.depth + 1);
-  if (pin.section == Section::in_out) {
-    const int place = leaf_node(Op::address, pin.type->basic, given.place, at);
+  if (pin.section == VarClass::in_out) {
+    const int place = leaf_node(StOp::address, pin.type->basic, given.place, at);
     if (in_out_store(function, pin, given, place) < 0) return {};
     return {given.node, at, 1};
   }
-  const Expression value = converted(given, *pin.type);
+  const TypedExpression value = converted(given, *pin.type);
   if (value.unknown()) return {};
   const int cells = is_elementary(pin.type->basic)     ? 1
                     : pin.type->basic == Basic::string ? 2 + static_cast<int>(pin.type->length)
@@ -328,8 +329,8 @@ std::vector<int> Expressions::input_triple(const Type& function, const Variable&
   return {value_node(value), at, cells};
 }
 
-Expression Expressions::user_call(Unit& unit, const Token& name, const std::vector<Argument>& given) {
-  const Expression unknown = unknown_at(name.place);
+TypedExpression Expressions::user_call(Unit& unit, const StToken& name, const std::vector<Argument>& given) {
+  const TypedExpression unknown = unknown_at(name.place);
   const bool known = unit.state == Unit::State::done && unit.type != nullptr && unit.pou >= 0;
   if (!known || unit.type->broken) {
     for (const Argument& argument : given) typed(*argument.tree);
@@ -343,7 +344,7 @@ Expression Expressions::user_call(Unit& unit, const Token& name, const std::vect
   std::vector<int> list{0};
   std::vector<int> after;
   std::size_t number = 0;
-  Expression result{unit.result, name.place};
+  TypedExpression result{unit.result, name.place};
   bool sound = true;
   for (const Argument& argument : given) {
     const bool named = argument.name != nullptr;
@@ -361,7 +362,7 @@ Expression Expressions::user_call(Unit& unit, const Token& name, const std::vect
       return unknown;
     }
     if (argument.output) {
-      const int place_of_pin = leaf_node(Op::address, pin->type->basic, place, frame + pin->offset);
+      const int place_of_pin = leaf_node(StOp::address, pin->type->basic, place, frame + pin->offset);
       after.push_back(output_store(*unit.type, *pin, argument, place_of_pin));
       sound = sound && after.back() >= 0;
       continue;
@@ -380,16 +381,16 @@ Expression Expressions::user_call(Unit& unit, const Token& name, const std::vect
   // A text or structure outlives the next call of the function.
   const bool whole = !is_elementary(unit.result->basic);
   const int kept = whole ? scratch(*unit.result, name.place) : -1;
-  result.node = add_node(Op::call_function, unit.result->basic, name.place, first, kept, unit.pou,
+  result.node = add_node(StOp::call_function, unit.result->basic, name.place, first, kept, unit.pou,
                          whole ? unit.result->cells : 0);
   return result;
 }
 
-bool Expressions::all_connected(const Unit& unit, const Token& name, const std::vector<Argument>& given,
+bool Expressions::all_connected(const Unit& unit, const StToken& name, const std::vector<Argument>& given,
                                 const std::set<const Variable*>& connected, std::size_t number) {
   const std::vector<const Variable*> inputs = inputs_of(*unit.type);
   for (const Variable* input : inputs)
-    if (input->section == Section::in_out && !connected.contains(input)) {
+    if (input->section == VarClass::in_out && !connected.contains(input)) {
       complain(name.place, fmt::format("{} is not connected in the call of {}", input->name, unit.name.text),
                fmt::format("{} := variable", input->name));
       return false;

@@ -1,7 +1,10 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "devices/plcopen/st/program.hpp"
@@ -14,7 +17,7 @@
 namespace drycut::devices::plcopen::st {
 
 /// What a node does; `a`, `b`, `c` are nodes unless it says otherwise.
-enum class Op : std::uint8_t {
+enum class StOp : std::uint8_t {
   // Values.
   constant,  ///< imm
   load,      ///< the cell at imm
@@ -149,7 +152,7 @@ constexpr std::size_t texts_of(TextOp op, std::size_t inputs) {
 }
 
 struct Node {
-  Op op = Op::nothing;
+  StOp op = StOp::nothing;
   Basic basic = Basic::unknown;
   int line = 0;
   int column = 0;
@@ -168,16 +171,16 @@ struct Span {
 
 /// One label of a CASE.
 struct Choice {
-  Range range;
+  Subrange range;
   int body = -1;
 };
 
 /// A body: of a PROGRAM, a FUNCTION or a user's function block.
 struct Pou {
   int body = -1;
-  int frame = 0;              ///< where the variables of a FUNCTION are
-  int result = 0;             ///< FUNCTION: offset of its result
-  std::vector<Range> resets;  ///< offsets that get their initial values at each call, the last included
+  int frame = 0;                 ///< where the variables of a FUNCTION are
+  int result = 0;                ///< FUNCTION: offset of its result
+  std::vector<Subrange> resets;  ///< offsets that get their initial values at each call, the last included
   const Type* type = nullptr;
 };
 
@@ -211,16 +214,16 @@ struct Compiled {
   std::vector<Instance> instances;  ///< as Program::instances
   std::vector<Program::Instance> instance_names;
   std::vector<Program::Task> tasks;
-  bool configured = false;    ///< there is a CONFIGURATION
-  std::vector<int> singles;   ///< for each task the cell of its SINGLE, or -1
-  std::vector<Cell> image;    ///< the memory with all initial values
-  std::vector<Range> retain;  ///< cells, the last included
+  bool configured = false;       ///< there is a CONFIGURATION
+  std::vector<int> singles;      ///< for each task the cell of its SINGLE, or -1
+  std::vector<Cell> image;       ///< the memory with all initial values
+  std::vector<Subrange> retain;  ///< cells, the last included
   struct Motion {
     int cell = 0;  ///< where the instance begins
     const Type* type = nullptr;
   };
   std::vector<Motion> motions;
-  std::vector<Symbol> symbols;
+  std::vector<StSymbol> symbols;
   std::vector<SymbolPlace> places;
 
   /// What is no fault and hardly meant.
@@ -242,5 +245,32 @@ struct Compiled {
   };
   std::vector<Scope> scopes;
 };
+
+/// The result of an operation without effects, Op::add to Op::maximum_real, in its type. Whole numbers wrap
+/// in their width, REALs are rounded to single precision. What `no_result` tells is the caller's to refuse.
+Cell apply(StOp op, Basic basic, Cell a, Cell b);
+inline bool is_pure(StOp op) { return op >= StOp::add && op <= StOp::maximum_real; }
+
+struct NoResult {
+  std::string what;
+  std::string remedy;
+};
+/// Why an operation without effects has no finite result where PLC run-times raise an exception: a division
+/// by 0, SQRT, LN, LOG, ASIN, ACOS outside of what they take, a power or EXP beyond the type `basic`. Sums
+/// and products of real numbers may become infinite.
+std::optional<NoResult> no_result(StOp op, Basic basic, Cell a, Cell b);
+
+// The functions of STRING as CODESYS has them: places count from 1, and what lies outside of a text is cut
+// off.
+
+/// LEFT, RIGHT, MID, CONCAT, INSERT, DELETE and REPLACE of one or more texts; `numbers` are L and P as far as
+/// the function has them.
+std::string edited(TextOp op, std::span<const std::string_view> texts, std::span<const Cell> numbers);
+/// Where `wanted` begins in `text`, from 1; 0 if nowhere.
+Cell found(std::string_view text, std::string_view wanted);
+/// '5', '-1.5', 'TRUE', 'T#1s500ms', 'D#1996-08-15': X_TO_STRING.
+std::string text_of(Basic basic, Cell value);
+/// The number, time or date that the text begins with, else 0: STRING_TO_X.
+Cell value_of(Basic basic, std::string_view text);
 
 }  // namespace drycut::devices::plcopen::st

@@ -4,15 +4,96 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "devices/plcopen/st/expressions.hpp"
+#include "devices/plcopen/st/values.hpp"
 
 namespace drycut::devices::plcopen::st {
+
+/// What expressions, assignments and calls mean: names by the declarations, types by the parts; and their
+/// code. `wanted` is the type that the context asks for, or nullptr.
+class Expressions : public Values {
+ public:
+  using Values::Values;
+
+ protected:
+  TypedExpression expression(const Type* wanted = nullptr) { return typed(tree(), wanted); }
+  TypedExpression typed(const Tree& tree, const Type* wanted = nullptr);
+  std::optional<TypedExpression> variable(const StToken& name);
+  [[nodiscard]] Unit* find_unit(std::string_view name) const;
+  /// Reads the declarations of a unit that may be needed before its turn.
+  virtual void declare(Unit& unit) = 0;
+
+  // calls.cpp
+  int assign(const TypedExpression& target, const TypedExpression& value);
+  /// Notes a table's file that the text names.
+  void cam_file(const StToken& text);
+  int sequence_node(std::vector<int> statements, Place place);
+  /// The statements that give an instance's inputs and take its outputs.
+  struct BlockCall {
+    std::set<std::string> given;  ///< pins; "?" if something was given that is none
+    std::vector<int> before;
+    std::vector<int> after;
+  };
+  /// Whether what is called is a function, not an instance.
+  bool names_function(const Tree& callee);
+  BlockCall block_arguments(const TypedExpression& instance, const std::vector<Argument>& given);
+  int block_call(const TypedExpression& instance, const Tree& tree);
+  const Variable* pin_of(const Type& type, const StToken& name, bool output);
+
+  std::vector<std::unique_ptr<Unit>> units_;
+  std::unordered_map<std::string, Unit*> unit_index_;          ///< by name in lower case, VAR_GLOBAL apart
+  Type* globals_ = nullptr;                                    ///< its variables are where the memory begins
+  std::unordered_map<std::string, const Type*> enumerations_;  ///< by name in lower case
+  std::multimap<std::string, std::pair<const Type*, std::int64_t>> enum_values_;
+  const Type* cam_ref_ = nullptr;
+  std::set<std::string> told_;  ///< names that are not known, told once a POU
+  int open_units_ = 0;
+
+ private:
+  // expressions.cpp
+  TypedExpression literal(const StToken& token);
+  TypedExpression typed_literal(const Tree& tree);
+  TypedExpression name_expression(const StToken& name, const Type* wanted);
+  const Type* enumeration(std::string_view name);
+  std::optional<TypedExpression> enum_value(const StToken& name, const Type* wanted);
+  TypedExpression qualified_enum(const Type& type, const StToken& name);
+  TypedExpression member_of(const Tree& tree);
+  TypedExpression no_member(const TypedExpression& owner, const StToken& name);
+  TypedExpression bits_of_number(const Tree& tree, const TypedExpression& owner);
+  TypedExpression element_of(const Tree& tree);
+  TypedExpression element_at(TypedExpression owner, const TypedExpression& index);
+  [[nodiscard]] std::vector<std::string> known_names() const;
+
+  // calls.cpp
+  /// EN and ENO of a call; nullptr where they are not given.
+  struct Enable {
+    const Tree* condition = nullptr;
+    const Tree* result = nullptr;
+  };
+  int store(const TypedExpression& target, int value);
+  Enable take_enable(std::vector<Argument>& given, const Type* callee);
+  int enable_condition(const Enable& enable, Place place);
+  int enable_store(const Enable& enable, bool on);
+  TypedExpression enabled(const Enable& enable, TypedExpression value, const Type* wanted);
+  TypedExpression call(const Tree& tree, const Type* wanted);
+  TypedExpression function_call(const StToken& name, const std::vector<Argument>& given, const Type* wanted);
+  TypedExpression user_call(Unit& unit, const StToken& name, const std::vector<Argument>& given);
+  std::vector<int> input_triple(const Type& function, const Variable& pin, const Argument& argument,
+                                int frame, int& depth);
+  bool all_connected(const Unit& unit, const StToken& name, const std::vector<Argument>& given,
+                     const std::set<const Variable*>& connected, std::size_t number);
+  void input_of(const TypedExpression& instance, const Argument& argument, BlockCall& call);
+  int in_out_store(const Type& type, const Variable& pin, const TypedExpression& value, int place);
+  int output_store(const Type& owner, const Variable& pin, const Argument& argument, int place);
+  static std::vector<std::string> pins_of(const Type& type, bool output);
+};
 
 /// Cells of all variables, 8 MB: far above what such controllers have.
 inline constexpr int most_cells = 1'000'000;
@@ -37,7 +118,7 @@ class Declarations : public Expressions {
  private:
   // declarations.cpp: VAR sections.
   struct VarSection {
-    Section section = Section::local;
+    VarClass section = VarClass::local;
     bool constant = false;
     bool retain = false;
     bool external = false;
@@ -53,16 +134,16 @@ class Declarations : public Expressions {
   bool variable_section(Unit& unit, Type& owner);
   std::optional<VarSection> section_header();
   void declare_variables(Unit& unit, Type& owner, const VarSection& section);
-  void declare_named(Unit& unit, Type& owner, const VarSection& section, const std::vector<Token>& names);
-  void add_variable(Unit& unit, Type& owner, const VarSection& section, const Token& name, const Type* type,
+  void declare_named(Unit& unit, Type& owner, const VarSection& section, const std::vector<StToken>& names);
+  void add_variable(Unit& unit, Type& owner, const VarSection& section, const StToken& name, const Type* type,
                     const Location& location, std::span<const Cell> initial);
-  bool check_section(const Unit& unit, const VarSection& section, const Token& name, const Type& type,
+  bool check_section(const Unit& unit, const VarSection& section, const StToken& name, const Type& type,
                      const Location& location);
-  void external(const Token& name, const Type* type);
+  void external(const StToken& name, const Type* type);
   Location location();
-  bool check_memory(const Token& name, const Type& type, const MemoryPlace& place);
-  void keep_in_memory(const Token& name, const Type& type, const MemoryPlace& place, int pou);
-  bool name_is_free(const Unit& unit, const Type& owner, const Token& name);
+  bool check_memory(const StToken& name, const Type& type, const MemoryPlace& place);
+  void keep_in_memory(const StToken& name, const Type& type, const MemoryPlace& place, int pou);
+  bool name_is_free(const Unit& unit, const Type& owner, const StToken& name);
 
   // type_declarations.cpp
   void declare_type(Unit& unit);
@@ -123,17 +204,17 @@ class Statements : public Declarations {
   int if_statement();
   int case_statement();
   std::int64_t case_label(const Type& selector);
-  std::vector<Range> case_labels(const Type& selector, Labels& labels);
+  std::vector<Subrange> case_labels(const Type& selector, Labels& labels);
   [[nodiscard]] bool at_label() const;
   int condition(std::string_view closing);
-  void close(const Token& opened, std::string_view closing);
+  void close(const StToken& opened, std::string_view closing);
 
   // loops.cpp
   int for_statement();
   int while_statement();
   int repeat_statement();
   int loop_body(std::initializer_list<std::string_view> closing);
-  int jump(Op op);
+  int jump(StOp op);
 
   int loops_ = 0;
 };
@@ -165,7 +246,7 @@ class Compiler : public Statements {
   void configuration_part(bool tasks, int& resources);
   void declare_task();
   void declare_instance();
-  void add_instance(const Token& name, int task, Unit& unit, std::size_t connections);
+  void add_instance(const StToken& name, int task, Unit& unit, std::size_t connections);
   void check_instances();
   void connect_instances();
 
@@ -196,7 +277,7 @@ class Compiler : public Statements {
   /// What a CONFIGURATION connects to a program, beside Compiled::instances.
   struct Connections {
     Unit* unit = nullptr;
-    Token name;
+    StToken name;
     std::size_t connections = 0;  ///< where the '(' is, or 0
   };
   std::vector<Connections> connections_;

@@ -9,7 +9,7 @@ namespace drycut::devices::plcopen::st {
 
 /// Its VAR_GLOBAL sections are as those outside of it; the rest is read when all types are known.
 void Compiler::find_configuration() {
-  const Token opening = take();
+  const StToken opening = take();
   const std::size_t first = at_;
   if (configuration_first_ != 0)
     complain(opening.place, "a second CONFIGURATION", "one CONFIGURATION says what runs on the controller");
@@ -57,7 +57,7 @@ void Compiler::read_configuration() {
 }
 
 void Compiler::configuration_part(bool tasks, int& resources) {
-  const Token opening = peek();
+  const StToken opening = peek();
   const auto skip_to = [&](std::string_view end) {
     while (at_ < stop_ && !take().word(end)) {
     }
@@ -97,13 +97,13 @@ void Compiler::configuration_part(bool tasks, int& resources) {
 }
 
 void Compiler::declare_task() {
-  const Token name = expect_name("the name of the task");
+  const StToken name = expect_name("the name of the task");
   Program::Task task{std::string(name.text), name.place.line, name.place.column, 0, 0, {}};
   bool runs = false;
   int single = -1;
   expect("(", "TASK name(INTERVAL := T#10ms, PRIORITY := 1);");
   do {
-    const Token property = expect_name("INTERVAL, PRIORITY or SINGLE");
+    const StToken property = expect_name("INTERVAL, PRIORITY or SINGLE");
     expect(":=", "stands between a property and its value");
     const Place place = peek().place;
     if (property.word("INTERVAL")) {
@@ -112,9 +112,9 @@ void Compiler::declare_task() {
     } else if (property.word("PRIORITY")) {
       task.priority = static_cast<int>(constant_value(*type_of(Basic::uint)));
     } else if (property.word("SINGLE")) {
-      const Expression signal = expression();
+      const TypedExpression signal = expression();
       const bool plain = signal.address && signal.type->basic == Basic::boolean && !signal.bits &&
-                         node(signal.node).op == Op::address;
+                         node(signal.node).op == StOp::address;
       if (!plain && !signal.unknown())
         give_up(place, "SINGLE is no BOOL of VAR_GLOBAL", "a task runs at the rising edge of one");
       if (plain) single = static_cast<int>(node(signal.node).imm);
@@ -142,10 +142,10 @@ void Compiler::declare_instance() {
     give_up(peek().place, "RETAIN of a whole program",
             "VAR RETAIN ... END_VAR in the PROGRAM names what is kept");
   accept_word("NON_RETAIN");
-  const Token name = expect_name("the name of the program");
+  const StToken name = expect_name("the name of the program");
   int task = -1;
   if (accept_word("WITH")) {
-    const Token with = expect_name("the name of its task");
+    const StToken with = expect_name("the name of its task");
     for (std::size_t i = 0; i < code_->tasks.size(); ++i)
       if (with.word(code_->tasks[i].name)) task = static_cast<int>(i);
     if (task < 0)
@@ -154,7 +154,7 @@ void Compiler::declare_instance() {
                           "TASK " + std::string(with.text) + "(INTERVAL := T#10ms);"));
   }
   expect(":", "PROGRAM name WITH task : type;");
-  const Token type = expect_name("the PROGRAM that it is");
+  const StToken type = expect_name("the PROGRAM that it is");
   Unit* const unit = find_unit(type.text);
   if (unit == nullptr || unit->kind != Unit::Kind::program) {
     const auto known = [&] {
@@ -172,7 +172,7 @@ void Compiler::declare_instance() {
   add_instance(name, task, *unit, connections);
 }
 
-void Compiler::add_instance(const Token& name, int task, Unit& unit, std::size_t connections) {
+void Compiler::add_instance(const StToken& name, int task, Unit& unit, std::size_t connections) {
   if (unit.pou < 0) return;
   code_->instances.push_back({.pou = unit.pou});
   code_->instance_names.push_back({std::string(name.text), name.place.line, name.place.column, task});
@@ -182,7 +182,7 @@ void Compiler::add_instance(const Token& name, int task, Unit& unit, std::size_t
 void Compiler::check_instances() {
   std::set<std::string> names;
   for (const Connections& instance : connections_) {
-    const Token& name = instance.name;
+    const StToken& name = instance.name;
     if (!names.insert(lower(name.text)).second || find_member(*globals_, name.text) != nullptr)
       complain(name.place, in_quotes(name.text) + " is declared twice",
                "each program of a CONFIGURATION has a name of its own");
@@ -216,8 +216,8 @@ void Compiler::connect_instances() {
     const Connections& of = connections_[i];
     Compiled::Instance& instance = code_->instances[i];
     if (of.unit->state != Unit::State::done || of.unit->type == nullptr) continue;
-    const int node = leaf_node(Op::address, Basic::block, of.name.place, instance.cell);
-    const Expression whole = variable_at(of.unit->type, node, std::string(of.name.text), of.name.place);
+    const int node = leaf_node(StOp::address, Basic::block, of.name.place, instance.cell);
+    const TypedExpression whole = variable_at(of.unit->type, node, std::string(of.name.text), of.name.place);
     at_ = of.connections;
     stop_ = of.connections == 0 ? 0 : configuration_end_;
     try {

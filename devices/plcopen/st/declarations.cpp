@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
-#include "devices/plcopen/st/keywords.hpp"
+#include "devices/plcopen/st/lexer.hpp"
 #include "devices/plcopen/terminals.hpp"
 
 // The VAR sections of POUs and VAR_GLOBAL.
@@ -16,16 +16,16 @@ namespace {
 
 struct SectionName {
   std::string_view name;
-  Section section;
+  VarClass section;
 };
 constexpr std::array section_names{
-    SectionName{"VAR", Section::local},         SectionName{"VAR_INPUT", Section::input},
-    SectionName{"VAR_OUTPUT", Section::output}, SectionName{"VAR_IN_OUT", Section::in_out},
-    SectionName{"VAR_TEMP", Section::temp},     SectionName{"VAR_EXTERNAL", Section::local},
-    SectionName{"VAR_GLOBAL", Section::local}};
+    SectionName{"VAR", VarClass::local},         SectionName{"VAR_INPUT", VarClass::input},
+    SectionName{"VAR_OUTPUT", VarClass::output}, SectionName{"VAR_IN_OUT", VarClass::in_out},
+    SectionName{"VAR_TEMP", VarClass::temp},     SectionName{"VAR_EXTERNAL", VarClass::local},
+    SectionName{"VAR_GLOBAL", VarClass::local}};
 
 /// Of those with this section the first: VAR.
-std::string_view name_of(Section section) {
+std::string_view name_of(VarClass section) {
   return std::find_if(section_names.begin(), section_names.end(),
                       [&](const SectionName& known) { return known.section == section; })
       ->name;
@@ -128,7 +128,7 @@ void Declarations::declare_pou(Unit& unit) {
   own.type = &type;
   if (unit.kind == Unit::Kind::function) own.resets.push_back({0, type.cells - 1});
   for (const Variable& member : type.members)
-    if (unit.kind != Unit::Kind::function && member.section == Section::temp)
+    if (unit.kind != Unit::Kind::function && member.section == VarClass::temp)
       own.resets.push_back({member.offset, member.offset + member.type->cells - 1});
   unit.body = at_;
 }
@@ -175,7 +175,7 @@ std::optional<Declarations::VarSection> Declarations::section_header() {
 
 bool Declarations::variable_section(Unit& unit, Type& owner) {
   if (at_ >= stop_) return false;
-  const Token opening = peek();
+  const StToken opening = peek();
   const std::optional<VarSection> section = section_header();
   if (!section) return false;
   while (at_ < stop_ && !peek().word("END_VAR")) {
@@ -195,14 +195,14 @@ bool Declarations::variable_section(Unit& unit, Type& owner) {
 }
 
 void Declarations::declare_variables(Unit& unit, Type& owner, const VarSection& section) {
-  std::vector<Token> names{expect_name("the name of a variable")};
+  std::vector<StToken> names{expect_name("the name of a variable")};
   while (accept(",")) names.push_back(expect_name("the name of a variable"));
   try {
     declare_named(unit, owner, section, names);
   } catch (const GiveUp&) {
     // Known, so that their uses are not told again.
     const Type* unknown = type_of(Basic::unknown);
-    for (const Token& name : names)
+    for (const StToken& name : names)
       if (find_member(owner, name.text) == nullptr)
         add_variable(unit, owner, {}, name, unknown, {}, unknown->initial);
     throw;
@@ -210,20 +210,20 @@ void Declarations::declare_variables(Unit& unit, Type& owner, const VarSection& 
 }
 
 void Declarations::declare_named(Unit& unit, Type& owner, const VarSection& section,
-                                 const std::vector<Token>& names) {
+                                 const std::vector<StToken>& names) {
   Location place;
   if (accept_word("AT")) place = location();
   expect(":", "stands between a variable's name and its type");
   const Type* type = parse_type();
   if (section.external) {
     expect(";", "ends a declaration");
-    for (const Token& name : names) external(name, type);
+    for (const StToken& name : names) external(name, type);
     return;
   }
-  const Token value = peek(peek().is(":=") ? 1 : 0);
+  const StToken value = peek(peek().is(":=") ? 1 : 0);
   std::vector<Cell> initial = type->initial;
   if (accept(":=")) {
-    if (section.section == Section::in_out)
+    if (section.section == VarClass::in_out)
       give_up(value.place, "a VAR_IN_OUT has no initial value", "it is the caller's variable");
     initial = initial_value(*type);
   } else if (section.constant) {
@@ -235,21 +235,21 @@ void Declarations::declare_named(Unit& unit, Type& owner, const VarSection& sect
     complain(names[1].place, "two variables at one place", "declare each with its own AT");
     place = {};
   }
-  for (const Token& name : names) add_variable(unit, owner, section, name, type, place, initial);
+  for (const StToken& name : names) add_variable(unit, owner, section, name, type, place, initial);
 }
 
-bool Declarations::check_section(const Unit& unit, const VarSection& section, const Token& name,
+bool Declarations::check_section(const Unit& unit, const VarSection& section, const StToken& name,
                                  const Type& type, const Location& located) {
   const auto refuse = [&](std::string what, std::string remedy) {
     complain(name.place, std::move(what), std::move(remedy));
     return false;
   };
   const std::string_view in = section.global ? "VAR_GLOBAL" : name_of(section.section);
-  if (type.holds_axis && (section.section != Section::in_out || type.basic != Basic::axis))
+  if (type.holds_axis && (section.section != VarClass::in_out || type.basic != Basic::axis))
     return refuse(fmt::format("the AXIS_REF {} in {} has no axis", in_quotes(name.text), in),
                   "an axis of the configuration is named in VAR_EXTERNAL, a caller's in VAR_IN_OUT");
-  const bool keeps = section.section == Section::in_out ||
-                     (section.section == Section::local && unit.kind != Unit::Kind::function);
+  const bool keeps = section.section == VarClass::in_out ||
+                     (section.section == VarClass::local && unit.kind != Unit::Kind::function);
   if (type.holds_block && (!keeps || section.constant))
     return refuse(fmt::format("the function block {} cannot be in {} here", in_quotes(name.text), in),
                   "it keeps its state: declare it in VAR of a PROGRAM or FUNCTION_BLOCK, or in VAR_GLOBAL");
@@ -258,7 +258,7 @@ bool Declarations::check_section(const Unit& unit, const VarSection& section, co
     return refuse(fmt::format("{} at a terminal is a BOOL, not {}", in_quotes(name.text), type.name),
                   "start AT %IX0.0 : BOOL;");
   if ((unit.kind != Unit::Kind::program && unit.kind != Unit::Kind::globals) ||
-      section.section != Section::local)
+      section.section != VarClass::local)
     return refuse(fmt::format("{} cannot have {} here", in_quotes(name.text),
                               located.terminal ? "a terminal" : "a place in memory"),
                   "AT stands in VAR of a PROGRAM or in VAR_GLOBAL");
@@ -271,7 +271,7 @@ bool Declarations::check_section(const Unit& unit, const VarSection& section, co
   return true;
 }
 
-bool Declarations::check_memory(const Token& name, const Type& type, const MemoryPlace& place) {
+bool Declarations::check_memory(const StToken& name, const Type& type, const MemoryPlace& place) {
   const bool array = type.basic == Basic::array;
   const Basic basic = array ? type.element->basic : type.basic;
   if (!memory_format(place.size, basic)) {
@@ -301,7 +301,7 @@ bool Declarations::check_memory(const Token& name, const Type& type, const Memor
   return true;
 }
 
-void Declarations::keep_in_memory(const Token& name, const Type& type, const MemoryPlace& place, int pou) {
+void Declarations::keep_in_memory(const StToken& name, const Type& type, const MemoryPlace& place, int pou) {
   Program::InMemory kept{std::string(name.text), place, {}, {}, 1, name.place.line, name.place.column};
   const bool array = type.basic == Basic::array;
   kept.format = *memory_format(place.size, array ? type.element->basic : type.basic);
@@ -313,7 +313,7 @@ void Declarations::keep_in_memory(const Token& name, const Type& type, const Mem
   memory_in_.push_back(pou);
 }
 
-void Declarations::add_variable(Unit& unit, Type& owner, const VarSection& section, const Token& name,
+void Declarations::add_variable(Unit& unit, Type& owner, const VarSection& section, const StToken& name,
                                 const Type* type, const Location& located, std::span<const Cell> initial) {
   if (!name_is_free(unit, owner, name) || !check_section(unit, section, name, *type, located)) {
     // Known, so that its uses are not told again.
@@ -343,10 +343,10 @@ void Declarations::add_variable(Unit& unit, Type& owner, const VarSection& secti
   if (located.memory && type->basic != Basic::unknown) keep_in_memory(name, *type, *located.memory, pou);
   const std::vector<Cell> pointer(1, 0);
   append(owner, std::move(variable),
-         section.section == Section::in_out ? std::span<const Cell>(pointer) : initial);
+         section.section == VarClass::in_out ? std::span<const Cell>(pointer) : initial);
 }
 
-bool Declarations::name_is_free(const Unit& unit, const Type& owner, const Token& name) {
+bool Declarations::name_is_free(const Unit& unit, const Type& owner, const StToken& name) {
   const Variable* other = find_member(owner, name.text);
   if (other == nullptr) return true;
   const bool result = unit.kind == Unit::Kind::function && same_word(unit.name.text, name.text);
@@ -355,7 +355,7 @@ bool Declarations::name_is_free(const Unit& unit, const Type& owner, const Token
   return false;
 }
 
-void Declarations::external(const Token& name, const Type* type) {
+void Declarations::external(const StToken& name, const Type* type) {
   const Variable* global = find_member(*globals_, name.text);
   if (type->basic == Basic::axis) {
     if (global != nullptr && global->type->basic == Basic::axis) return;
@@ -382,8 +382,8 @@ void Declarations::external(const Token& name, const Type* type) {
 }
 
 Declarations::Location Declarations::location() {
-  const Token token = take();
-  if (token.kind == Token::Kind::address) {
+  const StToken token = take();
+  if (token.kind == StToken::Kind::address) {
     if (const auto address = located_address(token.text)) return {*address, {}};
     if (const auto place = parse_memory_place(token.text)) return {{}, *place};
   }

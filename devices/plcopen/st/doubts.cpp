@@ -12,7 +12,7 @@ namespace drycut::devices::plcopen::st {
 namespace {
 
 /// The '(' of the call in which token `at` stands; 0 = it stands in none.
-std::size_t call_of(const std::vector<Token>& tokens, std::size_t at, std::size_t first) {
+std::size_t call_of(const std::vector<StToken>& tokens, std::size_t at, std::size_t first) {
   int depth = 0;
   for (std::size_t i = at; i-- > first;) {
     if (tokens[i].is(";")) return 0;
@@ -34,11 +34,11 @@ struct Compiler::NameUse {
 Compiler::NameUse Compiler::use_of(const Variable& variable, const Unit& unit) const {
   NameUse use;
   for (std::size_t i = unit.body; i < unit.end; ++i) {
-    const Token& token = tokens_[i];
-    if (token.kind != Token::Kind::name || !same_word(token.text, variable.name) || tokens_[i - 1].is("."))
+    const StToken& token = tokens_[i];
+    if (token.kind != StToken::Kind::name || !same_word(token.text, variable.name) || tokens_[i - 1].is("."))
       continue;
-    const Token& next = tokens_[i + 1];
-    const Token& before = tokens_[i - 1];
+    const StToken& next = tokens_[i + 1];
+    const StToken& before = tokens_[i - 1];
     bool written = next.is("[") || next.is(".") || before.is("=>") || before.word("ADR");
     if (next.is(":=")) {
       // In a call it is the pin of that name.
@@ -66,13 +66,13 @@ bool Compiler::goes_out(std::size_t at, const Unit& unit) const {
   const Variable* instance = find_member(*owner, tokens_[call - 1].text);
   if (instance == nullptr) instance = find_member(*globals_, tokens_[call - 1].text);
   const Variable* pin = instance != nullptr ? find_member(*instance->type, tokens_[at - 2].text) : nullptr;
-  return pin == nullptr || pin->section == Section::in_out;
+  return pin == nullptr || pin->section == VarClass::in_out;
 }
 
 /// Whether its declaration gives an initial value, 0 too: it is meant to stay.
 bool Compiler::is_initialised(const Variable& variable) const {
   auto at = std::find_if(
-      tokens_.begin() + static_cast<std::ptrdiff_t>(user_tokens_), tokens_.end(), [&](const Token& token) {
+      tokens_.begin() + static_cast<std::ptrdiff_t>(user_tokens_), tokens_.end(), [&](const StToken& token) {
         return token.place.line == variable.place.line && token.place.column == variable.place.column;
       });
   while (at != tokens_.end() && !at->is(";") && !at->is(":=")) ++at;
@@ -85,14 +85,14 @@ void Compiler::doubt_variable(const Variable& variable, const Type& owner, const
   };
   if (use.read.line == 0) return;
   if (variable.type->basic == Basic::block) {
-    if (!use.called && variable.section == Section::local)
+    if (!use.called && variable.section == VarClass::local)
       tell(use.read, fmt::format("nothing calls {} ({}): its outputs stay as they are at power-up",
                                  variable.name, variable.type->name));
     return;
   }
   const bool begins_at_0 =
       owner.initial.at(static_cast<std::size_t>(variable.offset)) == 0 && !is_initialised(variable);
-  const bool own = variable.section == Section::local || variable.section == Section::temp;
+  const bool own = variable.section == VarClass::local || variable.section == VarClass::temp;
   const bool located =
       std::any_of(code_->in_memory.begin(), code_->in_memory.end(),
                   [&](const Program::InMemory& one) { return one.line == variable.place.line; });
@@ -129,7 +129,7 @@ void Compiler::find_doubts() {
 std::vector<Compiler::AxisPair> Compiler::axis_pairs(const Unit& unit, std::string_view block) const {
   std::vector<AxisPair> pairs;
   for (std::size_t i = unit.body; i + 1 < unit.end; ++i) {
-    const Variable* instance = tokens_[i].kind == Token::Kind::name && tokens_[i + 1].is("(")
+    const Variable* instance = tokens_[i].kind == StToken::Kind::name && tokens_[i + 1].is("(")
                                    ? find_member(*unit.type, tokens_[i].text)
                                    : nullptr;
     if (instance == nullptr || instance->type->motion == nullptr || instance->type->name != block) continue;

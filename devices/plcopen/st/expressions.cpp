@@ -1,4 +1,4 @@
-#include "devices/plcopen/st/expressions.hpp"
+#include "devices/plcopen/st/compiler.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,15 +7,15 @@
 
 #include "base/text.hpp"
 #include "devices/plcopen/kernel.hpp"
-#include "devices/plcopen/st/keywords.hpp"
-#include "devices/plcopen/st/operators.hpp"
+#include "devices/plcopen/st/lexer.hpp"
+#include "devices/plcopen/st/values.hpp"
 
 // What the tree of an expression means: its literals, its names and what may follow them, .member and
 // [index].
 namespace drycut::devices::plcopen::st {
 namespace {
 
-std::optional<Expression> predefined(const Token& name) {
+std::optional<TypedExpression> predefined(const StToken& name) {
   for (const StartModeRow& row : start_mode_table)
     if (name.word(row.name)) return constant(type_of(Basic::dword), row.bit, name.place, false);
   for (const NamedNumber& named : named_numbers)
@@ -23,9 +23,9 @@ std::optional<Expression> predefined(const Token& name) {
   return std::nullopt;
 }
 
-Expression variable_of(const Variable& variable, int node, const std::string& name, Place place) {
+TypedExpression variable_of(const Variable& variable, int node, const std::string& name, Place place) {
   const bool known = variable.constant && variable.value;
-  Expression result =
+  TypedExpression result =
       known ? constant(variable.type, *variable.value, place) : variable_at(variable.type, node, name, place);
   result.name = name;
   if (variable.constant)
@@ -37,7 +37,7 @@ Expression variable_of(const Variable& variable, int node, const std::string& na
 
 }  // namespace
 
-Expression Expressions::typed(const Tree& tree, const Type* wanted) {
+TypedExpression Expressions::typed(const Tree& tree, const Type* wanted) {
   switch (tree.kind) {
     case Tree::Kind::literal:
       return literal(*tree.token);
@@ -56,27 +56,27 @@ Expression Expressions::typed(const Tree& tree, const Type* wanted) {
     case Tree::Kind::chain:
       break;
     case Tree::Kind::parenthesised: {
-      Expression inner = typed(tree.parts[0], wanted);
+      TypedExpression inner = typed(tree.parts[0], wanted);
       // (x) is a value, nothing to assign to.
       if (inner.address && is_elementary(inner.type->basic)) inner = as_value(std::move(inner));
       return inner;
     }
   }
-  Expression result = typed(tree.parts[0], wanted);
+  TypedExpression result = typed(tree.parts[0], wanted);
   for (std::size_t i = 0; i < tree.tokens.size(); ++i) {
-    const Token& sign = *tree.tokens[i];
+    const StToken& sign = *tree.tokens[i];
     // A name of two enumerations is one of the other side's.
     const Type* const other = result.type->basic == Basic::enumeration ? result.type : wanted;
-    Expression right = typed(tree.parts[i + 1], other);
+    TypedExpression right = typed(tree.parts[i + 1], other);
     result = binary(*this, sign.text, sign, std::move(result), std::move(right), wanted);
   }
   return result;
 }
 
-Expression Expressions::literal(const Token& token) {
-  if (token.kind == Token::Kind::number)
+TypedExpression Expressions::literal(const StToken& token) {
+  if (token.kind == StToken::Kind::number)
     return constant(type_of(token.basic), token.value, token.place, is_number(token.basic));
-  Expression text{type_of(Basic::string), token.place, literal_string(token.string, token.place)};
+  TypedExpression text{type_of(Basic::string), token.place, literal_string(token.string, token.place)};
   text.string = token.string;
   return text;
 }
@@ -100,7 +100,7 @@ std::vector<std::string> Expressions::known_names() const {
   return names;
 }
 
-std::optional<Expression> Expressions::variable(const Token& name) {
+std::optional<TypedExpression> Expressions::variable(const StToken& name) {
   const Variable* found = unit_->type == nullptr ? nullptr : find_member(*unit_->type, name.text);
   const bool own = found != nullptr && unit_->type != globals_;
   if (found == nullptr) found = find_member(*globals_, name.text);
@@ -108,22 +108,22 @@ std::optional<Expression> Expressions::variable(const Token& name) {
   const Basic basic = found->type->basic;
   const bool function = unit_->kind == Unit::Kind::function;
   const int frame = own && function ? pou(*unit_).frame : 0;
-  int node =
-      leaf_node(own && !function ? Op::address_own : Op::address, basic, name.place, frame + found->offset);
-  if (found->section == Section::in_out) node = add_node(Op::follow, basic, name.place, node);
-  Expression result = variable_of(*found, node, found->name, name.place);
+  int node = leaf_node(own && !function ? StOp::address_own : StOp::address, basic, name.place,
+                       frame + found->offset);
+  if (found->section == VarClass::in_out) node = add_node(StOp::follow, basic, name.place, node);
+  TypedExpression result = variable_of(*found, node, found->name, name.place);
   // A FUNCTION's inputs are its own; a block's are kept for the next call.
-  if (own && found->section == Section::input && !function)
+  if (own && found->section == VarClass::input && !function)
     result.locked = fmt::format("is an input of {}", in_quotes(unit_->name.text));
   return result;
 }
 
-Expression Expressions::name_expression(const Token& name, const Type* wanted) {
+TypedExpression Expressions::name_expression(const StToken& name, const Type* wanted) {
   if (name.word("TRUE") || name.word("FALSE"))
     return constant(type_of(Basic::boolean), name.word("TRUE") ? 1 : 0, name.place);
-  if (std::optional<Expression> found = variable(name)) return *found;
-  if (std::optional<Expression> found = enum_value(name, wanted)) return *found;
-  if (std::optional<Expression> found = predefined(name)) return *found;
+  if (std::optional<TypedExpression> found = variable(name)) return *found;
+  if (std::optional<TypedExpression> found = enum_value(name, wanted)) return *found;
+  if (std::optional<TypedExpression> found = predefined(name)) return *found;
   // Told once a POU; what hangs on it is passed over.
   if (told_.insert(lower(name.text)).second) {
     const bool type = find_unit(name.text) != nullptr || elementary_type(name.text) != nullptr ||
@@ -145,7 +145,7 @@ const Type* Expressions::enumeration(std::string_view name) {
   return found == enumerations_.end() ? nullptr : found->second;
 }
 
-Expression Expressions::qualified_enum(const Type& type, const Token& name) {
+TypedExpression Expressions::qualified_enum(const Type& type, const StToken& name) {
   for (const EnumValue& value : type.values)
     if (name.word(value.name)) return constant(&type, value.value, name.place);
   const std::vector<std::string> names = names_of(type.values);
@@ -153,7 +153,7 @@ Expression Expressions::qualified_enum(const Type& type, const Token& name) {
                 suggestion(name.text, names, "it has " + listed(names)));
 }
 
-std::optional<Expression> Expressions::enum_value(const Token& name, const Type* wanted) {
+std::optional<TypedExpression> Expressions::enum_value(const StToken& name, const Type* wanted) {
   const auto [first, last] = enum_values_.equal_range(lower(name.text));
   if (first == last) return std::nullopt;
   for (auto value = first; value != last; ++value)
@@ -166,9 +166,9 @@ std::optional<Expression> Expressions::enum_value(const Token& name, const Type*
           fmt::format("write {}#{}", std::next(first)->second.first->name, name.text));
 }
 
-Expression Expressions::typed_literal(const Tree& tree) {
-  const Token& name = *tree.token;
-  const Token& value = *tree.tokens[0];
+TypedExpression Expressions::typed_literal(const Tree& tree) {
+  const StToken& name = *tree.token;
+  const StToken& value = *tree.tokens[0];
   if (const Type* type = enumeration(name.text)) return qualified_enum(*type, value);
   const Type* type = elementary_type(name.text);
   if (type == nullptr || !is_elementary(type->basic) || is_clock(type->basic))
@@ -176,9 +176,9 @@ Expression Expressions::typed_literal(const Tree& tree) {
             "INT#5, WORD#16#FF, LREAL#1.5, T#1s");
   if (type->basic == Basic::boolean && (value.word("TRUE") || value.word("FALSE")))
     return constant(type, value.word("TRUE") ? 1 : 0, name.place);
-  if (value.kind != Token::Kind::number || !is_number(value.basic))
+  if (value.kind != StToken::Kind::number || !is_number(value.basic))
     give_up(value.place, fmt::format("{}# has no number", upper(name.text)), "INT#5, WORD#16#FF, LREAL#1.5");
-  Expression number = literal(value);
+  TypedExpression number = literal(value);
   if (tree.negative && is_real(number.type->basic))
     number.value = cell_of(-real_of(number.value));
   else if (tree.negative)
@@ -189,12 +189,12 @@ Expression Expressions::typed_literal(const Tree& tree) {
 }
 
 /// Bits of a whole number: w.3, w.%X3, w.%B1.
-Expression Expressions::bits_of_number(const Tree& tree, const Expression& owner) {
-  const Token& token = *tree.token;
+TypedExpression Expressions::bits_of_number(const Tree& tree, const TypedExpression& owner) {
+  const StToken& token = *tree.token;
   const Basic basic = owner.type->basic;
   std::int64_t number = token.value;
   Basic part = Basic::boolean;
-  if (token.kind == Token::Kind::address) {
+  if (token.kind == StToken::Kind::address) {
     constexpr std::array parts{Basic::boolean, Basic::byte, Basic::word, Basic::dword};
     const std::string text = upper(token.text);
     const std::size_t kind = text.size() > 2 ? std::string_view("XBWD").find(text[1]) : parts.size();
@@ -215,7 +215,7 @@ Expression Expressions::bits_of_number(const Tree& tree, const Expression& owner
   if (number < 0 || number >= count)
     give_up(token.place, fmt::format("{} has no part {}", owner.type->name, in_quotes(token.text)),
             fmt::format("0 to {}", count - 1));
-  Expression result = owner;
+  TypedExpression result = owner;
   result.bits = Bits{owner.type, static_cast<int>(number) * width, width};
   result.type = type_of(part);
   result.name += "." + std::string(token.text);
@@ -227,20 +227,20 @@ Expression Expressions::bits_of_number(const Tree& tree, const Expression& owner
   return result;
 }
 
-Expression Expressions::member_of(const Tree& tree) {
+TypedExpression Expressions::member_of(const Tree& tree) {
   const Tree& before = tree.parts[0];
-  const Token& name = *tree.token;
+  const StToken& name = *tree.token;
   if (before.kind == Tree::Kind::name && !variable(*before.token))
     if (const Type* type = enumeration(before.token->text)) return qualified_enum(*type, name);
-  const Expression owner = typed(before);
+  const TypedExpression owner = typed(before);
   if (owner.unknown()) return owner;
-  if (name.kind != Token::Kind::name) return bits_of_number(tree, owner);
+  if (name.kind != StToken::Kind::name) return bits_of_number(tree, owner);
   const Type& type = *owner.type;
   const Variable* member = find_member(type, name.text);
   const bool inside = member != nullptr && type.basic == Basic::block &&
-                      (member->section == Section::local || member->section == Section::temp);
+                      (member->section == VarClass::local || member->section == VarClass::temp);
   const bool connected =
-      member != nullptr && type.basic == Basic::block && member->section == Section::in_out;
+      member != nullptr && type.basic == Basic::block && member->section == VarClass::in_out;
   if (connected || inside)
     return refuse(
         name.place,
@@ -251,22 +251,23 @@ Expression Expressions::member_of(const Tree& tree) {
   if (!owner.address)
     give_up(name.place, fmt::format("a member of a {} that is no variable", type.name),
             "assign it to a variable before");
-  Expression result = variable_of(*member, address_plus(owner.node, member->offset),
-                                  owner.name + "." + member->name, owner.place);
+  TypedExpression result = variable_of(*member, address_plus(owner.node, member->offset),
+                                       owner.name + "." + member->name, owner.place);
   result.depth = owner.depth;
   if (result.locked.empty()) result.locked = owner.locked;
-  if (type.basic == Basic::block && member->section == Section::output)
+  if (type.basic == Basic::block && member->section == VarClass::output)
     result.locked = fmt::format("is an output of {}", type.name);
   result.cam_file = &type == cam_ref_ && member == type.members.data();
   return result;
 }
 
-Expression Expressions::no_member(const Expression& owner, const Token& name) {
+TypedExpression Expressions::no_member(const TypedExpression& owner, const StToken& name) {
   const Type& type = *owner.type;
   if (type.broken) return unknown_at(name.place);
   std::vector<std::string> names;
   for (const Variable& known : type.members)
-    if (type.basic == Basic::structure || known.section == Section::input || known.section == Section::output)
+    if (type.basic == Basic::structure || known.section == VarClass::input ||
+        known.section == VarClass::output)
       names.push_back(known.name);
   if (names.empty())
     return refuse(name.place, fmt::format("{} is {} and has no members", in_quotes(owner.name), type.name),
@@ -277,10 +278,10 @@ Expression Expressions::no_member(const Expression& owner, const Token& name) {
                 suggestion(name.text, names, "it has " + listed(names)));
 }
 
-Expression Expressions::element_of(const Tree& tree) {
-  Expression result = typed(tree.parts[0]);
+TypedExpression Expressions::element_of(const Tree& tree) {
+  TypedExpression result = typed(tree.parts[0]);
   for (std::size_t i = 1; i < tree.parts.size(); ++i) {
-    const Expression index = typed(tree.parts[i]);
+    const TypedExpression index = typed(tree.parts[i]);
     if (result.unknown() || index.unknown())
       result.type = type_of(Basic::unknown);
     else
@@ -289,7 +290,7 @@ Expression Expressions::element_of(const Tree& tree) {
   return result;
 }
 
-Expression Expressions::element_at(Expression owner, const Expression& index) {
+TypedExpression Expressions::element_at(TypedExpression owner, const TypedExpression& index) {
   const Type& type = *owner.type;
   const Place place = index.place;
   if (type.basic != Basic::array)
@@ -315,7 +316,7 @@ Expression Expressions::element_at(Expression owner, const Expression& index) {
     owner.name += fmt::format("[{}]", index.value);
   } else {
     const int span = add_span({type.low, type.high, type.element->cells});
-    owner.node = add_node(Op::element, type.element->basic, place, owner.node, value_node(index), span);
+    owner.node = add_node(StOp::element, type.element->basic, place, owner.node, value_node(index), span);
     owner.depth = std::max(owner.depth, index.depth) + 1;
   }
   owner.type = type.element;

@@ -1,12 +1,10 @@
-#include "devices/plcopen/st/functions.hpp"
+#include "devices/plcopen/st/values.hpp"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
 #include <fmt/format.h>
-
-#include "devices/plcopen/st/operators.hpp"
 
 namespace drycut::devices::plcopen::st {
 namespace {
@@ -20,12 +18,12 @@ struct InputNames {
 struct StandardCall;
 struct StandardFunction {
   std::string_view name;
-  Expression (StandardCall::*meaning)() = nullptr;
+  TypedExpression (StandardCall::*meaning)() = nullptr;
   std::size_t least = 1;  ///< number of inputs
   std::size_t most = 1;
   InputNames inputs{{"IN"}};
   std::string_view sign{};  ///< of an operator
-  Op op = Op::nothing;
+  StOp op = StOp::nothing;
   Basic to = Basic::unknown;
   TextOp text = TextOp::left;
 };
@@ -34,85 +32,86 @@ struct StandardFunction {
 struct StandardCall {
   Values& values;
   const StandardFunction& function;
-  const Token& name;
-  std::vector<Expression> inputs;
+  const StToken& name;
+  std::vector<TypedExpression> inputs;
   const Type* wanted;
 
   [[nodiscard]] Place place() const { return name.place; }
   [[nodiscard]] Basic basic(std::size_t input) const { return inputs[input].type->basic; }
 
-  Expression refused(const Expression& value, std::string takes) {
+  TypedExpression refused(const TypedExpression& value, std::string takes) {
     return values.refuse(value.place, fmt::format("{} does not take {}", upper(name.text), value.type->name),
                          std::move(takes), place());
   }
 
   /// The sign between the inputs, from the left.
-  Expression chain() {
-    Expression result = inputs[0];
+  TypedExpression chain() {
+    TypedExpression result = inputs[0];
     for (std::size_t i = 1; i < inputs.size(); ++i)
       result = binary(values, function.sign, name, std::move(result), inputs[i], wanted);
     return result;
   }
 
   /// The sign holds between each input and the next.
-  Expression ordered() {
+  TypedExpression ordered() {
     const auto holds = [&](std::size_t i) {
       return binary(values, function.sign, name, inputs[i - 1], inputs[i], nullptr);
     };
-    Expression all = holds(1);
+    TypedExpression all = holds(1);
     for (std::size_t i = 2; i < inputs.size(); ++i)
       all = binary(values, "AND", name, std::move(all), holds(i), nullptr);
     return all;
   }
 
   /// MOVE.
-  Expression same() {
+  TypedExpression same() {
     return inputs[0].constant || inputs[0].string ? inputs[0] : values.as_value(inputs[0]);
   }
 
-  Expression complemented() { return complement(values, name, inputs[0], wanted); }
+  TypedExpression complemented() { return complement(values, name, inputs[0], wanted); }
 
   /// Bits of the first moved by the second.
-  Expression shift() {
-    const Expression bits = literal_for_bits(values, inputs[0], wanted, name);
+  TypedExpression shift() {
+    const TypedExpression bits = literal_for_bits(values, inputs[0], wanted, name);
     if (bits.unknown()) return bits;
     if (!is_integer(bits.type->basic)) return refused(bits, "it takes whole numbers");
     if (!is_integer(basic(1))) return refused(inputs[1], "the number of places is a whole number");
     return values.apply_op(function.op, bits.type, place(), bits, inputs[1]);
   }
 
-  [[nodiscard]] const Expression* no_number() const {
-    const auto found = std::find_if(inputs.begin(), inputs.end(),
-                                    [](const Expression& value) { return !is_number(value.type->basic); });
+  [[nodiscard]] const TypedExpression* no_number() const {
+    const auto found = std::find_if(inputs.begin(), inputs.end(), [](const TypedExpression& value) {
+      return !is_number(value.type->basic);
+    });
     return found == inputs.end() ? nullptr : &*found;
   }
 
-  Expression absolute() {
+  TypedExpression absolute() {
     if (no_number() != nullptr) return refused(*no_number(), "it takes numbers");
-    return values.apply_op(is_real(basic(0)) ? Op::absolute_real : Op::absolute, inputs[0].type, place(),
+    return values.apply_op(is_real(basic(0)) ? StOp::absolute_real : StOp::absolute, inputs[0].type, place(),
                            inputs[0]);
   }
 
   /// Of one or two real numbers.
-  Expression real() {
+  TypedExpression real() {
     if (no_number() != nullptr) return refused(*no_number(), "it takes numbers");
     const bool untyped = inputs[0].untyped && inputs.back().untyped;
     const Type* type = real_result(inputs[0], wanted);
     if (inputs.back().type->basic == Basic::lreal && !inputs.back().untyped) type = type_of(Basic::lreal);
-    for (Expression& value : inputs) value = values.cast(value, type->basic, value.place);
-    Expression result = inputs.size() == 1
-                            ? values.apply_op(function.op, type, place(), inputs[0])
-                            : values.apply_op(function.op, type, place(), inputs[0], inputs[1]);
+    for (TypedExpression& value : inputs) value = values.cast(value, type->basic, value.place);
+    TypedExpression result = inputs.size() == 1
+                                 ? values.apply_op(function.op, type, place(), inputs[0])
+                                 : values.apply_op(function.op, type, place(), inputs[0], inputs[1]);
     result.untyped = untyped && result.constant;
     return result;
   }
 
-  using Inputs = std::vector<Expression>;
+  using Inputs = std::vector<TypedExpression>;
 
   /// As values of one type; nothing, and told, if there is none.
   std::optional<Inputs> to_common(const Inputs& given) {
-    Expression common = given.front();
-    for (const Expression& value : given) {
+    TypedExpression common = given.front();
+    for (const TypedExpression& value : given) {
       if (value.unknown()) return std::nullopt;
       const Type* type = common_type(common, value, wanted);
       if (type == nullptr || !is_elementary(type->basic)) {
@@ -129,7 +128,7 @@ struct StandardCall {
       if (value.constant) common.value = value.value;
     }
     Inputs result;
-    for (const Expression& value : given) {
+    for (const TypedExpression& value : given) {
       result.push_back(values.converted(value, *common.type));
       result.back().untyped = common.untyped;
     }
@@ -138,37 +137,42 @@ struct StandardCall {
 
   /// Likewise of what a program chooses among: texts too.
   std::optional<Inputs> to_chosen(const Inputs& given) {
-    const auto is_text = [](const Expression& value) { return value.type->basic == Basic::string; };
+    const auto is_text = [](const TypedExpression& value) { return value.type->basic == Basic::string; };
     if (std::all_of(given.begin(), given.end(), is_text)) return given;
     auto common = to_common(given);
     if (!common || !common->front().untyped || is_real(common->front().type->basic)) return common;
     // Literals have the smallest type that holds them all.
     for (const Basic basic : {Basic::int_, Basic::dint, Basic::lint}) {
-      const Range range = range_of(basic);
-      if (std::all_of(common->begin(), common->end(),
-                      [&](const Expression& e) { return e.value >= range.low && e.value <= range.high; })) {
-        for (Expression& value : *common) value = values.literal_as(std::move(value), *type_of(basic));
+      const Subrange range = range_of(basic);
+      if (std::all_of(common->begin(), common->end(), [&](const TypedExpression& e) {
+            return e.value >= range.low && e.value <= range.high;
+          })) {
+        for (TypedExpression& value : *common) value = values.literal_as(std::move(value), *type_of(basic));
         break;
       }
     }
     return common;
   }
 
-  Expression extreme(const Inputs& given, Op whole, Op real) {
+  TypedExpression extreme(const Inputs& given, StOp whole, StOp real) {
     const auto common = to_common(given);
     if (!common) return unknown_at(place());
     const Type* type = common->front().type;
-    Expression result = common->front();
+    TypedExpression result = common->front();
     for (std::size_t i = 1; i < common->size(); ++i)
       result = values.apply_op(is_real(type->basic) ? real : whole, type, place(), result, (*common)[i]);
     return result;
   }
-  Expression smallest_of(const Inputs& given) { return extreme(given, Op::minimum, Op::minimum_real); }
-  Expression largest_of(const Inputs& given) { return extreme(given, Op::maximum, Op::maximum_real); }
-  Expression smallest() { return smallest_of(inputs); }
-  Expression largest() { return largest_of(inputs); }
+  TypedExpression smallest_of(const Inputs& given) {
+    return extreme(given, StOp::minimum, StOp::minimum_real);
+  }
+  TypedExpression largest_of(const Inputs& given) {
+    return extreme(given, StOp::maximum, StOp::maximum_real);
+  }
+  TypedExpression smallest() { return smallest_of(inputs); }
+  TypedExpression largest() { return largest_of(inputs); }
 
-  Expression limit() {
+  TypedExpression limit() {
     const auto common = to_common(inputs);
     if (!common) return unknown_at(place());
     return smallest_of({largest_of({(*common)[1], (*common)[0]}), (*common)[2]});
@@ -180,8 +184,8 @@ struct StandardCall {
     return type->basic == Basic::string ? longest_string() : type;
   }
 
-  Expression select() {
-    const Expression which = values.converted(inputs[0], *type_of(Basic::boolean));
+  TypedExpression select() {
+    const TypedExpression which = values.converted(inputs[0], *type_of(Basic::boolean));
     const auto common = to_chosen({inputs[1], inputs[2]});
     if (!common || which.unknown()) return unknown_at(place());
     if (which.constant && (*common)[0].constant && (*common)[1].constant)
@@ -190,14 +194,14 @@ struct StandardCall {
     const int condition = values.value_node(which);
     const int on = values.value_node((*common)[1]);
     const int off = values.value_node((*common)[0]);
-    return {type, place(), values.add_node(Op::select, type->basic, place(), condition, on, off),
+    return {type, place(), values.add_node(StOp::select, type->basic, place(), condition, on, off),
             depth_over(inputs)};
   }
 
-  Expression multiplex() {
+  TypedExpression multiplex() {
     const auto common = to_chosen({inputs.begin() + 1, inputs.end()});
     if (!common) return unknown_at(place());
-    const Expression& which = inputs[0];
+    const TypedExpression& which = inputs[0];
     if (!is_integer(basic(0)))
       values.give_up(which.place, fmt::format("MUX chooses by {}", which.type->name),
                      "by a whole number, from 0");
@@ -210,18 +214,18 @@ struct StandardCall {
     const int number = values.value_node(which);
     const int list = values.add_list(nodes);
     return {type, place(),
-            values.add_node(Op::multiplex, type->basic, place(), number, list, static_cast<int>(count)),
+            values.add_node(StOp::multiplex, type->basic, place(), number, list, static_cast<int>(count)),
             depth_over(inputs)};
   }
 
   std::vector<int> nodes_of(const Inputs& given) {
     std::vector<int> nodes;
-    for (const Expression& value : given) nodes.push_back(values.value_node(value));
+    for (const TypedExpression& value : given) nodes.push_back(values.value_node(value));
     return nodes;
   }
 
   /// Texts, and numbers behind them.
-  Expression text() {
+  TypedExpression text() {
     const std::size_t texts = texts_of(function.text, inputs.size());
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       if (i < texts && basic(i) != Basic::string)
@@ -233,7 +237,7 @@ struct StandardCall {
   }
 
   /// A node of TextOp `op`; texts get a place of their own for each call in the text.
-  Expression text_value(TextOp op, const Type* number) {
+  TypedExpression text_value(TextOp op, const Type* number) {
     const bool text = op < TextOp::length;
     const Type* type = text ? longest_string() : number;
     std::vector<int> nodes;
@@ -242,36 +246,36 @@ struct StandardCall {
     const Basic of = op == TextOp::from_value ? basic(0) : type->basic;
     const int list = values.add_list(nodes);
     return {type, place(),
-            values.add_node(Op::text, of, place(), list, static_cast<int>(nodes.size()), -1,
+            values.add_node(StOp::text, of, place(), list, static_cast<int>(nodes.size()), -1,
                             static_cast<std::int64_t>(op)),
             depth_over(inputs)};
   }
 
   /// CONCAT_DATE_TOD.
-  Expression moment() {
+  TypedExpression moment() {
     if (basic(0) != Basic::date) return refused(inputs[0], "a DATE and a TOD make a DT");
     if (basic(1) != Basic::tod) return refused(inputs[1], "a DATE and a TOD make a DT");
     const Type* dt = type_of(Basic::dt);
-    const Expression ms_per_second = constant(type_of(Basic::dint), 1000, place());
-    return values.apply_op(Op::add, dt, place(), inputs[0],
-                           values.apply_op(Op::divide, dt, place(), inputs[1], ms_per_second));
+    const TypedExpression ms_per_second = constant(type_of(Basic::dint), 1000, place());
+    return values.apply_op(StOp::add, dt, place(), inputs[0],
+                           values.apply_op(StOp::divide, dt, place(), inputs[1], ms_per_second));
   }
 
-  Expression truncated() {
+  TypedExpression truncated() {
     if (!is_real(basic(0))) return refused(inputs[0], "it takes REAL and LREAL");
-    Expression result = values.apply_op(function.op, type_of(function.to), place(), inputs[0]);
+    TypedExpression result = values.apply_op(function.op, type_of(function.to), place(), inputs[0]);
     result.untyped = false;
     return result;
   }
 
   /// TIME().
-  Expression clock() {
-    return {type_of(Basic::time), place(), values.add_node(Op::time_now, Basic::time, place())};
+  TypedExpression clock() {
+    return {type_of(Basic::time), place(), values.add_node(StOp::time_now, Basic::time, place())};
   }
 
   /// X_TO_Y.
-  Expression converted(Basic to) {
-    Expression& value = inputs[0];
+  TypedExpression converted(Basic to) {
+    TypedExpression& value = inputs[0];
     const Basic from = basic(0);
     const bool text = from == Basic::string;
     const auto clock = [](Basic one) { return is_clock(one) && one != Basic::time; };
@@ -286,7 +290,7 @@ struct StandardCall {
       value.untyped = false;
     if (to == Basic::string) return text ? value : text_value(TextOp::from_value, nullptr);
     if (text) return text_value(TextOp::to_value, type_of(to));
-    Expression result = values.cast(value, to, place());
+    TypedExpression result = values.cast(value, to, place());
     // A conversion is a value, nothing to assign to.
     return result.address ? values.as_value(std::move(result)) : result;
   }
@@ -303,15 +307,15 @@ constexpr StandardFunction chain(std::string_view name, std::string_view sign, s
 constexpr StandardFunction ordered(std::string_view name, std::string_view sign, std::size_t most = many) {
   return {name, &Call::ordered, 2, most, from_one, sign};
 }
-constexpr StandardFunction real(std::string_view name, Op op) {
+constexpr StandardFunction real(std::string_view name, StOp op) {
   return {name, &Call::real, 1, 1, {{"IN"}}, {}, op};
 }
-constexpr StandardFunction shift(std::string_view name, Op op) {
+constexpr StandardFunction shift(std::string_view name, StOp op) {
   return {name, &Call::shift, 2, 2, {{"IN", "N"}}, {}, op};
 }
 constexpr StandardFunction texts(std::string_view name, std::size_t least, std::size_t most, InputNames names,
                                  TextOp op) {
-  return {name, &Call::text, least, most, names, {}, Op::nothing, Basic::unknown, op};
+  return {name, &Call::text, least, most, names, {}, StOp::nothing, Basic::unknown, op};
 }
 
 constexpr std::array functions{
@@ -346,28 +350,28 @@ constexpr std::array functions{
     StandardFunction{"NOT", &Call::complemented},
     StandardFunction{"MOVE", &Call::same},
     StandardFunction{"ABS", &Call::absolute},
-    real("SQRT", Op::square_root),
-    real("SIN", Op::sine),
-    real("COS", Op::cosine),
-    real("TAN", Op::tangent),
-    real("ASIN", Op::arc_sine),
-    real("ACOS", Op::arc_cosine),
-    real("ATAN", Op::arc_tangent),
-    StandardFunction{"ATAN2", &Call::real, 2, 2, {{"Y", "X"}}, {}, Op::arc_tangent_2},
-    real("EXP", Op::exponential),
-    real("LN", Op::logarithm),
-    real("LOG", Op::logarithm_10),
-    shift("SHL", Op::shift_left),
-    shift("SHR", Op::shift_right),
-    shift("ROL", Op::rotate_left),
-    shift("ROR", Op::rotate_right),
+    real("SQRT", StOp::square_root),
+    real("SIN", StOp::sine),
+    real("COS", StOp::cosine),
+    real("TAN", StOp::tangent),
+    real("ASIN", StOp::arc_sine),
+    real("ACOS", StOp::arc_cosine),
+    real("ATAN", StOp::arc_tangent),
+    StandardFunction{"ATAN2", &Call::real, 2, 2, {{"Y", "X"}}, {}, StOp::arc_tangent_2},
+    real("EXP", StOp::exponential),
+    real("LN", StOp::logarithm),
+    real("LOG", StOp::logarithm_10),
+    shift("SHL", StOp::shift_left),
+    shift("SHR", StOp::shift_right),
+    shift("ROL", StOp::rotate_left),
+    shift("ROR", StOp::rotate_right),
     StandardFunction{"MIN", &Call::smallest, 2, many, from_one},
     StandardFunction{"MAX", &Call::largest, 2, many, from_one},
     StandardFunction{"LIMIT", &Call::limit, 3, 3, {{"MN|MIN", "IN", "MX|MAX"}}},
     StandardFunction{"SEL", &Call::select, 3, 3, {{"G", "IN0", "IN1"}}},
     StandardFunction{"MUX", &Call::multiplex, 3, many + 1, {{"K"}, 0}},
-    StandardFunction{"TRUNC", &Call::truncated, 1, 1, {{"IN"}}, {}, Op::truncate, Basic::dint},
-    StandardFunction{"TRUNC_INT", &Call::truncated, 1, 1, {{"IN"}}, {}, Op::truncate, Basic::int_},
+    StandardFunction{"TRUNC", &Call::truncated, 1, 1, {{"IN"}}, {}, StOp::truncate, Basic::dint},
+    StandardFunction{"TRUNC_INT", &Call::truncated, 1, 1, {{"IN"}}, {}, StOp::truncate, Basic::int_},
     StandardFunction{"TIME", &Call::clock, 0, 0},
     texts("LEN", 1, 1, {{"IN|STR"}}, TextOp::length),
     texts("LEFT", 2, 2, {{"IN|STR", "L|SIZE"}}, TextOp::left),
@@ -382,7 +386,7 @@ constexpr std::array functions{
 };
 
 /// Whether input `number` (from 0) may be called `name`.
-bool is_called(const InputNames& inputs, std::size_t number, const Token& name) {
+bool is_called(const InputNames& inputs, std::size_t number, const StToken& name) {
   std::size_t fixed = 0;
   while (fixed < inputs.fixed.size() && !inputs.fixed.at(fixed).empty()) ++fixed;
   if (number >= fixed) {
@@ -397,7 +401,7 @@ bool is_called(const InputNames& inputs, std::size_t number, const Token& name) 
 }
 
 /// The inputs in the order of the function's; gives up what does not fit.
-std::vector<const Tree*> in_order(Values& values, const Token& name, const std::vector<Argument>& given,
+std::vector<const Tree*> in_order(Values& values, const StToken& name, const std::vector<Argument>& given,
                                   const StandardFunction& function) {
   std::vector<const Tree*> trees;
   for (const Argument& argument : given) {
@@ -444,14 +448,15 @@ std::optional<std::pair<Basic, Basic>> conversion(std::string_view name) {
 
 std::vector<std::string> standard_function_names() { return names_of(functions); }
 
-std::optional<Expression> standard_call(Values& values, const Token& name, const std::vector<Argument>& given,
-                                        const Type* wanted, const Typed& typed) {
+std::optional<TypedExpression> standard_call(Values& values, const StToken& name,
+                                             const std::vector<Argument>& given, const Type* wanted,
+                                             const Typed& typed) {
   for (const StandardFunction& function : functions) {
     if (!name.word(function.name)) continue;
     Call call{values, function, name, {}, wanted};
     for (const Tree* tree : in_order(values, name, given, function))
       call.inputs.push_back(typed(*tree, wanted));
-    for (const Expression& input : call.inputs)
+    for (const TypedExpression& input : call.inputs)
       if (input.unknown()) return unknown_at(name.place);
     return (call.*function.meaning)();
   }
@@ -459,7 +464,7 @@ std::optional<Expression> standard_call(Values& values, const Token& name, const
   if (!types) return std::nullopt;
   const auto [from, to] = *types;
   constexpr StandardFunction one_input{"", &Call::same};
-  Expression value = typed(*in_order(values, name, given, one_input).front(), nullptr);
+  TypedExpression value = typed(*in_order(values, name, given, one_input).front(), nullptr);
   if (!value.unknown() && from != Basic::unknown) value = values.converted(std::move(value), *type_of(from));
   if (value.unknown()) return value;
   return Call{values, one_input, name, {std::move(value)}, nullptr}.converted(to);

@@ -33,8 +33,8 @@ void Declarations::initial_into(const Type& type, std::span<Cell> cells) {
       cells[0] = constant_value(type);
       return;
   }
-  const Token text = take();
-  if (text.kind != Token::Kind::string)
+  const StToken text = take();
+  if (text.kind != StToken::Kind::string)
     give_up(text.place, "a STRING begins with a text, not " + in_quotes(text.text), "'text'");
   if (text.string.size() > type.length)
     give_up(text.place, fmt::format("{} characters do not fit in {}", text.string.size(), type.name),
@@ -77,7 +77,7 @@ void Declarations::initial_array(const Type& type, std::span<Cell> cells) {
 void Declarations::initial_members(const Type& type, std::span<Cell> cells) {
   expect("(", fmt::format("opens the values of a {}", type.name));
   do {
-    const Token name = expect_name("the name of a member");
+    const StToken name = expect_name("the name of a member");
     const Variable* member =
         type.basic == Basic::block ? pin_of(type, name, false) : find_member(type, name.text);
     if (member == nullptr && type.basic == Basic::block) throw GiveUp{};
@@ -86,7 +86,7 @@ void Declarations::initial_members(const Type& type, std::span<Cell> cells) {
       give_up(name.place, fmt::format("{} has no member {}", type.name, in_quotes(name.text)),
               suggestion(name.text, names, "it has " + listed(names)));
     }
-    if (member->section == Section::in_out)
+    if (member->section == VarClass::in_out)
       give_up(name.place, in_quotes(name.text) + " has no initial value", "it is connected in a call");
     expect(":=", "stands between a member and its value");
     if (&type == cam_ref_ && member == type.members.data()) cam_file(peek());
@@ -99,7 +99,7 @@ void Declarations::initial_members(const Type& type, std::span<Cell> cells) {
 Cell Declarations::constant_value(const Type& wanted, const char* what, const char* remedy,
                                   bool (*takes)(Basic)) {
   const Place place = peek().place;
-  Expression value = expression(&wanted);
+  TypedExpression value = expression(&wanted);
   if (value.unknown()) throw GiveUp{};
   if (!value.constant || !takes(value.type->basic)) give_up(place, what, remedy);
   const std::size_t before = told();
@@ -110,7 +110,7 @@ Cell Declarations::constant_value(const Type& wanted, const char* what, const ch
 
 std::int64_t Declarations::constant_integer(std::string_view what, const Type* wanted) {
   const Place place = peek().place;
-  const Expression value = expression(wanted);
+  const TypedExpression value = expression(wanted);
   if (value.unknown()) throw GiveUp{};
   if (!value.constant || !is_integer(value.type->basic))
     give_up(place, fmt::format("{} is not a constant whole number", what),

@@ -9,8 +9,8 @@
 namespace drycut::devices::plcopen::st {
 namespace {
 
-Symbol symbol_of(const Type& type, const std::string& name, bool writable, bool retain) {
-  Symbol symbol;
+StSymbol symbol_of(const Type& type, const std::string& name, bool writable, bool retain) {
+  StSymbol symbol;
   symbol.name = name;
   symbol.type = type.name;
   symbol.writable = writable;
@@ -20,7 +20,7 @@ Symbol symbol_of(const Type& type, const std::string& name, bool writable, bool 
                                            : std::numeric_limits<double>::max();
     symbol.min = -symbol.max;
   } else {
-    const Range range = range_of(type);
+    const Subrange range = range_of(type);
     symbol.min = static_cast<double>(range.low);
     symbol.max = static_cast<double>(range.high);
   }
@@ -98,8 +98,8 @@ void Compiler::finish() {
   Compiled& code = *code_;
   place_located();
   for (Node& node : code.nodes) {
-    if (node.op != Op::address_pool) continue;
-    node.op = Op::address;
+    if (node.op != StOp::address_pool) continue;
+    node.op = StOp::address;
     node.imm += memory_;
   }
   if (told() > 0) {
@@ -131,14 +131,14 @@ void Compiler::finish() {
 void Compiler::walk(const Type& type, int cell, const std::string& prefix, bool retain, bool shown) {
   if (type.motion != nullptr) code_->motions.push_back({cell, &type});
   for (const Variable& member : type.members) {
-    if (member.section == Section::in_out && type.motion == nullptr) continue;
+    if (member.section == VarClass::in_out && type.motion == nullptr) continue;
     const int at = cell + member.offset;
     const std::string name = prefix.empty() ? member.name : prefix + "." + member.name;
     const bool kept = retain || member.retain;
     if (member.retain && !retain) code_->retain.push_back({at, at + member.type->cells - 1});
-    const bool output = type.basic == Basic::block && member.section == Section::output;
-    const bool hidden = member.section == Section::temp || member.section == Section::in_out ||
-                        (type.standard && member.section == Section::local);
+    const bool output = type.basic == Basic::block && member.section == VarClass::output;
+    const bool hidden = member.section == VarClass::temp || member.section == VarClass::in_out ||
+                        (type.standard && member.section == VarClass::local);
     walk_value(*member.type, at, name, kept, shown && !hidden,
                !member.constant && !output && !member.reads_terminal);
   }

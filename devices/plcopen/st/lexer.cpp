@@ -10,8 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "devices/plcopen/st/pragmas.hpp"
-
 namespace drycut::devices::plcopen::st {
 namespace {
 
@@ -21,12 +19,12 @@ std::string without_underscores(std::string_view text) {
   return result;
 }
 
-class StLexer : public Lexer<Token> {
+class StLexer : public Lexer<StToken> {
  public:
   StLexer(std::string_view text, const std::string& file, Problems& problems)
       : Lexer(without_byte_order_mark(text), file, problems), pragmas_(file, problems) {}
 
-  std::vector<Token> run() {
+  std::vector<StToken> run() {
     while (skip_blank(), !at_end()) next();
     pragmas_.finish();
     add(Kind::end, 0);
@@ -34,8 +32,8 @@ class StLexer : public Lexer<Token> {
   }
 
  private:
-  Token& literal(Basic basic, std::size_t size) {
-    Token& token = add(Kind::number, size);
+  StToken& literal(Basic basic, std::size_t size) {
+    StToken& token = add(Kind::number, size);
     token.basic = basic;
     return token;
   }
@@ -136,7 +134,7 @@ class StLexer : public Lexer<Token> {
     const auto digit = [](char x) { return is_digit(x) || x == '_'; };
     if (const std::size_t base = length(digit); peek(base) == '#') return based(base);
     const Number found = number_ahead(digit, true);
-    Token& token = literal(Basic::lreal, found.whole);
+    StToken& token = literal(Basic::lreal, found.whole);
     const std::string digits = without_underscores(token.text);
     if (found.whole != found.size) {
       complain(token, in_quotes(token.text) + " is neither a number nor a name",
@@ -153,14 +151,14 @@ class StLexer : public Lexer<Token> {
 
   void based(std::size_t base_size) {
     const std::string base = without_underscores(text_.substr(at_, base_size));
-    Token& token = literal(Basic::lint, length(in_name, base_size + 1));
+    StToken& token = literal(Basic::lint, length(in_name, base_size + 1));
     if (base != "2" && base != "8" && base != "16")
       complain(token, in_quotes(token.text) + " has no base that is known", "2#1010, 8#17 or 16#FF");
     else
       read_integer(token, without_underscores(token.text.substr(base_size + 1)), std::stoi(base));
   }
 
-  void read_integer(Token& token, const std::string& digits, int base) {
+  void read_integer(StToken& token, const std::string& digits, int base) {
     std::uint64_t number = 0;
     const char* const end = digits.data() + digits.size();
     const auto [stop, error] = std::from_chars(digits.data(), end, number, base);
@@ -179,7 +177,7 @@ class StLexer : public Lexer<Token> {
   void clock(Basic basic, std::size_t prefix) {
     const bool time = basic == Basic::time;
     const auto belongs = [&](char x) { return in_name(x) || x == '.' || x == '-' || (x == ':' && !time); };
-    Token& token = literal(basic, length(belongs, prefix));
+    StToken& token = literal(basic, length(belongs, prefix));
     const std::string text = without_underscores(token.text.substr(prefix));
     if (time)
       read_time(token, text);
@@ -192,7 +190,7 @@ class StLexer : public Lexer<Token> {
                                       : "DT#1970-01-01-00:00:00 to DT#2106-02-06-06:28:15");
   }
 
-  void read_time(Token& token, std::string_view text) {
+  void read_time(StToken& token, std::string_view text) {
     const std::optional<double> ms = milliseconds(text);
     if (!ms)
       complain(token, in_quotes(token.text) + " is no time",
@@ -280,7 +278,7 @@ class StLexer : public Lexer<Token> {
     const Place begin = place();
     const auto [whole, closed] = string_length();
     const std::size_t size = whole - 1;
-    Token& token = add(Kind::string, whole);
+    StToken& token = add(Kind::string, whole);
     if (!closed) {
       complain(token, "a string is not closed on its line", "end it with '");
       return;
@@ -288,7 +286,7 @@ class StLexer : public Lexer<Token> {
     unescape(token, token.text.substr(1, size - 1), begin);
   }
 
-  void unescape(Token& token, std::string_view text, Place begin) {
+  void unescape(StToken& token, std::string_view text, Place begin) {
     constexpr std::string_view names = "$'LlNnPpRrTt";
     constexpr std::string_view values = "$'\n\n\n\n\f\f\r\r\t\t";
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -319,7 +317,7 @@ class StLexer : public Lexer<Token> {
 
 }  // namespace
 
-std::vector<Token> tokens_of(std::string_view text, const std::string& file, Problems& problems) {
+std::vector<StToken> tokens_of(std::string_view text, const std::string& file, Problems& problems) {
   return StLexer(text, file, problems).run();
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 #include <array>
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,9 +11,53 @@
 
 namespace drycut::devices::plcopen::st {
 
+/// Words of the language, any case: no name may be one of them.
+bool is_keyword(std::string_view word);
+/// END_IF, ELSE, UNTIL and the like: where a statement that was given up must end.
+bool closes_block(std::string_view word);
+/// Which of them a word is that is none, as ENDIF and ELSEIF; "" if it is like none.
+std::string_view meant_closer(std::string_view word);
+/// PROGRAM, FUNCTION, TYPE and the like.
+bool opens_unit(std::string_view word);
+/// The standard blocks TON, TOF, TP, R_TRIG, F_TRIG, SR, RS, CTU, CTD, CTUD, as Structured Text with the pins
+/// of CODESYS and TwinCAT.
+std::string_view standard_blocks();
+
+/// The pragmas of CODESYS that decide what is compiled: {define N}, {define N 'text'}, {undefine N}, {IF
+/// ...}, {ELSIF ...}, {ELSE}, {END_IF}, {error 'text'}. Conditions are defined(N), hasvalue(N, 'text'), NOT,
+/// AND, OR and parentheses; what asks for more is refused. Other pragmas are passed over.
+class Pragmas : private Complaints {
+ public:
+  using Complaints::Complaints;
+
+  /// `text` is what stands between { and }, `place` where the { is.
+  void read(std::string_view text, Place place);
+  /// Whether the text that follows is compiled.
+  [[nodiscard]] bool active() const { return branches_.empty() || branches_.back().active; }
+  /// At the end of the file.
+  void finish();
+
+ private:
+  struct Branch {
+    Place opened;
+    bool outer = true;   ///< what surrounds it is compiled
+    bool taken = false;  ///< one of its parts has been
+    bool active = false;
+    bool otherwise = false;  ///< {ELSE} has been
+  };
+  struct Condition;
+
+  void next_part(std::string_view word, bool holds, Place place);
+  void define(const std::vector<std::string>& words, Place place);
+  bool condition(const std::vector<std::string>& words, std::string_view text, Place place);
+
+  std::map<std::string, std::string> defined_;  ///< by name in lower case
+  std::vector<Branch> branches_;
+};
+
 /// A word, literal or sign of a Structured Text file. Signs are
 /// ( ) [ ] , ; : . + - * / < > = & # := => ** <= >= <> .. and times and dates are numbers too.
-struct Token : drycut::Token {
+struct StToken : drycut::Token {
   Basic basic = Basic::unknown;  ///< of a number: LINT, above it ULINT, LREAL, TIME, TOD, DATE or DT
   Cell value = 0;
   std::string string;  ///< without quotes and escapes
@@ -29,6 +75,54 @@ inline constexpr std::array<TimeUnit, 5> time_units{
 
 /// The tokens of a file, comments, pragmas `{...}` and what they switch off left out, ended by one of
 /// Kind::end.
-std::vector<Token> tokens_of(std::string_view text, const std::string& file, Problems& problems);
+std::vector<StToken> tokens_of(std::string_view text, const std::string& file, Problems& problems);
+
+/// Thrown when a statement or a declaration is given up; its problem has been told.
+struct GiveUp {};
+
+/// Counts how deep the reader is in something, also when that is given up.
+class Nested {
+ public:
+  explicit Nested(int& count) : count_(count) { ++count_; }
+  ~Nested() { --count_; }
+  Nested(const Nested&) = delete;
+  Nested& operator=(const Nested&) = delete;
+
+ private:
+  int& count_;
+};
+
+/// The tokens of a file, which are read unit by unit.
+class Reader : public TokenReader<StToken> {
+ public:
+  using TokenReader::TokenReader;
+
+  [[noreturn]] void give_up(Place place, std::string what, std::string remedy);
+
+ protected:
+  void expect(std::string_view sign, std::string_view where);
+  void expect_word(std::string_view keyword, std::string_view where);
+  StToken expect_name(const std::string& what);
+  [[nodiscard]] Place behind() const;
+  /// The next token is a word by which `is_one` knows it: closes_block, opens_unit, is_keyword.
+  [[nodiscard]] bool at_word(bool (*is_one)(std::string_view)) const {
+    return peek().kind == StToken::Kind::name && is_one(peek().text);
+  }
+  /// Goes on to where `here` holds, or to the end of the part.
+  void skip_to(const std::function<bool()>& here);
+  /// Goes on to `word`, or behind the next ';'.
+  void skip_past(std::string_view word);
+  void skip_statement();
+  /// The remedy for a word that is not known; a file full of them is not searched for each.
+  std::string suggested(std::string_view word, const std::function<std::vector<std::string>()>& known,
+                        const std::string& otherwise) const;
+};
+
+/// The names of what has a `name`, for messages.
+std::vector<std::string> names_of(const auto& named) {
+  std::vector<std::string> names;
+  for (const auto& one : named) names.emplace_back(one.name);
+  return names;
+}
 
 }  // namespace drycut::devices::plcopen::st

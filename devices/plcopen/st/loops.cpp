@@ -6,16 +6,16 @@
 namespace drycut::devices::plcopen::st {
 
 int Statements::for_statement() {
-  const Token opened = take();
+  const StToken opened = take();
   const Place place = opened.place;
   int start = -1;
   int test = -1;
   int step_on = -1;
   std::vector<int> all;
   try {
-    const Token name = peek();
-    if (name.kind != Token::Kind::name) give_up(name.place, "FOR counts no variable", "FOR i := 0 TO 9 DO");
-    Expression counter = typed(name_tree());
+    const StToken name = peek();
+    if (name.kind != StToken::Kind::name) give_up(name.place, "FOR counts no variable", "FOR i := 0 TO 9 DO");
+    TypedExpression counter = typed(name_tree());
     counter.place = name.place;
     if (!counter.unknown() && !is_integer(counter.type->basic)) {
       complain(name.place,
@@ -24,32 +24,33 @@ int Statements::for_statement() {
       counter = unknown_at(name.place);
     }
     expect(":=", "stands behind the variable of a FOR");
-    const Expression from = expression(counter.type);
+    const TypedExpression from = expression(counter.type);
     start = assign(counter, from);
     // Behind its last turn the counter of a subrange is out of it.
     counter.type = base_of(counter.type);
     expect_word("TO", fmt::format("FOR {} := 0 TO 9 DO", name.text));
-    Expression to = converted(expression(counter.type), *counter.type);
-    Expression step = constant(counter.type, 1, place);
+    TypedExpression to = converted(expression(counter.type), *counter.type);
+    TypedExpression step = constant(counter.type, 1, place);
     if (accept_word("BY")) step = converted(expression(counter.type), *counter.type);
     if (step.constant && step.value == 0)
       complain(step.place, "FOR with a step of 0 never ends", "BY 1 or BY -1");
     expect_word("DO", fmt::format("FOR {} := 0 TO 9 DO", name.text));
     if (!counter.unknown() && !to.unknown() && !step.unknown() && counter.address) {
       // The end and the step are computed once.
-      const auto kept = [&](const Expression& value) {
+      const auto kept = [&](const TypedExpression& value) {
         if (value.constant) return value;
-        const Expression cell =
+        const TypedExpression cell =
             variable_at(counter.type, scratch(*counter.type, value.place), "", value.place);
-        all.push_back(add_node(Op::store_at, counter.type->basic, value.place, cell.node, value_node(value)));
+        all.push_back(
+            add_node(StOp::store_at, counter.type->basic, value.place, cell.node, value_node(value)));
         return cell;
       };
       to = kept(to);
       step = kept(step);
       const int current = value_node(counter);
       const int end = value_node(to);
-      test = add_node(Op::passes, counter.type->basic, place, current, end, value_node(step));
-      step_on = assign(counter, apply_op(Op::add, counter.type, place, counter, step));
+      test = add_node(StOp::passes, counter.type->basic, place, current, end, value_node(step));
+      step_on = assign(counter, apply_op(StOp::add, counter.type, place, counter, step));
     }
   } catch (const GiveUp&) {
     skip_to([&] { return peek().word("DO") || peek().is(";"); });
@@ -58,7 +59,7 @@ int Statements::for_statement() {
   const int body = loop_body({"END_FOR"});
   close(opened, "END_FOR");
   all.insert(all.begin(), start);
-  all.push_back(add_node(Op::loop, Basic::unknown, place, test, body, step_on));
+  all.push_back(add_node(StOp::loop, Basic::unknown, place, test, body, step_on));
   return sequence_node(std::move(all), place);
 }
 
@@ -68,20 +69,20 @@ int Statements::loop_body(std::initializer_list<std::string_view> closing) {
 }
 
 int Statements::while_statement() {
-  const Token opened = take();
+  const StToken opened = take();
   const int test = condition("DO");
   const int body = loop_body({"END_WHILE"});
   close(opened, "END_WHILE");
-  return add_node(Op::loop, Basic::unknown, opened.place, test, body);
+  return add_node(StOp::loop, Basic::unknown, opened.place, test, body);
 }
 
 int Statements::repeat_statement() {
-  const Token opened = take();
+  const StToken opened = take();
   const int body = loop_body({"UNTIL", "END_REPEAT"});
   int test = -1;
   if (accept_word("UNTIL")) {
     const Place place = peek().place;
-    const Expression value = expression();
+    const TypedExpression value = expression();
     accept(";");
     if (!value.unknown() && value.type->basic != Basic::boolean)
       complain(place, fmt::format("the condition is {}, not BOOL", value.type->name), "compare it: <> 0");
@@ -92,12 +93,12 @@ int Statements::repeat_statement() {
              fmt::format("REPEAT of line {} ends with UNTIL condition END_REPEAT", opened.place.line));
   }
   close(opened, "END_REPEAT");
-  return add_node(Op::repeat, Basic::unknown, opened.place, body, test);
+  return add_node(StOp::repeat, Basic::unknown, opened.place, body, test);
 }
 
-int Statements::jump(Op op) {
-  const Token word = take();
-  if (op != Op::leave_pou && loops_ == 0)
+int Statements::jump(StOp op) {
+  const StToken word = take();
+  if (op != StOp::leave_pou && loops_ == 0)
     complain(word.place, fmt::format("{} stands in no loop", upper(word.text)),
              "it leaves or goes on with a FOR, WHILE or REPEAT");
   expect(";", "ends a statement");

@@ -8,8 +8,7 @@
 
 #include "base/text.hpp"
 #include "devices/plcopen/kernel.hpp"
-#include "devices/plcopen/st/arithmetic.hpp"
-#include "devices/plcopen/st/texts.hpp"
+#include "devices/plcopen/st/code.hpp"
 
 namespace drycut::devices::plcopen::st {
 
@@ -18,7 +17,7 @@ Machine::Machine(const Compiled& code, MotionKernel& kernel) : code_(code), kern
 void Machine::start(bool all) {
   std::vector<Cell> fresh = code_.image;
   if (!all && memory_.size() == fresh.size())
-    for (const Range& kept : code_.retain)
+    for (const Subrange& kept : code_.retain)
       std::copy(memory_.begin() + kept.low, memory_.begin() + kept.high + 1, fresh.begin() + kept.low);
   memory_ = std::move(fresh);
   for (std::size_t i = 0; i < code_.external_cells.size(); ++i)
@@ -47,14 +46,13 @@ void Machine::run(const Compiled::Instance& program, std::int64_t time_ms) {
 }
 
 void Machine::exhausted(const Node& n) {
-  throw RuntimeError(n,
-                     fmt::format("more than {} operations in one scan; a loop does not end, or there is more "
-                                 "to do than a scan can hold",
-                                 most_work));
+  throw StError(n, fmt::format("more than {} operations in one scan; a loop does not end, or there is more "
+                               "to do than a scan can hold",
+                               most_work));
 }
 
 void Machine::reset(const Pou& pou, std::int64_t frame) {
-  for (const Range& cells : pou.resets)
+  for (const Subrange& cells : pou.resets)
     std::copy(pou.type->initial.begin() + cells.low, pou.type->initial.begin() + cells.high + 1,
               memory_.begin() + frame + cells.low);
 }
@@ -69,22 +67,21 @@ std::int64_t Machine::element(const Node& n) {
   const Span& span = code_.spans[static_cast<std::size_t>(n.c)];
   const Cell index = value(n.b);
   if (index < span.low || index > span.high)
-    throw RuntimeError(n, fmt::format("the index {} is out of bounds; {} to {}", index, span.low, span.high));
+    throw StError(n, fmt::format("the index {} is out of bounds; {} to {}", index, span.low, span.high));
   return value(n.a) + (index - span.low) * span.cells + n.imm;
 }
 
 Cell Machine::operation(const Node& n) {
   const Cell a = value(n.a);
   const Cell b = n.b >= 0 ? value(n.b) : 0;
-  if (const auto none = no_result(n.op, n.basic, a, b))
-    throw RuntimeError(n, none->what + "; " + none->remedy);
+  if (const auto none = no_result(n.op, n.basic, a, b)) throw StError(n, none->what + "; " + none->remedy);
   return apply(n.op, n.basic, a, b);
 }
 
 Cell Machine::multiplex(const Node& n) {
   const Cell which = value(n.a);
   if (which < 0 || which >= n.c)
-    throw RuntimeError(n, fmt::format("MUX has no value {}; 0 to {}", which, n.c - 1));
+    throw StError(n, fmt::format("MUX has no value {}; 0 to {}", which, n.c - 1));
   return value(code_.lists[static_cast<std::size_t>(n.b + which)]);
 }
 
@@ -141,7 +138,7 @@ Cell Machine::in_range(const Node& n) {
   const Span& span = code_.spans[static_cast<std::size_t>(n.c)];
   const Cell a = value(n.a);
   if (a >= span.low && a <= span.high) return a;
-  throw RuntimeError(n, fmt::format("{} is out of the range; {} to {}", a, span.low, span.high));
+  throw StError(n, fmt::format("{} is out of the range; {} to {}", a, span.low, span.high));
 }
 
 Cell Machine::passes(const Node& n) {
@@ -196,46 +193,46 @@ Cell Machine::value(int number) {
   const Node& n = node(number);
   charge(1);
   switch (n.op) {
-    case Op::constant:
+    case StOp::constant:
       return n.imm;
-    case Op::load:
+    case StOp::load:
       return at(n.imm);
-    case Op::load_own:
+    case StOp::load_own:
       return at(own_ + n.imm);
-    case Op::load_at:
+    case StOp::load_at:
       return at(value(n.a));
-    case Op::address:
+    case StOp::address:
       return n.imm;
-    case Op::address_own:
+    case StOp::address_own:
       return own_ + n.imm;
-    case Op::follow:
+    case StOp::follow:
       return at(value(n.a)) + n.imm;
-    case Op::element:
+    case StOp::element:
       return element(n);
-    case Op::call_function:
+    case StOp::call_function:
       return call_function(n);
-    case Op::and_then:
+    case StOp::and_then:
       return value(n.a) != 0 ? value(n.b) : 0;
-    case Op::or_else:
+    case StOp::or_else:
       return value(n.a) != 0 ? 1 : value(n.b);
-    case Op::select: {
+    case StOp::select: {
       const Cell on = value(n.b);
       const Cell off = value(n.c);
       return value(n.a) != 0 ? on : off;
     }
-    case Op::multiplex:
+    case StOp::multiplex:
       return multiplex(n);
-    case Op::compare_strings:
+    case StOp::compare_strings:
       return compare(n);
-    case Op::text:
+    case StOp::text:
       return text_value(n);
-    case Op::enabled:
+    case StOp::enabled:
       return enabled(n);
-    case Op::in_range:
+    case StOp::in_range:
       return in_range(n);
-    case Op::time_now:
+    case StOp::time_now:
       return time_ms_;
-    case Op::passes:
+    case StOp::passes:
       return passes(n);
     default:
       return operation(n);
@@ -260,56 +257,56 @@ void Machine::note_turn(int number) {
 
 Machine::Flow Machine::execute(int number) {
   const Node& n = node(number);
-  if (n.op == Op::sequence) return sequence(n);
+  if (n.op == StOp::sequence) return sequence(n);
   spend(n, 1);
   ++statements_;
   if (trace_ != nullptr) {
-    if (n.op != Op::branch) note(number, '+');
+    if (n.op != StOp::branch) note(number, '+');
     note_turn(number);
   }
   switch (n.op) {
-    case Op::store:
+    case StOp::store:
       at(n.imm) = value(n.a);
       return Flow::next;
-    case Op::store_own:
+    case StOp::store_own:
       at(own_ + n.imm) = value(n.a);
       return Flow::next;
-    case Op::store_at: {
+    case StOp::store_at: {
       const Cell stored = value(n.b);
       at(value(n.a)) = stored;
       return Flow::next;
     }
-    case Op::store_bits:
+    case StOp::store_bits:
       store_bits(n);
       return Flow::next;
-    case Op::copy: {
+    case StOp::copy: {
       const std::int64_t from = value(n.b);
       spend(n, n.imm / 8);
       std::memmove(&at(value(n.a)), &at(from), static_cast<std::size_t>(n.imm) * sizeof(Cell));
       return Flow::next;
     }
-    case Op::copy_string:
+    case StOp::copy_string:
       copy_string(value(n.b), value(n.a), static_cast<std::size_t>(n.imm));
       return Flow::next;
-    case Op::evaluate:
+    case StOp::evaluate:
       value(n.a);
       return Flow::next;
-    case Op::call_block:
+    case StOp::call_block:
       call_block(n);
       return Flow::next;
-    case Op::branch:
+    case StOp::branch:
       return branch(n);
-    case Op::choose:
+    case StOp::choose:
       return choose(n);
-    case Op::loop:
+    case StOp::loop:
       return loop(n, number);
-    case Op::repeat:
+    case StOp::repeat:
       return repeat(n, number);
-    case Op::leave_loop:
+    case StOp::leave_loop:
       return Flow::leave_loop;
-    case Op::next_turn:
+    case StOp::next_turn:
       return Flow::next_turn;
-    case Op::leave_pou:
+    case StOp::leave_pou:
       return Flow::leave_pou;
     default:
       return Flow::next;
@@ -415,7 +412,7 @@ void Machine::call_motion(std::int64_t instance) {
   Motion& motion = motions_[static_cast<std::size_t>(at(instance))];
   for (std::size_t i = 0; i < motion.pins.size(); ++i) {
     const Variable& pin = motion.type->members[i];
-    if (pin.section == Section::output) continue;
+    if (pin.section == VarClass::output) continue;
     const std::int64_t place = instance + pin.offset;
     std::visit(
         [&](auto* target) {
@@ -436,7 +433,7 @@ void Machine::call_motion(std::int64_t instance) {
   motion.block->call(kernel_);
   for (std::size_t i = 0; i < motion.pins.size(); ++i) {
     const Variable& pin = motion.type->members[i];
-    if (pin.section != Section::output) continue;
+    if (pin.section != VarClass::output) continue;
     if (const auto cell = cell_of_pin(motion.pins[i])) at(instance + pin.offset) = *cell;
   }
 }

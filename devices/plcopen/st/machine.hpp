@@ -9,8 +9,8 @@
 namespace drycut::devices::plcopen::st {
 
 /// An error of a program while it runs; told as Runtime::fault.
-struct RuntimeError : std::runtime_error {
-  RuntimeError(const Node& at, const std::string& text)
+struct StError : std::runtime_error {
+  StError(const Node& at, const std::string& text)
       : std::runtime_error(text), line(at.line), column(at.column) {}
   int line;
   int column;

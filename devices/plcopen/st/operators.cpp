@@ -1,4 +1,4 @@
-#include "devices/plcopen/st/operators.hpp"
+#include "devices/plcopen/st/values.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,32 +12,33 @@ namespace drycut::devices::plcopen::st {
 namespace {
 
 using Kind = Operator::Kind;
-constexpr std::array operators{Operator{"OR", 0, Kind::logic, Op::bit_or},
-                               Operator{"OR_ELSE", 0, Kind::lazy, Op::or_else},
-                               Operator{"XOR", 1, Kind::logic, Op::bit_xor},
-                               Operator{"AND", 2, Kind::logic, Op::bit_and},
-                               Operator{"&", 2, Kind::logic, Op::bit_and},
-                               Operator{"AND_THEN", 2, Kind::lazy, Op::and_then},
-                               Operator{"=", 3, Kind::comparison, Op::equal, Op::equal_real},
-                               Operator{"<>", 3, Kind::comparison, Op::not_equal, Op::not_equal_real},
-                               Operator{"<", 4, Kind::comparison, Op::less, Op::less_real},
-                               Operator{">", 4, Kind::comparison, Op::greater, Op::greater_real},
-                               Operator{"<=", 4, Kind::comparison, Op::less_equal, Op::less_equal_real},
-                               Operator{">=", 4, Kind::comparison, Op::greater_equal, Op::greater_equal_real},
-                               Operator{"+", 5, Kind::arithmetic, Op::add, Op::add_real},
-                               Operator{"-", 5, Kind::arithmetic, Op::subtract, Op::subtract_real},
-                               Operator{"*", 6, Kind::arithmetic, Op::multiply, Op::multiply_real},
-                               Operator{"/", 6, Kind::arithmetic, Op::divide, Op::divide_real},
-                               Operator{"MOD", 6, Kind::modulo, Op::modulo},
-                               Operator{"**", 7, Kind::power, Op::power, Op::power}};
+constexpr std::array operators{
+    Operator{"OR", 0, Kind::logic, StOp::bit_or},
+    Operator{"OR_ELSE", 0, Kind::lazy, StOp::or_else},
+    Operator{"XOR", 1, Kind::logic, StOp::bit_xor},
+    Operator{"AND", 2, Kind::logic, StOp::bit_and},
+    Operator{"&", 2, Kind::logic, StOp::bit_and},
+    Operator{"AND_THEN", 2, Kind::lazy, StOp::and_then},
+    Operator{"=", 3, Kind::comparison, StOp::equal, StOp::equal_real},
+    Operator{"<>", 3, Kind::comparison, StOp::not_equal, StOp::not_equal_real},
+    Operator{"<", 4, Kind::comparison, StOp::less, StOp::less_real},
+    Operator{">", 4, Kind::comparison, StOp::greater, StOp::greater_real},
+    Operator{"<=", 4, Kind::comparison, StOp::less_equal, StOp::less_equal_real},
+    Operator{">=", 4, Kind::comparison, StOp::greater_equal, StOp::greater_equal_real},
+    Operator{"+", 5, Kind::arithmetic, StOp::add, StOp::add_real},
+    Operator{"-", 5, Kind::arithmetic, StOp::subtract, StOp::subtract_real},
+    Operator{"*", 6, Kind::arithmetic, StOp::multiply, StOp::multiply_real},
+    Operator{"/", 6, Kind::arithmetic, StOp::divide, StOp::divide_real},
+    Operator{"MOD", 6, Kind::modulo, StOp::modulo},
+    Operator{"**", 7, Kind::power, StOp::power, StOp::power}};
 
-bool is_zero(const Expression& value) {
+bool is_zero(const TypedExpression& value) {
   return value.constant && (is_real(value.type->basic) ? real_of(value.value) == 0 : value.value == 0);
 }
 
-const Type* common_literals(const Expression& a, const Expression& b, const Type* wanted) {
-  const Expression& literal = a.untyped ? a : b;
-  const Expression& other = a.untyped ? b : a;
+const Type* common_literals(const TypedExpression& a, const TypedExpression& b, const Type* wanted) {
+  const TypedExpression& literal = a.untyped ? a : b;
+  const TypedExpression& other = a.untyped ? b : a;
   const Basic basic = other.type->basic;
   const bool real = is_real(literal.type->basic);
   const bool wide = is_wide(literal.type->basic);
@@ -56,7 +57,7 @@ const Type* common_literals(const Expression& a, const Expression& b, const Type
   if (!is_integer(basic) && basic != Basic::enumeration) return nullptr;
   if (wide) return is_wide(basic) ? other.type : nullptr;
   for (const Basic candidate : {basic, Basic::int_, Basic::dint, Basic::lint}) {
-    const Range range = range_of(candidate);
+    const Subrange range = range_of(candidate);
     const bool holds = literal.value >= range.low && literal.value <= range.high;
     if (holds && widens(basic, candidate) && candidate != Basic::enumeration) return type_of(candidate);
   }
@@ -67,12 +68,12 @@ const Type* common_literals(const Expression& a, const Expression& b, const Type
 struct Operation {
   Values& values;
   const Operator& sign;
-  const Token& told;
-  Expression a;
-  Expression b;
+  const StToken& told;
+  TypedExpression a;
+  TypedExpression b;
   const Type* wanted;
 
-  Expression result() {
+  TypedExpression result() {
     switch (sign.kind) {
       case Kind::power:
         return power();
@@ -87,8 +88,8 @@ struct Operation {
   }
 
  private:
-  Expression mismatch(const std::string& remedy) {
-    const auto name = [](const Expression& e) {
+  TypedExpression mismatch(const std::string& remedy) {
+    const auto name = [](const TypedExpression& e) {
       if (!e.untyped) return e.type->name;
       return std::string(is_real(e.type->basic) ? "a real number" : "a whole number");
     };
@@ -97,7 +98,7 @@ struct Operation {
                          remedy);
   }
 
-  Expression division_by_zero() {
+  TypedExpression division_by_zero() {
     return values.refuse(told.place, "division by the constant 0", "divide by something else");
   }
 
@@ -109,18 +110,18 @@ struct Operation {
     a.untyped = b.untyped = untyped;
   }
 
-  Expression apply(Op op, const Type* type, const Expression& x, const Expression& y) {
+  TypedExpression apply(StOp op, const Type* type, const TypedExpression& x, const TypedExpression& y) {
     return values.apply_op(op, type, told.place, x, y);
   }
 
-  Expression power() {
+  TypedExpression power() {
     if (!is_number(a.type->basic) || !is_number(b.type->basic)) return mismatch("it takes numbers");
     const Type* type = real_result(a, wanted);
-    return apply(Op::power, type, values.cast(a, type->basic, a.place),
+    return apply(StOp::power, type, values.cast(a, type->basic, a.place),
                  values.cast(b, Basic::lreal, b.place));
   }
 
-  Expression arithmetic() {
+  TypedExpression arithmetic() {
     const bool modulo = sign.kind == Kind::modulo;
     if (is_clock(a.type->basic) || is_clock(b.type->basic)) return time_arithmetic();
     const Type* type =
@@ -128,48 +129,48 @@ struct Operation {
     if (type == nullptr || (modulo && is_real(type->basic)))
       return mismatch(modulo ? "it takes whole numbers" : "convert one: X_TO_Y(...)");
     convert_both(*type);
-    if ((modulo || sign.op == Op::divide) && is_zero(b)) return division_by_zero();
+    if ((modulo || sign.op == StOp::divide) && is_zero(b)) return division_by_zero();
     return apply(is_real(type->basic) ? sign.real_op : sign.op, type, a, b);
   }
 
-  Expression time_arithmetic() {
+  TypedExpression time_arithmetic() {
     if (is_clock(a.type->basic) && is_clock(b.type->basic)) return clock_arithmetic();
-    const bool times = sign.op == Op::multiply;
+    const bool times = sign.op == StOp::multiply;
     if (times && b.type->basic == Basic::time) std::swap(a, b);
-    if ((!times && sign.op != Op::divide) || !is_number(b.type->basic) || a.type->basic != Basic::time)
+    if ((!times && sign.op != StOp::divide) || !is_number(b.type->basic) || a.type->basic != Basic::time)
       return mismatch("TIME + TIME, TIME - TIME, TIME * number and TIME / number are times");
     if (!times && is_zero(b)) return division_by_zero();
     const bool real = is_real(b.type->basic);
     if (real) b = values.cast(b, Basic::lreal, b.place);
-    const Op scaled = times ? Op::scale_time : Op::divide_time;
+    const StOp scaled = times ? StOp::scale_time : StOp::divide_time;
     return apply(real ? scaled : sign.op, type_of(Basic::time), a, b);
   }
 
-  Expression clock_arithmetic() {
-    const bool plus = sign.op == Op::add;
+  TypedExpression clock_arithmetic() {
+    const bool plus = sign.op == StOp::add;
     if (plus && a.type->basic == Basic::time) std::swap(a, b);
     const Basic basic = a.type->basic;
     const bool times = basic == Basic::time && b.type->basic == Basic::time;
     const bool moved = (basic == Basic::tod || basic == Basic::dt) && b.type->basic == Basic::time;
     const bool between = !plus && basic == b.type->basic;
-    if ((!plus && sign.op != Op::subtract) || (!times && !moved && !between))
+    if ((!plus && sign.op != StOp::subtract) || (!times && !moved && !between))
       return mismatch("a TIME goes to a TOD or DT, and lies between two of a kind");
     const Type* time = type_of(Basic::time);
     const auto number = [&](std::int64_t value) { return constant(time, value, told.place); };
     if (between || times) {
-      Expression way = apply(sign.op, time, a, b);
-      return per_second(basic) == 1 ? apply(Op::multiply, time, way, number(1000)) : way;
+      TypedExpression way = apply(sign.op, time, a, b);
+      return per_second(basic) == 1 ? apply(StOp::multiply, time, way, number(1000)) : way;
     }
-    if (basic == Basic::dt) return apply(sign.op, a.type, a, apply(Op::divide, time, b, number(1000)));
+    if (basic == Basic::dt) return apply(sign.op, a.type, a, apply(StOp::divide, time, b, number(1000)));
     // The clock begins anew at midnight.
     constexpr std::int64_t day = 86'400'000;
-    const Expression way = apply(Op::modulo, time, b, number(day));
-    const Expression later = apply(Op::add, time, a, number(day));
-    return apply(Op::modulo, a.type, apply(sign.op, time, later, way), number(day));
+    const TypedExpression way = apply(StOp::modulo, time, b, number(day));
+    const TypedExpression later = apply(StOp::add, time, a, number(day));
+    return apply(StOp::modulo, a.type, apply(sign.op, time, later, way), number(day));
   }
 
-  Expression logic() {
-    const auto takes = [](const Expression& e) {
+  TypedExpression logic() {
+    const auto takes = [](const TypedExpression& e) {
       return e.type->basic == Basic::boolean || is_integer(e.type->basic);
     };
     const bool lazy = sign.kind == Kind::lazy;
@@ -181,13 +182,13 @@ struct Operation {
     return apply(sign.op, type, a, b);
   }
 
-  Expression comparison() {
+  TypedExpression comparison() {
     const Type* boolean = type_of(Basic::boolean);
     if (a.type->basic == Basic::string && b.type->basic == Basic::string) {
       const Type* whole = type_of(Basic::int_);
-      const Expression order{whole, told.place,
-                             values.add_node(Op::compare_strings, Basic::int_, told.place, a.node, b.node),
-                             std::max(a.depth, b.depth) + 1};
+      const TypedExpression order{
+          whole, told.place, values.add_node(StOp::compare_strings, Basic::int_, told.place, a.node, b.node),
+          std::max(a.depth, b.depth) + 1};
       return apply(sign.op, boolean, order, constant(whole, 0, told.place));
     }
     const Type* type = common_type(a, b, nullptr);
@@ -196,15 +197,16 @@ struct Operation {
     b = values.converted(std::move(b), *type);
     if (is_wide(type->basic)) {
       // With the first bit turned over, the order of signed numbers is that of unsigned ones.
-      const Expression first = constant(type, std::numeric_limits<std::int64_t>::min(), told.place);
-      a = apply(Op::bit_xor, type, a, first);
-      b = apply(Op::bit_xor, type, b, first);
+      const TypedExpression first = constant(type, std::numeric_limits<std::int64_t>::min(), told.place);
+      a = apply(StOp::bit_xor, type, a, first);
+      b = apply(StOp::bit_xor, type, b, first);
     }
     return apply(is_real(type->basic) ? sign.real_op : sign.op, boolean, a, b);
   }
 };
 
-Expression no_operand(Values& values, const Token& sign, const Expression& operand, const char* remedy) {
+TypedExpression no_operand(Values& values, const StToken& sign, const TypedExpression& operand,
+                           const char* remedy) {
   return values.refuse(
       sign.place, fmt::format("{} does not go with {}", in_quotes(sign.text), operand.type->name), remedy);
 }
@@ -217,18 +219,19 @@ const Operator* find_operator(std::string_view sign) {
   return found == operators.end() ? nullptr : found;
 }
 
-const Operator* find_operator(const Token& token) {
-  const bool may_be = token.kind == Token::Kind::name || token.kind == Token::Kind::sign;
+const Operator* find_operator(const StToken& token) {
+  const bool may_be = token.kind == StToken::Kind::name || token.kind == StToken::Kind::sign;
   return may_be ? find_operator(token.text) : nullptr;
 }
 
-Expression binary(Values& values, std::string_view sign, const Token& told, Expression a, Expression b,
-                  const Type* wanted) {
+TypedExpression binary(Values& values, std::string_view sign, const StToken& told, TypedExpression a,
+                       TypedExpression b, const Type* wanted) {
   if (a.unknown() || b.unknown()) return unknown_at(told.place);
   return Operation{values, *find_operator(sign), told, std::move(a), std::move(b), wanted}.result();
 }
 
-Expression signed_value(Values& values, const Token& sign, Expression operand, const Type* wanted) {
+TypedExpression signed_value(Values& values, const StToken& sign, TypedExpression operand,
+                             const Type* wanted) {
   if (operand.unknown()) return operand;
   const Basic basic = operand.type->basic;
   if (sign.word("NOT")) return complement(values, sign, std::move(operand), wanted);
@@ -239,19 +242,21 @@ Expression signed_value(Values& values, const Token& sign, Expression operand, c
     operand.place = sign.place;
     return values.negated_literal(std::move(operand));
   }
-  return values.apply_op(is_real(basic) ? Op::negate_real : Op::negate, operand.type, sign.place, operand);
+  return values.apply_op(is_real(basic) ? StOp::negate_real : StOp::negate, operand.type, sign.place,
+                         operand);
 }
 
-Expression complement(Values& values, const Token& sign, Expression operand, const Type* wanted) {
+TypedExpression complement(Values& values, const StToken& sign, TypedExpression operand, const Type* wanted) {
   operand = literal_for_bits(values, std::move(operand), wanted, sign);
   if (operand.unknown()) return operand;
   const Basic basic = operand.type->basic;
   if (basic == Basic::boolean || is_integer(basic))
-    return values.apply_op(Op::bit_not, operand.type, sign.place, operand);
+    return values.apply_op(StOp::bit_not, operand.type, sign.place, operand);
   return no_operand(values, sign, operand, "it takes BOOL and whole numbers");
 }
 
-Expression literal_for_bits(Values& values, Expression value, const Type* wanted, const Token& function) {
+TypedExpression literal_for_bits(Values& values, TypedExpression value, const Type* wanted,
+                                 const StToken& function) {
   if (!value.untyped) return value;
   if (wanted != nullptr && is_integer(wanted->basic))
     return values.literal_as(std::move(value), *base_of(wanted));
@@ -260,7 +265,7 @@ Expression literal_for_bits(Values& values, Expression value, const Type* wanted
                        "give it one: WORD#16#FF", function.place);
 }
 
-const Type* common_type(const Expression& a, const Expression& b, const Type* wanted) {
+const Type* common_type(const TypedExpression& a, const TypedExpression& b, const Type* wanted) {
   if (a.untyped || b.untyped) {
     const Type* type = common_literals(a, b, wanted);
     return type == nullptr ? nullptr : base_of(type);
@@ -276,7 +281,7 @@ const Type* common_type(const Expression& a, const Expression& b, const Type* wa
   return nullptr;
 }
 
-const Type* real_result(const Expression& value, const Type* wanted) {
+const Type* real_result(const TypedExpression& value, const Type* wanted) {
   const Basic basic = value.type->basic;
   const bool open = value.untyped || (is_integer(basic) && widens(basic, Basic::real));
   const bool single = basic == Basic::real || (open && wanted != nullptr && wanted->basic == Basic::real);

@@ -2,34 +2,34 @@
 
 #include <fmt/format.h>
 
-#include "devices/plcopen/st/keywords.hpp"
-#include "devices/plcopen/st/operators.hpp"
+#include "devices/plcopen/st/lexer.hpp"
+#include "devices/plcopen/st/values.hpp"
 
 namespace drycut::devices::plcopen::st {
 namespace {
 
 constexpr int deepest_tree = 60;
 
-bool belongs(const Token& token, int level) {
+bool belongs(const StToken& token, int level) {
   const Operator* sign = find_operator(token);
   return sign != nullptr && sign->level == level;
 }
 
-Tree leaf(Tree::Kind kind, const Token& token) {
+Tree leaf(Tree::Kind kind, const StToken& token) {
   Tree tree;
   tree.kind = kind;
   tree.token = &token;
   return tree;
 }
 
-Tree over(Tree::Kind kind, const Token& token, Tree part) {
+Tree over(Tree::Kind kind, const StToken& token, Tree part) {
   Tree tree = leaf(kind, token);
   tree.parts.push_back(std::move(part));
   return tree;
 }
 
 /// AND(a, b): an operator as a function.
-bool is_operator_function(const Token& token) {
+bool is_operator_function(const StToken& token) {
   return token.word("AND") || token.word("OR") || token.word("XOR") || token.word("MOD");
 }
 
@@ -62,7 +62,7 @@ Tree Parser::tree(int level) {
 }
 
 Tree Parser::unary_tree() {
-  const Token& sign = peek();
+  const StToken& sign = peek();
   // NOT(IN := a) is a call.
   const bool call = sign.word("NOT") && peek(1).is("(") && peek(3).is(":=");
   if (call || (!sign.is("-") && !sign.is("+") && !sign.word("NOT"))) return power_tree();
@@ -86,15 +86,15 @@ Tree Parser::power_tree() {
 
 Tree Parser::primary_tree() {
   if (at_ >= stop_) give_up(behind(), "an expression is missing at the end", "a value stands here");
-  const Token& token = peek();
+  const StToken& token = peek();
   switch (token.kind) {
-    case Token::Kind::number:
-    case Token::Kind::string:
+    case StToken::Kind::number:
+    case StToken::Kind::string:
       take();
       return leaf(Tree::Kind::literal, token);
-    case Token::Kind::name:
+    case StToken::Kind::name:
       return name_tree();
-    case Token::Kind::address:
+    case StToken::Kind::address:
       give_up(token.place, in_quotes(token.text) + " stands in an expression",
               "declare a variable at it: start AT %IX0.0 : BOOL;");
     default:
@@ -111,7 +111,7 @@ Tree Parser::primary_tree() {
 }
 
 Tree Parser::name_tree() {
-  const Token& name = peek();
+  const StToken& name = peek();
   const bool value = name.word("TRUE") || name.word("FALSE");
   const bool function =
       peek(1).is("(") && (is_operator_function(name) || (name.word("NOT") && peek(3).is(":=")));
@@ -142,14 +142,14 @@ Tree Parser::name_tree() {
 }
 
 Tree Parser::member_tree(Tree owner) {
-  const bool bits = peek().whole() || peek().kind == Token::Kind::address;
+  const bool bits = peek().whole() || peek().kind == StToken::Kind::address;
   if (!bits) expect_name("the name of a member");
-  const Token& name = bits ? take() : tokens_[at_ - 1];
+  const StToken& name = bits ? take() : tokens_[at_ - 1];
   return over(Tree::Kind::member, name, std::move(owner));
 }
 
 Tree Parser::element_tree(Tree owner) {
-  const Token& name = *owner.token;
+  const StToken& name = *owner.token;
   Tree element = over(Tree::Kind::element, name, std::move(owner));
   do {
     element.parts.push_back(tree());
@@ -159,15 +159,15 @@ Tree Parser::element_tree(Tree owner) {
 }
 
 Tree Parser::call_tree(Tree callee) {
-  const Token& name = *callee.token;
+  const StToken& name = *callee.token;
   Tree call = over(Tree::Kind::call, name, std::move(callee));
-  const Token& opening = peek();
+  const StToken& opening = peek();
   call.tokens.push_back(&opening);
   expect("(", "opens the arguments");
   if (accept(")")) return call;
   do {
     Tree::ArgumentName argument;
-    if (peek().kind == Token::Kind::name && (peek(1).is(":=") || peek(1).is("=>"))) {
+    if (peek().kind == StToken::Kind::name && (peek(1).is(":=") || peek(1).is("=>"))) {
       argument.token = &take();
       argument.output = take().is("=>");
     }

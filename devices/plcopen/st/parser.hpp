@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "devices/plcopen/st/reader.hpp"
+#include "devices/plcopen/st/lexer.hpp"
 
 namespace drycut::devices::plcopen::st {
 
@@ -21,21 +21,21 @@ struct Tree {
   };
   /// `name :=` or `name =>` before an argument.
   struct ArgumentName {
-    const Token* token = nullptr;  ///< nullptr if there is none
+    const StToken* token = nullptr;  ///< nullptr if there is none
     bool output = false;
   };
 
   Kind kind = Kind::literal;
-  const Token* token = nullptr;  ///< where it is told of
+  const StToken* token = nullptr;  ///< where it is told of
   bool negative = false;
-  std::vector<const Token*> tokens;
+  std::vector<const StToken*> tokens;
   std::vector<Tree> parts;
   std::vector<ArgumentName> names;
 };
 
 /// One argument of a call.
 struct Argument {
-  const Token* name = nullptr;  ///< nullptr if there is none
+  const StToken* name = nullptr;  ///< nullptr if there is none
   bool output = false;
   const Tree* tree = nullptr;
 };

@@ -1,4 +1,4 @@
-#include "devices/plcopen/st/pragmas.hpp"
+#include "devices/plcopen/st/lexer.hpp"
 
 #include <fmt/format.h>
 

@@ -1,21 +1,19 @@
-#include "devices/plcopen/st/reader.hpp"
+#include "devices/plcopen/st/lexer.hpp"
 
 #include <fmt/format.h>
-
-#include "devices/plcopen/st/keywords.hpp"
 
 namespace drycut::devices::plcopen::st {
 namespace {
 
-std::string found(const Token& token) {
-  return token.kind == Token::Kind::end ? "the end of the file" : in_quotes(token.text);
+std::string found(const StToken& token) {
+  return token.kind == StToken::Kind::end ? "the end of the file" : in_quotes(token.text);
 }
 
 /// "1.5" of the tokens 1 , 5 that stand together, `at` being the comma; "" of others.
-std::string decimal_comma(const std::vector<Token>& tokens, std::size_t at) {
+std::string decimal_comma(const std::vector<StToken>& tokens, std::size_t at) {
   if (at == 0 || at + 1 >= tokens.size() || !tokens[at].is(",")) return "";
   const auto joins = [&](std::size_t i) {
-    return tokens[i].kind == Token::Kind::number && tokens[i].place.line == tokens[at].place.line;
+    return tokens[i].kind == StToken::Kind::number && tokens[i].place.line == tokens[at].place.line;
   };
   const auto& before = tokens[at - 1];
   const auto& after = tokens[at + 1];
@@ -30,7 +28,7 @@ std::string decimal_comma(const std::vector<Token>& tokens, std::size_t at) {
 
 Place Reader::behind() const {
   if (at_ == 0) return peek().place;
-  const Token& last = tokens_[at_ - 1];
+  const StToken& last = tokens_[at_ - 1];
   return {last.place.line, last.place.column + static_cast<int>(last.text.size())};
 }
 
@@ -42,13 +40,13 @@ std::string Reader::suggested(std::string_view word, const std::function<std::ve
 
 void Reader::give_up(Place place, std::string what, std::string remedy) {
   // What the lexer could not read has been told.
-  if (peek().kind != Token::Kind::bad) complain(place, std::move(what), std::move(remedy));
+  if (peek().kind != StToken::Kind::bad) complain(place, std::move(what), std::move(remedy));
   throw GiveUp{};
 }
 
 void Reader::expect(std::string_view sign, std::string_view where) {
   if (accept(sign)) return;
-  if (peek().kind == Token::Kind::bad) throw GiveUp{};
+  if (peek().kind == StToken::Kind::bad) throw GiveUp{};
   if (sign == ":=" && peek().is("=")) give_up(peek().place, "'=' compares", "':=' assigns");
   if (const auto number = decimal_comma(tokens_, at_); !number.empty())
     give_up(peek().place, "a decimal comma", fmt::format("write {}", number));
@@ -56,7 +54,7 @@ void Reader::expect(std::string_view sign, std::string_view where) {
   const bool next_line = at_ > 0 && tokens_[at_ - 1].place.line != peek().place.line;
   const std::string what = fmt::format("'{}' is missing before {}", sign, found(peek()));
   const std::string remedy = fmt::format("'{}' {}", sign, where);
-  if (!next_line) give_up(peek().kind == Token::Kind::end ? behind() : peek().place, what, remedy);
+  if (!next_line) give_up(peek().kind == StToken::Kind::end ? behind() : peek().place, what, remedy);
   complain(behind(), what, remedy);
   // The next line is a statement of its own.
   if (sign != ";") throw GiveUp{};
@@ -67,9 +65,9 @@ void Reader::expect_word(std::string_view keyword, std::string_view where) {
   give_up(peek().place, fmt::format("{} is missing before {}", keyword, found(peek())), std::string(where));
 }
 
-Token Reader::expect_name(const std::string& what) {
+StToken Reader::expect_name(const std::string& what) {
   const bool keyword = at_word(is_keyword);
-  if (at_ < stop_ && peek().kind == Token::Kind::name && !keyword) return take();
+  if (at_ < stop_ && peek().kind == StToken::Kind::name && !keyword) return take();
   give_up(peek().place, fmt::format("{} is missing before {}", what, found(peek())),
           keyword ? fmt::format("{} is a word of the language, no name", upper(peek().text))
                   : "a name begins with a letter");

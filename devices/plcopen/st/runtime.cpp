@@ -9,7 +9,7 @@
 
 #include "base/text.hpp"
 #include "devices/due.hpp"
-#include "devices/plcopen/st/arithmetic.hpp"
+#include "devices/plcopen/st/code.hpp"
 #include "devices/plcopen/st/machine.hpp"
 
 namespace drycut::devices::plcopen::st {
@@ -17,7 +17,7 @@ namespace drycut::devices::plcopen::st {
 namespace {
 
 /// A task and its programs.
-struct Task {
+struct ScheduledTask {
   std::string name;
   Due due;
   int priority = 0;
@@ -27,9 +27,9 @@ struct Task {
 };
 
 /// The tasks by their priorities, the controller's own last.
-std::vector<Task> plan(const Compiled& code, const Schedule& schedule) {
+std::vector<ScheduledTask> plan(const Compiled& code, const Schedule& schedule) {
   const bool given = !schedule.tasks.empty();
-  std::vector<Task> plan;
+  std::vector<ScheduledTask> plan;
   const auto& tasks = given ? schedule.tasks : code.tasks;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const int single = given ? -1 : code.singles[i];
@@ -45,9 +45,9 @@ std::vector<Task> plan(const Compiled& code, const Schedule& schedule) {
         if (same_word(name, instance.name)) task = t;
     plan[task].programs.push_back(i);
   }
-  std::erase_if(plan, [](const Task& task) { return task.programs.empty(); });
+  std::erase_if(plan, [](const ScheduledTask& task) { return task.programs.empty(); });
   std::stable_sort(plan.begin(), plan.end(),
-                   [](const Task& a, const Task& b) { return a.priority < b.priority; });
+                   [](const ScheduledTask& a, const ScheduledTask& b) { return a.priority < b.priority; });
   return plan;
 }
 
@@ -61,7 +61,7 @@ struct Runtime::State {
         statement_ns(schedule.statement_ns) {}
 
   /// Whether a task runs now; an edge of its SINGLE is seen once.
-  bool is_due(Task& task, std::int64_t time_ns) const {
+  bool is_due(ScheduledTask& task, std::int64_t time_ns) const {
     if (!task.due.take(time_ns)) return false;
     if (task.single < 0) return true;
     const bool before = std::exchange(task.last, machine.cell(task.single) != 0);
@@ -69,7 +69,7 @@ struct Runtime::State {
   }
 
   /// The programs of a task; false after a fault.
-  bool run(const Task& task, std::int64_t time_ns) {
+  bool run(const ScheduledTask& task, std::int64_t time_ns) {
     constexpr std::int64_t ns_per_ms = 1'000'000;
     const auto& instances = program.compiled().instances;
     order.clear();
@@ -78,8 +78,8 @@ struct Runtime::State {
         if (watched) trace(number);
         machine.run(instances[number], time_ns / ns_per_ms);
       }
-    } catch (const RuntimeError& error) {
-      fault = Fault{error.line, error.column, error.what()};
+    } catch (const StError& error) {
+      fault = RuntimeFault{error.line, error.column, error.what()};
     }
     return !fault;
   }
@@ -96,10 +96,10 @@ struct Runtime::State {
 
   Program program;
   Machine machine;
-  std::vector<Task> tasks;
+  std::vector<ScheduledTask> tasks;
   std::int64_t statement_ns;
   std::int64_t free_ns = 0;  ///< the last task has ended
-  std::optional<Fault> fault;
+  std::optional<RuntimeFault> fault;
   bool watched = false;
   std::vector<Trace> traces = {};  ///< of each program; none before it ran
   std::vector<int> order = {};     ///< lines of the statements of the task that ran last
@@ -116,12 +116,12 @@ void Runtime::cold_start(bool all) {
   state_->machine.start(all);
   state_->free_ns = 0;
   watch(state_->watched);
-  for (Task& task : state_->tasks) task.last = false;
+  for (ScheduledTask& task : state_->tasks) task.last = false;
 }
 
 void Runtime::scan(std::int64_t time_ns) {
   if (state_->fault) return pass(time_ns);
-  for (Task& task : state_->tasks)
+  for (ScheduledTask& task : state_->tasks)
     if (state_->is_due(task, time_ns) && !state_->run(task, time_ns)) return;
 }
 
@@ -130,7 +130,7 @@ std::optional<TaskRun> Runtime::run_next(std::int64_t time_ns) {
     pass(time_ns);
     return std::nullopt;
   }
-  for (Task& task : state_->tasks) {
+  for (ScheduledTask& task : state_->tasks) {
     const std::int64_t due_ns = task.due.next_ns;
     if (!state_->is_due(task, time_ns)) continue;
     const std::int64_t begun_ns = std::max(due_ns, state_->free_ns);
@@ -143,16 +143,16 @@ std::optional<TaskRun> Runtime::run_next(std::int64_t time_ns) {
 }
 
 void Runtime::pass(std::int64_t time_ns) {
-  for (Task& task : state_->tasks) task.due.take(time_ns);
+  for (ScheduledTask& task : state_->tasks) task.due.take(time_ns);
 }
 
 std::int64_t Runtime::next_ns() const {
   std::int64_t next = std::numeric_limits<std::int64_t>::max();
-  for (const Task& task : state_->tasks) next = std::min(next, task.due.next_ns);
+  for (const ScheduledTask& task : state_->tasks) next = std::min(next, task.due.next_ns);
   return next;
 }
 
-std::span<const Symbol> Runtime::symbols() const { return state_->program.compiled().symbols; }
+std::span<const StSymbol> Runtime::symbols() const { return state_->program.compiled().symbols; }
 
 double Runtime::read(std::size_t symbol) const {
   const SymbolPlace& place = state_->program.compiled().places.at(symbol);
@@ -178,7 +178,7 @@ std::string_view Runtime::block_type(std::size_t symbol) const {
 void Runtime::write(std::size_t number, double value) {
   const Compiled& code = state_->program.compiled();
   const SymbolPlace& place = code.places.at(number);
-  const Symbol& symbol = code.symbols[number];
+  const StSymbol& symbol = code.symbols[number];
   if (!symbol.writable || std::isnan(value)) return;
   value = std::clamp(value, symbol.min, symbol.max);
   if (is_real(place.basic)) {
@@ -186,7 +186,7 @@ void Runtime::write(std::size_t number, double value) {
     return;
   }
   const double whole = std::nearbyint(is_clock(place.basic) ? value * per_second(place.basic) : value);
-  state_->machine.set_cell(place.cell, apply(Op::to_whole, place.basic, cell_of(whole), 0));
+  state_->machine.set_cell(place.cell, apply(StOp::to_whole, place.basic, cell_of(whole), 0));
 }
 
 void Runtime::watch(bool on) {
@@ -218,6 +218,6 @@ bool Runtime::located(std::size_t i) const {
 void Runtime::set_located(std::size_t i, bool level) {
   state_->machine.set_cell(state_->program.compiled().located_cells.at(i), level ? 1 : 0);
 }
-const std::optional<Fault>& Runtime::fault() const { return state_->fault; }
+const std::optional<RuntimeFault>& Runtime::fault() const { return state_->fault; }
 
 }  // namespace drycut::devices::plcopen::st

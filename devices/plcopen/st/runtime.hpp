@@ -14,7 +14,7 @@
 namespace drycut::devices::plcopen::st {
 
 /// A scalar of the program by the name that people give it: "count", "CamIn.InSync", "pos[3]", "state".
-struct Symbol {
+struct StSymbol {
   std::string name;
   std::string type;       ///< "BOOL", "LREAL", ..., or the name of its enumeration
   std::string unit;       ///< "s" of times and dates
@@ -25,7 +25,7 @@ struct Symbol {
 };
 
 /// Why the program stands.
-struct Fault {
+struct RuntimeFault {
   int line = 0;
   int column = 0;
   std::string text;
@@ -71,7 +71,7 @@ class Runtime {
   /// When the next program is due.
   [[nodiscard]] std::int64_t next_ns() const;
 
-  [[nodiscard]] std::span<const Symbol> symbols() const;
+  [[nodiscard]] std::span<const StSymbol> symbols() const;
   /// BOOL as 0 and 1, TIME in s, TOD in s since midnight, DATE and DT in s since 1970, an enumeration as its
   /// number.
   [[nodiscard]] double read(std::size_t symbol) const;
@@ -92,7 +92,7 @@ class Runtime {
   /// the task that run_next() ran last; 0 if it was not watched.
   [[nodiscard]] int line_at(std::int64_t into_ns) const;
   /// Set: the program stands until the next cold start.
-  [[nodiscard]] const std::optional<Fault>& fault() const;
+  [[nodiscard]] const std::optional<RuntimeFault>& fault() const;
 
  private:
   struct State;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "devices/plcopen/st/compiler.hpp"
-#include "devices/plcopen/st/keywords.hpp"
+#include "devices/plcopen/st/lexer.hpp"
 
 // Assignments, calls, IF and CASE.
 namespace drycut::devices::plcopen::st {
@@ -17,8 +17,8 @@ void Statements::compile_body(Unit& unit) {
   while (at_ < stop_) {
     all.push_back(statements({}));
     if (at_ >= stop_) break;
-    const Token stray = take();
-    if (stray.kind == Token::Kind::bad) continue;
+    const StToken stray = take();
+    if (stray.kind == StToken::Kind::bad) continue;
     complain(stray.place, fmt::format("{} closes nothing", in_quotes(stray.text)),
              "what it belongs to does not stand before it, or has been closed");
     skip_statement();
@@ -28,7 +28,7 @@ void Statements::compile_body(Unit& unit) {
 
 int Statements::statements(std::initializer_list<std::string_view> closing) {
   return statements_until(
-      [&] { return peek().kind == Token::Kind::name && is_one_of(closing, peek().text); });
+      [&] { return peek().kind == StToken::Kind::name && is_one_of(closing, peek().text); });
 }
 
 int Statements::statements_until(const std::function<bool()>& closes) {
@@ -50,8 +50,8 @@ int Statements::statements_until(const std::function<bool()>& closes) {
 
 /// ENDIF where END_IF is meant: told once, and read as that, so that nothing follows from it.
 bool Statements::read_as_closer() {
-  Token& word = tokens_[at_];
-  if (word.kind != Token::Kind::name || is_keyword(word.text)) return false;
+  StToken& word = tokens_[at_];
+  if (word.kind != StToken::Kind::name || is_keyword(word.text)) return false;
   if (word.word("END") && at_ + 1 < stop_ && is_keyword(peek(1).text)) {
     const auto closer = meant_closer(fmt::format("END{}", peek(1).text));
     if (closer.empty()) return false;
@@ -85,16 +85,16 @@ int Statements::statement() {
   if (peek().word("FOR")) return for_statement();
   if (peek().word("WHILE")) return while_statement();
   if (peek().word("REPEAT")) return repeat_statement();
-  if (peek().word("EXIT")) return jump(Op::leave_loop);
-  if (peek().word("CONTINUE")) return jump(Op::next_turn);
-  if (peek().word("RETURN")) return jump(Op::leave_pou);
+  if (peek().word("EXIT")) return jump(StOp::leave_loop);
+  if (peek().word("CONTINUE")) return jump(StOp::next_turn);
+  if (peek().word("RETURN")) return jump(StOp::leave_pou);
   return assignment_or_call();
 }
 
 int Statements::assignment_or_call() {
-  const Token first = peek();
-  if (first.kind != Token::Kind::name || is_keyword(first.text)) {
-    const bool declares = first.kind == Token::Kind::name && upper(first.text).starts_with("VAR");
+  const StToken first = peek();
+  if (first.kind != StToken::Kind::name || is_keyword(first.text)) {
+    const bool declares = first.kind == StToken::Kind::name && upper(first.text).starts_with("VAR");
     give_up(first.place, fmt::format("{} begins no statement", in_quotes(first.text)),
             declares ? "variables are declared before the statements"
                      : "a statement is an assignment, a call, IF, CASE, FOR, WHILE or REPEAT");
@@ -102,16 +102,16 @@ int Statements::assignment_or_call() {
   const Tree left = name_tree();
   if (!peek().is(":=")) {
     if (left.kind == Tree::Kind::call) return call_statement(left);
-    const Expression target = typed(left);
+    const TypedExpression target = typed(left);
     const bool block = target.type->basic == Basic::block;
     if (block) expect("(", fmt::format("and ')' call it: {}();", target.name));
     expect(":=", "assigns");
   }
-  Expression target = typed(left);
+  TypedExpression target = typed(left);
   target.place = first.place;
   take();
-  const Token value_token = peek();
-  const Expression value = expression(target.type);
+  const StToken value_token = peek();
+  const TypedExpression value = expression(target.type);
   if (target.cam_file && value.string) cam_file(value_token);
   const int assignment = assign(target, value);
   expect(";", "ends a statement");
@@ -120,15 +120,15 @@ int Statements::assignment_or_call() {
 
 int Statements::call_statement(const Tree& call) {
   const Tree& callee = call.parts[0];
-  const Token& name = *callee.token;
+  const StToken& name = *callee.token;
   if (names_function(callee)) {
-    const Expression value = typed(call);
+    const TypedExpression value = typed(call);
     expect(";", "ends a call");
     // For what it does: what it gives, nobody wants.
     if (value.unknown() || value.constant) return -1;
-    return add_node(Op::evaluate, Basic::unknown, name.place, value_node(value));
+    return add_node(StOp::evaluate, Basic::unknown, name.place, value_node(value));
   }
-  Expression instance = typed(callee);
+  TypedExpression instance = typed(callee);
   instance.place = name.place;
   if (instance.unknown()) {
     for (const Argument& argument : arguments(call)) typed(*argument.tree);
@@ -148,7 +148,7 @@ int Statements::condition(std::string_view closing) {
   const Place place = peek().place;
   int node = -1;
   try {
-    const Expression value = expression();
+    const TypedExpression value = expression();
     if (!value.unknown() && value.type->basic != Basic::boolean) {
       const bool assigns = peek().is(":=");
       complain(value.place,
@@ -162,7 +162,7 @@ int Statements::condition(std::string_view closing) {
     expect_word(closing, fmt::format("stands behind the condition of line {}", place.line));
   } catch (const GiveUp&) {
     skip_to([&] {
-      const bool next_line = peek().kind == Token::Kind::name && peek().place.line != place.line;
+      const bool next_line = peek().kind == StToken::Kind::name && peek().place.line != place.line;
       return peek().word(closing) || peek().is(";") || at_word(closes_block) || next_line;
     });
     accept_word(closing);
@@ -170,7 +170,7 @@ int Statements::condition(std::string_view closing) {
   return node;
 }
 
-void Statements::close(const Token& opened, std::string_view closing) {
+void Statements::close(const StToken& opened, std::string_view closing) {
   if (!peek().word(closing)) read_as_closer();
   if (accept_word(closing)) {
     // Many write END_IF without ';'.
@@ -179,12 +179,12 @@ void Statements::close(const Token& opened, std::string_view closing) {
   }
   complain(peek().place,
            fmt::format("{} is missing before {}", closing,
-                       peek().kind == Token::Kind::end ? "the end of the file" : in_quotes(peek().text)),
+                       peek().kind == StToken::Kind::end ? "the end of the file" : in_quotes(peek().text)),
            fmt::format("it closes the {} of line {}", upper(opened.text), opened.place.line));
 }
 
 int Statements::if_statement() {
-  const Token opened = take();
+  const StToken opened = take();
   std::vector<int> parts;
   do {
     parts.push_back(condition("THEN"));
@@ -193,7 +193,7 @@ int Statements::if_statement() {
   const int otherwise = accept_word("ELSE") ? statements({"END_IF"}) : -1;
   close(opened, "END_IF");
   const int first = add_list(parts);
-  return add_node(Op::branch, Basic::unknown, opened.place, first, static_cast<int>(parts.size() / 2),
+  return add_node(StOp::branch, Basic::unknown, opened.place, first, static_cast<int>(parts.size() / 2),
                   otherwise);
 }
 
@@ -202,11 +202,11 @@ std::int64_t Statements::case_label(const Type& selector) {
                         "whole numbers, constants and values of an enumeration", is_whole);
 }
 
-std::vector<Range> Statements::case_labels(const Type& selector, Labels& labels) {
-  std::vector<Range> ranges;
+std::vector<Subrange> Statements::case_labels(const Type& selector, Labels& labels) {
+  std::vector<Subrange> ranges;
   do {
     const Place place = peek().place;
-    Range range;
+    Subrange range;
     range.low = range.high = case_label(selector);
     if (accept("..")) range.high = case_label(selector);
     if (range.high < range.low)
@@ -227,11 +227,11 @@ std::vector<Range> Statements::case_labels(const Type& selector, Labels& labels)
 }
 
 int Statements::case_statement() {
-  const Token opened = take();
+  const StToken opened = take();
   const Type* type = type_of(Basic::unknown);
   int selector = -1;
   try {
-    const Expression value = expression();
+    const TypedExpression value = expression();
     if (!value.unknown() && !is_integer(value.type->basic) && value.type->basic != Basic::enumeration)
       complain(value.place, fmt::format("CASE chooses by {}", value.type->name),
                "by a whole number or an enumeration");
@@ -253,7 +253,7 @@ int Statements::case_statement() {
       break;
     }
     if (at_word(closes_block)) break;
-    std::vector<Range> ranges;
+    std::vector<Subrange> ranges;
     try {
       ranges = case_labels(*type, labels);
     } catch (const GiveUp&) {
@@ -261,22 +261,22 @@ int Statements::case_statement() {
       if (!accept(":")) accept(";");
     }
     const int body = statements_until([&] { return at_label(); });
-    for (const Range& range : ranges) choices.push_back({range, body});
+    for (const Subrange& range : ranges) choices.push_back({range, body});
   }
   close(opened, "END_CASE");
   const int first = static_cast<int>(code_->choices.size());
   code_->choices.insert(code_->choices.end(), choices.begin(), choices.end());
-  return add_node(Op::choose, Basic::unknown, opened.place, selector, first, static_cast<int>(choices.size()),
-                  otherwise);
+  return add_node(StOp::choose, Basic::unknown, opened.place, selector, first,
+                  static_cast<int>(choices.size()), otherwise);
 }
 
 bool Statements::at_label() const {
   // A label is what has a ':' behind it before anything of a statement.
   for (std::size_t i = 0; at_ + i < stop_; ++i) {
-    const Token& token = peek(i);
+    const StToken& token = peek(i);
     if (token.is(":")) return true;
     const bool part = token.whole() || token.is(",") || token.is("..") || token.is("-") || token.is(".") ||
-                      token.is("#") || (token.kind == Token::Kind::name && !is_keyword(token.text));
+                      token.is("#") || (token.kind == StToken::Kind::name && !is_keyword(token.text));
     if (!part) return false;
   }
   return false;

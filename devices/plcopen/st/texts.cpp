@@ -1,4 +1,4 @@
-#include "devices/plcopen/st/texts.hpp"
+#include "devices/plcopen/st/code.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -38,8 +38,8 @@ std::string clock_text(Cell seconds) {
 
 Cell time_value(Basic basic, std::string_view text) {
   Problems problems;
-  const std::vector<Token> tokens = tokens_of(text, "", problems);
-  return tokens[0].kind == Token::Kind::number && tokens[0].basic == basic ? tokens[0].value : 0;
+  const std::vector<StToken> tokens = tokens_of(text, "", problems);
+  return tokens[0].kind == StToken::Kind::number && tokens[0].basic == basic ? tokens[0].value : 0;
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ void Declarations::declare_enumeration(Type& type) {
   std::int64_t next = 0;
   std::set<std::string> names;
   do {
-    const Token name = expect_name("the name of a value");
+    const StToken name = expect_name("the name of a value");
     if (!names.insert(lower(name.text)).second)
       complain(name.place, in_quotes(name.text) + " is in the enumeration twice", "name each value once");
     if (accept(":=")) next = constant_value(*type_of(Basic::int_));
@@ -197,7 +197,7 @@ const Type* Declarations::string_type() {
 }
 
 const Type* Declarations::named_type() {
-  const Token name = expect_name("a type");
+  const StToken name = expect_name("a type");
   if (const Type* type = elementary_type(name.text)) {
     return peek().is("(") ? subrange(*type) : type;
   }
@@ -271,9 +271,9 @@ const Type* Declarations::motion_type(const BlockType& block) {
     const Pin& pin = block.pins[i];
     const PinValue value = block.pin(*instance, i);
     Variable member{.name = std::string(pin.name), .type = type_of_pin(pin, value, cam_ref())};
-    member.section = pin.direction == PinDirection::input    ? Section::input
-                     : pin.direction == PinDirection::output ? Section::output
-                                                             : Section::in_out;
+    member.section = pin.direction == PinDirection::input    ? VarClass::input
+                     : pin.direction == PinDirection::output ? VarClass::output
+                                                             : VarClass::in_out;
     std::vector<Cell> initial = member.type->initial;
     if (const auto cell = cell_of_pin(value)) initial[0] = *cell;
     append(type, std::move(member), initial);

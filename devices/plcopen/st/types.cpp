@@ -7,14 +7,14 @@
 namespace drycut::devices::plcopen::st {
 namespace {
 
-struct Row {
+struct TypeRow {
   Basic basic;
   std::string_view name;
   int bits;
   bool sign;
 };
 // In the order of Basic.
-constexpr std::array<Row, 22> rows{{
+constexpr std::array<TypeRow, 22> rows{{
     {Basic::unknown, "?", 64, true},     {Basic::boolean, "BOOL", 1, false},
     {Basic::sint, "SINT", 8, true},      {Basic::int_, "INT", 16, true},
     {Basic::dint, "DINT", 32, true},     {Basic::lint, "LINT", 64, true},
@@ -30,7 +30,7 @@ constexpr std::array<Row, 22> rows{{
 
 std::vector<Type> make_elementary() {
   std::vector<Type> types;
-  for (const Row& row : rows) {
+  for (const TypeRow& row : rows) {
     Type type;
     type.basic = row.basic;
     type.name = row.name;
@@ -51,7 +51,7 @@ const std::vector<Type>& elementary() {
   return types;
 }
 
-const Row& row_of(Basic basic) {
+const TypeRow& row_of(Basic basic) {
   return rows.at(basic == Basic::enumeration ? static_cast<std::size_t>(Basic::int_)
                                              : static_cast<std::size_t>(basic));
 }
@@ -70,8 +70,8 @@ bool is_elementary(Basic basic) { return is_whole(basic) || is_real(basic); }
 
 int bits_of(Basic basic) { return row_of(basic).bits; }
 
-Range range_of(Basic basic) {
-  const Row& row = row_of(basic);
+Subrange range_of(Basic basic) {
+  const TypeRow& row = row_of(basic);
   if (is_wide(basic)) return {0, std::numeric_limits<std::int64_t>::max()};
   if (row.sign) {
     const std::int64_t high = std::numeric_limits<std::int64_t>::max() >> (64 - row.bits);
@@ -80,13 +80,15 @@ Range range_of(Basic basic) {
   return {0, static_cast<std::int64_t>((std::uint64_t{1} << row.bits) - 1)};
 }
 
-Range range_of(const Type& type) { return type.subrange ? Range{type.low, type.high} : range_of(type.basic); }
+Subrange range_of(const Type& type) {
+  return type.subrange ? Subrange{type.low, type.high} : range_of(type.basic);
+}
 
 int per_second(Basic basic) { return basic == Basic::time || basic == Basic::tod ? 1000 : 1; }
 
 std::int64_t wrapped(Basic basic, std::int64_t value) {
   if (!is_whole(basic)) return value;
-  const Row& row = row_of(basic);
+  const TypeRow& row = row_of(basic);
   const auto above = static_cast<unsigned>(64 - row.bits);
   const std::uint64_t shifted = static_cast<std::uint64_t>(value) << above;
   return row.sign ? static_cast<std::int64_t>(shifted) >> above : static_cast<std::int64_t>(shifted >> above);

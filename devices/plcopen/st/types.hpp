@@ -50,7 +50,7 @@ enum class Basic : std::uint8_t {
 
 /// Smallest and largest value of a type of whole numbers, BOOL and times included; of ULINT and LWORD what is
 /// a LINT too.
-struct Range {
+struct Subrange {
   std::int64_t low = 0;
   std::int64_t high = 0;
 };
@@ -58,13 +58,13 @@ struct Range {
 struct Type;
 
 /// Where a variable is declared: it decides who may write it.
-enum class Section : std::uint8_t { local, input, output, in_out, temp };
+enum class VarClass : std::uint8_t { local, input, output, in_out, temp };
 
 /// A variable of a POU, or a member of a structure.
 struct Variable {
   std::string name;
   const Type* type = nullptr;
-  Section section = Section::local;
+  VarClass section = VarClass::local;
   int offset = 0;  ///< in cells from the beginning of its owner
   bool constant = false;
   bool retain = false;
@@ -110,8 +110,8 @@ bool is_clock(Basic basic);  ///< TIME, TOD, DATE, DT
 bool is_whole(Basic basic);  ///< what is kept as a whole number: integers, BOOL, times, dates, enumerations
 bool is_elementary(Basic basic);
 /// Of a type that is_whole.
-Range range_of(Basic basic);
-Range range_of(const Type& type);
+Subrange range_of(Basic basic);
+Subrange range_of(const Type& type);
 /// Units of a type that is_clock in one second.
 int per_second(Basic basic);
 int bits_of(Basic basic);

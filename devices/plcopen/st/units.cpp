@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "devices/plcopen/st/compiler.hpp"
-#include "devices/plcopen/st/keywords.hpp"
+#include "devices/plcopen/st/lexer.hpp"
 
 // The parts of a file: where they begin and end, and the order in which they are read.
 namespace drycut::devices::plcopen::st {
@@ -14,7 +14,7 @@ Compiler::Compiler(std::string_view text, const std::string& file, Problems& pro
   tokens_ = tokens_of(standard_blocks(), file, problems);
   tokens_.pop_back();
   user_tokens_ = tokens_.size();
-  for (Token& token : tokens_of(text, file, problems)) tokens_.push_back(std::move(token));
+  for (StToken& token : tokens_of(text, file, problems)) tokens_.push_back(std::move(token));
   // The first POU stands for what has none.
   code_->pous.emplace_back();
   code_->text = text;
@@ -55,7 +55,7 @@ void Compiler::find_units(bool standard) {
   at_ = standard ? 0 : user_tokens_;
   stop_ = standard ? user_tokens_ : tokens_.size() - 1;
   while (at_ < stop_) {
-    const Token& opening = peek();
+    const StToken& opening = peek();
     const std::size_t first = at_;
     if (opening.word("TYPE")) {
       find_types();
@@ -80,7 +80,7 @@ void Compiler::find_units(bool standard) {
       unit.end = end_of_unit(first, "END_" + upper(opening.text));
       add_unit(std::move(unit));
     } else {
-      if (opening.kind != Token::Kind::bad && !opening.is(";"))
+      if (opening.kind != StToken::Kind::bad && !opening.is(";"))
         complain(opening.place, in_quotes(opening.text) + " stands outside of all units",
                  "statements stand in PROGRAM ... END_PROGRAM, variables of all in VAR_GLOBAL ... END_VAR");
       // One complaint a stretch.
@@ -103,7 +103,7 @@ std::size_t Compiler::end_of_unit(std::size_t opening, std::string_view closing)
   at_ = opening + 1;
   skip_to([&] { return peek().word(closing) || at_word(opens_unit); });
   if (at_ < stop_ && peek().word(closing)) return at_++;
-  const Token& begin = tokens_[opening];
+  const StToken& begin = tokens_[opening];
   complain(begin.place, fmt::format("{} has no {}", upper(begin.text), closing),
            at_ < stop_ ? fmt::format("write {} before the {} of line {}", closing, upper(peek().text),
                                      peek().place.line)

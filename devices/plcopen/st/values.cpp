@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "devices/plcopen/st/arithmetic.hpp"
+#include "devices/plcopen/st/code.hpp"
 
 namespace drycut::devices::plcopen::st {
 namespace {
@@ -20,33 +20,33 @@ bool is_scalar(Basic basic) { return is_elementary(basic) || basic == Basic::axi
 
 }  // namespace
 
-Expression constant(const Type* type, Cell value, Place place, bool untyped) {
-  Expression result{type, place};
+TypedExpression constant(const Type* type, Cell value, Place place, bool untyped) {
+  TypedExpression result{type, place};
   result.constant = true;
   result.untyped = untyped;
   result.value = value;
   return result;
 }
 
-Expression variable_at(const Type* type, int node, const std::string& name, Place place) {
-  Expression result{type, place, node};
+TypedExpression variable_at(const Type* type, int node, const std::string& name, Place place) {
+  TypedExpression result{type, place, node};
   result.address = true;
   result.name = name;
   return result;
 }
 
-int depth_over(const std::vector<Expression>& values) {
+int depth_over(const std::vector<TypedExpression>& values) {
   int depth = 1;
-  for (const Expression& value : values) depth = std::max(depth, value.depth + 1);
+  for (const TypedExpression& value : values) depth = std::max(depth, value.depth + 1);
   return depth;
 }
 
-Expression Values::refuse(Place place, std::string what, std::string remedy, Place of) {
+TypedExpression Values::refuse(Place place, std::string what, std::string remedy, Place of) {
   complain(place, std::move(what), std::move(remedy));
   return unknown_at(of);
 }
 
-int Values::add_node(Op op, Basic basic, Place place, int a, int b, int c, std::int64_t imm) {
+int Values::add_node(StOp op, Basic basic, Place place, int a, int b, int c, std::int64_t imm) {
   code_->nodes.push_back({op, basic, place.line, place.column, a, b, c, imm});
   return static_cast<int>(code_->nodes.size()) - 1;
 }
@@ -62,30 +62,30 @@ int Values::add_span(const Span& span) {
   return static_cast<int>(code_->spans.size()) - 1;
 }
 
-int Values::value_node(const Expression& expression) {
+int Values::value_node(const TypedExpression& expression) {
   if (unit_ != nullptr)
     unit_->levels = std::max(unit_->levels, expression.depth + levels_of_a_statement * nesting_);
   if (expression.bits) return bits_node(expression);
   const Basic basic = expression.type->basic;
-  if (expression.constant) return leaf_node(Op::constant, basic, expression.place, expression.value);
+  if (expression.constant) return leaf_node(StOp::constant, basic, expression.place, expression.value);
   if (!expression.address || !is_scalar(basic)) return expression.node;
   if (expression.node < 0) return -1;
   const Node address = node(expression.node);
-  if (address.op == Op::address) return leaf_node(Op::load, basic, expression.place, address.imm);
-  if (address.op == Op::address_own) return leaf_node(Op::load_own, basic, expression.place, address.imm);
-  return add_node(Op::load_at, basic, expression.place, expression.node);
+  if (address.op == StOp::address) return leaf_node(StOp::load, basic, expression.place, address.imm);
+  if (address.op == StOp::address_own) return leaf_node(StOp::load_own, basic, expression.place, address.imm);
+  return add_node(StOp::load_at, basic, expression.place, expression.node);
 }
 
-int Values::bits_node(const Expression& expression) {
-  Expression whole = expression;
+int Values::bits_node(const TypedExpression& expression) {
+  TypedExpression whole = expression;
   whole.type = base_of(expression.bits->of);
   whole.bits.reset();
-  const Expression places = constant(type_of(Basic::int_), expression.bits->shift, expression.place);
-  const Expression moved = apply_op(Op::shift_right, whole.type, expression.place, whole, places);
-  return value_node(apply_op(Op::wrap, expression.type, expression.place, moved));
+  const TypedExpression places = constant(type_of(Basic::int_), expression.bits->shift, expression.place);
+  const TypedExpression moved = apply_op(StOp::shift_right, whole.type, expression.place, whole, places);
+  return value_node(apply_op(StOp::wrap, expression.type, expression.place, moved));
 }
 
-Expression Values::as_value(Expression expression) {
+TypedExpression Values::as_value(TypedExpression expression) {
   expression.node = value_node(expression);
   expression.type = base_of(expression.type);
   expression.bits.reset();
@@ -113,19 +113,19 @@ int Values::literal_string(const std::string& text, Place place) {
     in_pool(static_cast<std::size_t>(string_cells(text.size())));
     std::memcpy(pool_.data() + entry->second, text.data(), text.size());
   }
-  return leaf_node(Op::address_pool, Basic::string, place, entry->second);
+  return leaf_node(StOp::address_pool, Basic::string, place, entry->second);
 }
 
 int Values::scratch(const Type& type, Place place) {
-  return leaf_node(Op::address_pool, type.basic, place, in_pool(static_cast<std::size_t>(type.cells)));
+  return leaf_node(StOp::address_pool, type.basic, place, in_pool(static_cast<std::size_t>(type.cells)));
 }
 
-std::string whole_text(const Expression& value) {
+std::string whole_text(const TypedExpression& value) {
   return is_wide(value.type->basic) ? fmt::format("{}", static_cast<std::uint64_t>(value.value))
                                     : fmt::format("{}", value.value);
 }
 
-Expression Values::negated_literal(Expression literal) {
+TypedExpression Values::negated_literal(TypedExpression literal) {
   constexpr Cell lowest = std::numeric_limits<Cell>::min();
   const bool wide = is_wide(literal.type->basic);
   if (wide && literal.value < 0 && literal.value != lowest)
@@ -137,7 +137,7 @@ Expression Values::negated_literal(Expression literal) {
   return literal;
 }
 
-Expression Values::literal_as(Expression literal, const Type& to) {
+TypedExpression Values::literal_as(TypedExpression literal, const Type& to) {
   const Basic basic = to.basic;
   const bool real = is_real(literal.type->basic);
   const bool wide = is_wide(literal.type->basic);
@@ -157,7 +157,7 @@ Expression Values::literal_as(Expression literal, const Type& to) {
                fmt::format("the constant {} is out of the range of {}", unsigned_value, to.name),
                fmt::format("{} to {}", range_of(to).low, range_of(to).high));
   } else if (!real && (is_integer(basic) || basic == Basic::boolean)) {
-    const Range range = range_of(to);
+    const Subrange range = range_of(to);
     if (literal.value < range.low || literal.value > range.high)
       complain(literal.place,
                fmt::format("the constant {} is out of the range of {}", literal.value, to.name),
@@ -184,7 +184,7 @@ Expression Values::literal_as(Expression literal, const Type& to) {
   return literal;
 }
 
-Expression Values::converted(Expression expression, const Type& to) {
+TypedExpression Values::converted(TypedExpression expression, const Type& to) {
   const Type& from = *expression.type;
   if (expression.unknown() || to.basic == Basic::unknown || (same_type(from, to) && !to.subrange)) {
     expression.untyped = false;
@@ -218,55 +218,56 @@ Expression Values::converted(Expression expression, const Type& to) {
 }
 
 /// A value of the base type, looked at when the program runs.
-Expression Values::in_subrange(const Expression& value, const Type& to) {
+TypedExpression Values::in_subrange(const TypedExpression& value, const Type& to) {
   if (value.unknown()) return value;
   if (value.constant) return literal_as(value, to);
   const int span = add_span({to.low, to.high, 1});
-  return {&to, value.place, add_node(Op::in_range, to.basic, value.place, value_node(value), -1, span),
+  return {&to, value.place, add_node(StOp::in_range, to.basic, value.place, value_node(value), -1, span),
           value.depth + 1};
 }
 
-Expression Values::cast(const Expression& expression, Basic to, Place place) {
+TypedExpression Values::cast(const TypedExpression& expression, Basic to, Place place) {
   const Basic from = expression.type->basic;
   const Type* type = type_of(to);
   if (from == to) return expression;
   if (from == Basic::dt && (to == Basic::tod || to == Basic::date)) {
-    const Expression seconds = apply_op(Op::seconds_of_day, type, place, expression);
+    const TypedExpression seconds = apply_op(StOp::seconds_of_day, type, place, expression);
     return to == Basic::date
-               ? apply_op(Op::subtract, type, place, expression, seconds)
-               : apply_op(Op::multiply, type, place, seconds, constant(type_of(Basic::int_), 1000, place));
+               ? apply_op(StOp::subtract, type, place, expression, seconds)
+               : apply_op(StOp::multiply, type, place, seconds, constant(type_of(Basic::int_), 1000, place));
   }
-  Op op = Op::wrap;
+  StOp op = StOp::wrap;
   if (to == Basic::boolean) {
-    op = is_real(from) ? Op::nonzero_real : Op::nonzero;
+    op = is_real(from) ? StOp::nonzero_real : StOp::nonzero;
   } else if (is_real(to)) {
-    op = is_real(from) ? Op::round_real : is_wide(from) ? Op::unsigned_to_real : Op::to_real;
+    op = is_real(from) ? StOp::round_real : is_wide(from) ? StOp::unsigned_to_real : StOp::to_real;
   } else if (is_real(from)) {
-    op = Op::to_whole;
+    op = StOp::to_whole;
   }
   // Nothing to do where the value stays what it is.
-  const bool same =
-      (op == Op::round_real && to == Basic::lreal) ||
-      (op == Op::wrap && range_of(from).low >= range_of(to).low && range_of(from).high <= range_of(to).high);
+  const bool same = (op == StOp::round_real && to == Basic::lreal) ||
+                    (op == StOp::wrap && range_of(from).low >= range_of(to).low &&
+                     range_of(from).high <= range_of(to).high);
   if (!same) return apply_op(op, type, place, expression);
-  Expression result = expression;
+  TypedExpression result = expression;
   if (!result.constant) result = as_value(std::move(result));
   result.type = type;
   result.untyped = false;
   return result;
 }
 
-Expression Values::folded(Op op, const Type* type, Place place, Cell a, Cell b, bool untyped) {
+TypedExpression Values::folded(StOp op, const Type* type, Place place, Cell a, Cell b, bool untyped) {
   if (const auto none = no_result(op, type->basic, a, b)) return refuse(place, none->what, none->remedy);
   return constant(type, apply(op, type->basic, a, b), place, untyped);
 }
 
-Expression Values::apply_op(Op op, const Type* type, Place place, const Expression& a, const Expression& b) {
+TypedExpression Values::apply_op(StOp op, const Type* type, Place place, const TypedExpression& a,
+                                 const TypedExpression& b) {
   constexpr int deepest = 400;
   if (a.unknown() || b.unknown()) return unknown_at(place);
   type = base_of(type);
   if (a.constant && b.constant && is_pure(op)) {
-    Expression result = folded(op, type, place, a.value, b.value, a.untyped && b.untyped);
+    TypedExpression result = folded(op, type, place, a.value, b.value, a.untyped && b.untyped);
     if (type->basic == Basic::boolean) result.untyped = false;
     return result;
   }
@@ -276,10 +277,10 @@ Expression Values::apply_op(Op op, const Type* type, Place place, const Expressi
   return {type, place, add_node(op, type->basic, place, first, value_node(b)), depth};
 }
 
-Expression Values::apply_op(Op op, const Type* type, Place place, const Expression& a) {
+TypedExpression Values::apply_op(StOp op, const Type* type, Place place, const TypedExpression& a) {
   if (a.unknown()) return unknown_at(place);
   type = base_of(type);
-  if (a.constant) return folded(op, type, place, a.value, 0, a.untyped && op != Op::round_real);
+  if (a.constant) return folded(op, type, place, a.value, 0, a.untyped && op != StOp::round_real);
   return {type, place, add_node(op, type->basic, place, value_node(a)), a.depth + 1};
 }
 

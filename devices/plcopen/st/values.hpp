@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -18,7 +19,7 @@ struct Unit {
   enum class State : std::uint8_t { untouched, open, done };
   Kind kind = Kind::program;
   State state = State::untouched;
-  Token name;
+  StToken name;
   std::size_t first = 0;  ///< token where the declarations begin
   std::size_t body = 0;   ///< where the statements begin, once declared
   std::size_t end = 0;    ///< the END_ keyword
@@ -39,10 +40,10 @@ struct Bits {
 };
 
 /// An expression while it is compiled.
-struct Expression {
-  Expression() = default;
+struct TypedExpression {
+  TypedExpression() = default;
   /// A value that `node` computes; without a node nothing is known of it.
-  Expression(const Type* of, Place at, int computed_by = -1, int deep = 1)
+  TypedExpression(const Type* of, Place at, int computed_by = -1, int deep = 1)
       : type(of), place(at), node(computed_by), depth(deep) {}
 
   const Type* type = type_of(Basic::unknown);
@@ -62,14 +63,14 @@ struct Expression {
   [[nodiscard]] bool unknown() const { return type->basic == Basic::unknown; }
 };
 
-inline Expression unknown_at(Place place) { return {type_of(Basic::unknown), place}; }
-Expression constant(const Type* type, Cell value, Place place, bool untyped = false);
+inline TypedExpression unknown_at(Place place) { return {type_of(Basic::unknown), place}; }
+TypedExpression constant(const Type* type, Cell value, Place place, bool untyped = false);
 /// A constant whole number as the text has it, a ULINT above 9223372036854775807 too.
-std::string whole_text(const Expression& value);
+std::string whole_text(const TypedExpression& value);
 /// The variable at the address that `node` computes.
-Expression variable_at(const Type* type, int node, const std::string& name, Place place);
+TypedExpression variable_at(const Type* type, int node, const std::string& name, Place place);
 /// One more than the deepest of them.
-int depth_over(const std::vector<Expression>& values);
+int depth_over(const std::vector<TypedExpression>& values);
 
 /// Values and the code that computes them: constants, nodes, conversions.
 class Values : public Parser {
@@ -77,29 +78,30 @@ class Values : public Parser {
   using Parser::Parser;
 
   /// Tells a problem; what it is about is unknown from then on.
-  Expression refuse(Place place, std::string what, std::string remedy, Place of);
-  Expression refuse(Place place, std::string what, std::string remedy) {
+  TypedExpression refuse(Place place, std::string what, std::string remedy, Place of);
+  TypedExpression refuse(Place place, std::string what, std::string remedy) {
     return refuse(place, std::move(what), std::move(remedy), place);
   }
 
   /// As a value of type `to`, by the conversions that IEC 61131-3 makes by itself.
-  Expression converted(Expression expression, const Type& to);
-  Expression literal_as(Expression literal, const Type& to);
+  TypedExpression converted(TypedExpression expression, const Type& to);
+  TypedExpression literal_as(TypedExpression literal, const Type& to);
   /// The same with a '-' before it; a problem where no LINT holds it.
-  Expression negated_literal(Expression literal);
+  TypedExpression negated_literal(TypedExpression literal);
   /// By a conversion function.
-  Expression cast(const Expression& expression, Basic to, Place place);
+  TypedExpression cast(const TypedExpression& expression, Basic to, Place place);
   /// What can no longer be assigned to.
-  Expression as_value(Expression expression);
+  TypedExpression as_value(TypedExpression expression);
   /// An operation without effects; of constants its result.
-  Expression apply_op(Op op, const Type* type, Place place, const Expression& a, const Expression& b);
-  Expression apply_op(Op op, const Type* type, Place place, const Expression& a);
+  TypedExpression apply_op(StOp op, const Type* type, Place place, const TypedExpression& a,
+                           const TypedExpression& b);
+  TypedExpression apply_op(StOp op, const Type* type, Place place, const TypedExpression& a);
 
-  int value_node(const Expression& expression);
+  int value_node(const TypedExpression& expression);
   int address_plus(int node, std::int64_t offset);
-  int add_node(Op op, Basic basic, Place place, int a = -1, int b = -1, int c = -1, std::int64_t imm = 0);
+  int add_node(StOp op, Basic basic, Place place, int a = -1, int b = -1, int c = -1, std::int64_t imm = 0);
   /// A node that has no other nodes.
-  int leaf_node(Op op, Basic basic, Place place, std::int64_t imm) {
+  int leaf_node(StOp op, Basic basic, Place place, std::int64_t imm) {
     return add_node(op, basic, place, -1, -1, -1, imm);
   }
   int add_list(const std::vector<int>& items);
@@ -117,12 +119,55 @@ class Values : public Parser {
   Unit* unit_ = nullptr;    ///< whose text is being read
 
  private:
-  Expression in_subrange(const Expression& value, const Type& to);
-  Expression folded(Op op, const Type* type, Place place, Cell a, Cell b, bool untyped);
-  int bits_node(const Expression& expression);
+  TypedExpression in_subrange(const TypedExpression& value, const Type& to);
+  TypedExpression folded(StOp op, const Type* type, Place place, Cell a, Cell b, bool untyped);
+  int bits_node(const TypedExpression& expression);
   int in_pool(std::size_t cells);
 
   std::unordered_map<std::string, int> strings_;
 };
+
+/// One operator between two values.
+struct Operator {
+  enum class Kind : std::uint8_t { logic, lazy, comparison, arithmetic, modulo, power };
+  std::string_view sign;
+  int level = 0;  ///< of precedence, 0 is the weakest
+  Kind kind = Kind::logic;
+  StOp op = StOp::nothing;       ///< of whole numbers and BOOL
+  StOp real_op = StOp::nothing;  ///< of real numbers
+};
+/// Above it stand **, and the signs before a value.
+inline constexpr int strongest_level = 6;
+/// nullptr if there is none of this sign or word, any case.
+const Operator* find_operator(std::string_view sign);
+const Operator* find_operator(const StToken& token);
+
+/// `a sign b`; problems are told at `told`, the sign or a function's name. `wanted` is the type that the
+/// context asks for, or nullptr: it decides only where the parts leave it open, for literals.
+TypedExpression binary(Values& values, std::string_view sign, const StToken& told, TypedExpression a,
+                       TypedExpression b, const Type* wanted);
+/// -x, +x and NOT x.
+TypedExpression signed_value(Values& values, const StToken& sign, TypedExpression operand,
+                             const Type* wanted);
+TypedExpression complement(Values& values, const StToken& sign, TypedExpression operand, const Type* wanted);
+/// How wide a literal is decides what NOT and the shifts make of it.
+TypedExpression literal_for_bits(Values& values, TypedExpression value, const Type* wanted,
+                                 const StToken& function);
+
+/// The type that both take by themselves; nullptr if there is none.
+const Type* common_type(const TypedExpression& a, const TypedExpression& b, const Type* wanted);
+/// Of a REAL functions are REAL, of LREAL LREAL; of whole numbers LREAL unless the context wants a REAL.
+const Type* real_result(const TypedExpression& value, const Type* wanted);
+
+// The standard functions of IEC 61131-3, operators as functions among them, and conversions.
+
+/// What an argument means, where the context asks for a type.
+using Typed = std::function<TypedExpression(const Tree& argument, const Type* wanted)>;
+/// The call of the function `name`; nothing if there is none of this name, any case. Gives up what does not
+/// fit its inputs.
+std::optional<TypedExpression> standard_call(Values& values, const StToken& name,
+                                             const std::vector<Argument>& given, const Type* wanted,
+                                             const Typed& typed);
+std::vector<std::string> standard_function_names();
 
 }  // namespace drycut::devices::plcopen::st

@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "devices/camming4/cam.hpp"
 #include "devices/camming4/messages.hpp"
 #include "sim/cams/judge.hpp"
 
@@ -202,7 +203,7 @@ class CammingJudge {
       add(order, Grade::caution, 0, run_.passages.back().rows.back(), pass,
           fmt::format("releases the slave at ratio {}: it stops without a ramp", number(run_.end_speed)),
           "end the sector before it at standstill (135)");
-    const auto grows = [&](double growth, const camming4::Resolution& axis, const char* name) {
+    const auto grows = [&](double growth, const camming4::GrainResolution& axis, const char* name) {
       if (std::abs(growth) < (1 - 1e-6) / static_cast<double>(axis.pulse)) return;
       add(last - 1, Grade::caution, 0, 0, pass,
           fmt::format("{} grows by {} Um each time round and leaves its range in the end", name,

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "sim/cams/camming4/run.hpp"
-#include "sim/cams/findings.hpp"
+#include "sim/cams/report.hpp"
 
 namespace drycut::sim::cams {
 

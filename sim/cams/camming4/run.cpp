@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "devices/axis/speed.hpp"
+#include "devices/axis/position.hpp"
+#include "devices/camming4/cam.hpp"
 
 namespace drycut::sim::cams {
 
@@ -15,12 +16,12 @@ using devices::camming4::CamSample;
 using devices::camming4::CamStep;
 using devices::camming4::CodeClass;
 using devices::camming4::Column;
+using devices::camming4::GrainResolution;
 using devices::camming4::Point;
-using devices::camming4::Resolution;
 using devices::camming4::Row;
 using devices::camming4::Sector;
 
-double to_um(const Point& point, const Resolution& axis) {
+double to_um(const Point& point, const GrainResolution& axis) {
   const double grains = static_cast<double>(point.bits) * static_cast<double>(axis.measure) +
                         static_cast<double>(point.part) + point.fraction;
   return grains / static_cast<double>(axis.pulse);
@@ -185,7 +186,7 @@ class Walk {
   void come_round() {
     // What the device's counts show at the exact boundary.
     const auto shown = [](std::int64_t grains, const Point& origin, std::int64_t count,
-                          const Resolution& axis) {
+                          const GrainResolution& axis) {
       const double ahead = static_cast<double>(origin.bits - count) * static_cast<double>(axis.measure) +
                            static_cast<double>(origin.part) + origin.fraction;
       return (static_cast<double>(grains) + ahead) / static_cast<double>(axis.pulse);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "devices/camming4/sector.hpp"
 #include "sim/cams/kinds.hpp"
 
 namespace drycut::sim::cams {

@@ -35,9 +35,9 @@ std::string meaning(const camming4::Row& row) {
   return text;
 }
 
-class Report {
+class StudyReport {
  public:
-  Report(const CammingTable& table, const CamDuty& duty, const CamRun& run)
+  StudyReport(const CammingTable& table, const CamDuty& duty, const CamRun& run)
       : table_(table), duty_(duty), run_(run), master_(run.master_speed.value_or(0)) {}
 
   [[nodiscard]] CamText text() {
@@ -50,7 +50,7 @@ class Report {
  private:
   [[nodiscard]] std::string heading() const {
     const auto& axes = table_.settings;
-    const auto bit = [](const camming4::Resolution& axis) {
+    const auto bit = [](const camming4::GrainResolution& axis) {
       return rounded(static_cast<double>(axis.measure) / static_cast<double>(axis.pulse));
     };
     auto text =
@@ -216,7 +216,7 @@ CamStudy study_of(const CammingTable& table, const CamRequest& request, Problems
   study.course = run;
   study.zones = zones_of(table, run);
   study.motion = motion_of(table, request.duty, run);
-  study.text = Report(table, request.duty, run).text();
+  study.text = StudyReport(table, request.duty, run).text();
   study.findings = judge(table, request.duty, run);
   study.master_unit = "Um";
   return study;

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "base/text.hpp"
+#include "devices/camming4/cam.hpp"
+#include "devices/camming4/sector.hpp"
 #include "devices/camming4/table.hpp"
 #include "sim/cams/csv.hpp"
 #include "sim/cams/kinds.hpp"
@@ -25,7 +27,7 @@ const std::vector<std::string> columns = {"sector",  "codeG",   "codeQm", "codeQ
 
 /// What the device's own table says of a variable or a field of its record.
 struct Entry {
-  Range range;
+  CamKeyRange range;
   std::string meaning;
 };
 Entry entry_of(std::string_view name) {
@@ -39,10 +41,10 @@ Entry entry_of(std::string_view name) {
       return {{static_cast<double>(field.min), static_cast<double>(field.max)}, std::string(field.meaning)};
   return {};
 }
-Range range_of_variable(std::string_view name) { return entry_of(name).range; }
+CamKeyRange range_of_variable(std::string_view name) { return entry_of(name).range; }
 
 /// The range of a column under a code (000 1.2.13): narrower than its variable's where the code says so.
-Range range_of(std::string_view column, Use use, int code) {
+CamKeyRange range_of(std::string_view column, Use use, int code) {
   switch (use) {
     case Use::master_space:
     case Use::master_coefficient:
@@ -57,15 +59,15 @@ Range range_of(std::string_view column, Use use, int code) {
     case Use::displacement_y:
       return {-318308, 318308};
     case Use::slave_space:
-      return code == 180 ? Range{-318308, 318308} : range_of_variable(column);
+      return code == 180 ? CamKeyRange{-318308, 318308} : range_of_variable(column);
     default:
       return range_of_variable(column);
   }
 }
 
-class Reader {
+class CammingReader {
  public:
-  Reader(std::string_view text, const std::string& file, Problems& problems)
+  CammingReader(std::string_view text, const std::string& file, Problems& problems)
       : text_(text), told_(file, problems), settings_(told_) {
     table_.file = file;
     const auto take = [&](const char* name, std::int32_t& target) {
@@ -123,7 +125,7 @@ class Reader {
   }
 
   /// A whole number in its range, or a problem.
-  std::optional<std::int32_t> integer(const Cell& cell, std::string_view name, Range range) {
+  std::optional<std::int32_t> integer(const Cell& cell, std::string_view name, CamKeyRange range) {
     const auto number = whole_number(cell, line_, name, range, told_);
     if (!number) return {};
     return static_cast<std::int32_t>(*number);
@@ -213,12 +215,12 @@ class Reader {
 }  // namespace
 
 CammingTable read_camming4(std::string_view text, const std::string& file, Problems& problems) {
-  return Reader(text, file, problems).read();
+  return CammingReader(text, file, problems).read();
 }
 
 std::vector<CamKey> camming4_keys() {
   Problems none;
-  return Reader("", "", none).keys();
+  return CammingReader("", "", none).keys();
 }
 
 std::vector<CamKey> camming4_columns() {

@@ -2,6 +2,8 @@
 #include <string>
 #include <vector>
 
+#include "devices/lx3vp/ecam_table.hpp"
+#include "devices/lx3vp/ecamtbx.hpp"
 #include "sim/cams/kinds.hpp"
 
 namespace drycut::sim::cams {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "base/text.hpp"
-#include "devices/lx3vp/block.hpp"
+#include "devices/lx3vp/registers.hpp"
 #include "sim/cams/csv.hpp"
 #include "sim/cams/lx3vp/judge.hpp"
 
@@ -16,33 +16,33 @@ namespace {
 
 using devices::lx3vp::EcamType;
 
-constexpr Range whole_32 = {-2147483648.0, 2147483647.0};
-constexpr Range whole_16 = {0, 65535};
-constexpr Range ratios = {-1e30, 1e30};  // what a float holds; ECAMTBX itself judges them
+constexpr CamKeyRange whole_32 = {-2147483648.0, 2147483647.0};
+constexpr CamKeyRange whole_16 = {0, 65535};
+constexpr CamKeyRange ratios = {-1e30, 1e30};  // what a float holds; ECAMTBX itself judges them
 constexpr std::size_t most_rows_read = 100000;
 
 /// A parameter of ECAMTBX: its name and what it may be.
-struct Parameter {
+struct EcamParameter {
   std::string_view name;
-  Range range;
+  CamKeyRange range;
   bool real = false;
   bool needed = true;
 };
-constexpr Parameter saw_parameters[] = {{"P1", whole_32},
-                                        {"P2", whole_32},
-                                        {"P3", whole_32},
-                                        {"P4", ratios, true},
-                                        {"P5", ratios, true},
-                                        {"P6", {0, 4294967295.0}, false, false},
-                                        {"P6L", whole_16, false, false},
-                                        {"P6H", whole_16, false, false},
-                                        {"P7", whole_16, false, false}};
-constexpr Parameter s_curve_parameters[] = {
+constexpr EcamParameter saw_parameters[] = {{"P1", whole_32},
+                                            {"P2", whole_32},
+                                            {"P3", whole_32},
+                                            {"P4", ratios, true},
+                                            {"P5", ratios, true},
+                                            {"P6", {0, 4294967295.0}, false, false},
+                                            {"P6L", whole_16, false, false},
+                                            {"P6H", whole_16, false, false},
+                                            {"P7", whole_16, false, false}};
+constexpr EcamParameter s_curve_parameters[] = {
     {"P1", whole_32}, {"P2", whole_32}, {"P4", {-32768, 32767}}, {"P5", {-32768, 32767}}, {"P6", whole_16}};
 
-class Reader {
+class EcamReader {
  public:
-  Reader(std::string_view text, const std::string& file, Problems& problems)
+  EcamReader(std::string_view text, const std::string& file, Problems& problems)
       : text_(text), told_(file, problems), settings_(told_) {
     table_.file = file;
     add_settings();
@@ -133,7 +133,7 @@ class Reader {
 
   // Parameters.
 
-  [[nodiscard]] std::vector<Parameter> known() const {
+  [[nodiscard]] std::vector<EcamParameter> known() const {
     if (!table_.type) return {};
     if (table_.is_s_curve()) return {std::begin(s_curve_parameters), std::end(s_curve_parameters)};
     return {std::begin(saw_parameters), std::end(saw_parameters)};
@@ -144,7 +144,7 @@ class Reader {
     const auto name = parameters_.cell_of(cells, 0);
     const auto all = known();
     const auto found =
-        std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name.text; });
+        std::find_if(all.begin(), all.end(), [&](const EcamParameter& p) { return p.name == name.text; });
     if (found == all.end()) {
       refuse_parameter(name, all);
       return;
@@ -158,14 +158,14 @@ class Reader {
     first->second.value = read_value(parameters_.cell_of(cells, 1), *found);
   }
 
-  void refuse_parameter(const Cell& name, const std::vector<Parameter>& all) {
+  void refuse_parameter(const Cell& name, const std::vector<EcamParameter>& all) {
     std::string names;
     for (const auto& parameter : all) names += (names.empty() ? "" : ", ") + std::string(parameter.name);
     told_.add(line_, name.column, fmt::format("there is no parameter {}", in_quotes(name.text)),
               "there are " + names);
   }
 
-  double read_value(const Cell& cell, const Parameter& parameter) {
+  double read_value(const Cell& cell, const EcamParameter& parameter) {
     if (parameter.real) return real_number(cell, line_, parameter.name, parameter.range, told_).value_or(0);
     if (const auto pattern = hexadecimal(cell.text)) return static_cast<double>(*pattern);
     return static_cast<double>(
@@ -275,12 +275,12 @@ class Reader {
 }  // namespace
 
 EcamTable read_lx3vp(std::string_view text, const std::string& file, Problems& problems) {
-  return Reader(text, file, problems).read();
+  return EcamReader(text, file, problems).read();
 }
 
 std::vector<CamKey> lx3vp_keys() {
   Problems none;
-  return Reader("", "", none).keys();
+  return EcamReader("", "", none).keys();
 }
 
 std::vector<CamKey> lx3vp_columns() {

@@ -14,7 +14,7 @@ namespace {
 using devices::CamExtremes;
 using devices::CamOrder;
 using devices::CamPiece;
-using devices::plcopen::CamLimits;
+using devices::plcopen::CamFileLimits;
 using devices::plcopen::Endless;
 using Grade = CamFinding::Grade;
 
@@ -275,7 +275,7 @@ class CamInJudge {
 
   const CamInRun& run_;
   const devices::plcopen::CamFile& cam_;
-  CamLimits limits_;
+  CamFileLimits limits_;
   CamMotionWords motion_;
   const std::string& unit_;
   std::vector<CamFinding> found_;
@@ -283,8 +283,8 @@ class CamInJudge {
 
 }  // namespace
 
-devices::plcopen::CamLimits limits_of(const CamInRun& run, const CamDuty& duty) {
-  CamLimits limits = run.cam.limits;
+devices::plcopen::CamFileLimits limits_of(const CamInRun& run, const CamDuty& duty) {
+  CamFileLimits limits = run.cam.limits;
   if (duty.max_velocity) limits.velocity = duty.max_velocity;
   if (duty.max_acceleration) limits.acceleration = duty.max_acceleration;
   return limits;

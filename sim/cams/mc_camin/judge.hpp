@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "devices/plcopen/tab_file.hpp"
 #include "sim/cams/kinds.hpp"
 
 namespace drycut::sim::cams {
@@ -39,6 +40,6 @@ std::vector<CamFinding> judge_cam_in(const CamInRun& run, const CamDuty& duty);
 CamMotionWords motion_of(const CamInRun& run, const CamDuty& duty);
 
 /// The slave's limits in force: those of the options before those of the file [deg or mm, s].
-devices::plcopen::CamLimits limits_of(const CamInRun& run, const CamDuty& duty);
+devices::plcopen::CamFileLimits limits_of(const CamInRun& run, const CamDuty& duty);
 
 }  // namespace drycut::sim::cams

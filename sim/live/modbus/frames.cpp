@@ -208,7 +208,7 @@ std::size_t cost_of(Request request) {
   }
 }
 
-Bytes bytes_of(const Frame& frame) {
+Bytes bytes_of(const ModbusFrame& frame) {
   Bytes bytes;
   bytes.reserve(heading + frame.pdu.size());
   add_word(bytes, frame.transaction);
@@ -223,14 +223,14 @@ void FrameReader::take(std::span<const std::uint8_t> bytes) {
   bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
 }
 
-std::optional<Frame> FrameReader::next() {
+std::optional<ModbusFrame> FrameReader::next() {
   constexpr std::size_t with_length = 6;
   if (broken_ || bytes_.size() < with_length) return {};
   const std::size_t length = word_at(bytes_, 4);
   broken_ = word_at(bytes_, 2) != 0 || length < 2 || length > 1 + longest_pdu;
   if (broken_ || bytes_.size() < with_length + length) return {};
   const auto end = bytes_.begin() + static_cast<std::ptrdiff_t>(with_length + length);
-  Frame frame{word_at(bytes_, 0), bytes_[6], Bytes(bytes_.begin() + heading, end)};
+  ModbusFrame frame{word_at(bytes_, 0), bytes_[6], Bytes(bytes_.begin() + heading, end)};
   bytes_.erase(bytes_.begin(), end);
   return frame;
 }

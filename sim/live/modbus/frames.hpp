@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "devices/modbus_face.hpp"
+#include "devices/controller.hpp"
 
 // Modbus as the standard has it (MODBUS Application Protocol V1.1b3, Messaging on TCP/IP V1.0b), without any
 // socket: bytes to frames, requests to answers.
@@ -48,12 +48,12 @@ Bytes refusal(std::span<const std::uint8_t> request, Exception exception);
 std::size_t cost_of(std::span<const std::uint8_t> request);
 
 /// What goes over TCP.
-struct Frame {
+struct ModbusFrame {
   std::uint16_t transaction = 0;
   std::uint8_t unit = 0;
   Bytes pdu;
 };
-Bytes bytes_of(const Frame& frame);
+Bytes bytes_of(const ModbusFrame& frame);
 
 /// Frames out of the bytes of a connection, however they come.
 class FrameReader {
@@ -62,7 +62,7 @@ class FrameReader {
   void take(std::span<const std::uint8_t> bytes);
   /// The next whole one. The stream is broken if what follows is none: its protocol is not 0, or no PDU has
   /// its length; where the next one begins nobody knows then.
-  std::optional<Frame> next();
+  std::optional<ModbusFrame> next();
   [[nodiscard]] bool broken() const { return broken_; }
   /// A frame has begun and is not whole.
   [[nodiscard]] bool begun() const { return !bytes_.empty(); }

@@ -62,10 +62,10 @@ using ClientNumber = std::uint64_t;
 
 /// Where requests lie until the line looks at them between two cycles. The server puts them there, the line's
 /// thread answers; it outlives both.
-struct Server::Desk : std::enable_shared_from_this<Desk> {
+struct ModbusServer::Desk : std::enable_shared_from_this<Desk> {
   struct Job {
     ClientNumber client;
-    Frame frame;
+    ModbusFrame frame;
   };
 
   void put(Job job) {
@@ -75,7 +75,7 @@ struct Server::Desk : std::enable_shared_from_this<Desk> {
   }
   /// In the line's thread.
   void serve(LineRun& run);
-  void answer(LineRun& run, Frame& frame);
+  void answer(LineRun& run, ModbusFrame& frame);
   void tell_closed(int unit);
 
   std::mutex mutex;
@@ -95,7 +95,7 @@ struct Server::Desk : std::enable_shared_from_this<Desk> {
 };
 
 /// All connections, in the one thread of the server; others post into it.
-struct Server::Core {
+struct ModbusServer::Core {
   class Client;
 
   Core(Options given, Line& of, Desk& at) : options(std::move(given)), line(of), desk(at), acceptor(context) {
@@ -118,7 +118,7 @@ struct Server::Core {
 };
 
 /// One connection; one request of it at a time is under way.
-class Server::Core::Client : public std::enable_shared_from_this<Client> {
+class ModbusServer::Core::Client : public std::enable_shared_from_this<Client> {
  public:
   Client(Core& core, tcp::socket socket)
       : core_(core), stream_(std::move(socket)), number_(core.next++), heard_(++core.heard) {
@@ -136,7 +136,7 @@ class Server::Core::Client : public std::enable_shared_from_this<Client> {
     }
     if (!reader_.broken()) read();
   }
-  void answer(const Frame& frame) {
+  void answer(const ModbusFrame& frame) {
     bytes_ = bytes_of(frame);
     stream_.expires_after(patience);
     asio::async_write(stream_, asio::buffer(bytes_),
@@ -173,7 +173,7 @@ class Server::Core::Client : public std::enable_shared_from_this<Client> {
   Bytes bytes_;  ///< of the answer that is being sent
 };
 
-void Server::Core::accept() {
+void ModbusServer::Core::accept() {
   acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
     if (!error) {
@@ -187,7 +187,7 @@ void Server::Core::accept() {
 }
 
 // What an HMI that lost its line leaves behind must not lock it out: the guide for TCP says so too (§4.2.1).
-void Server::Core::make_room() {
+void ModbusServer::Core::make_room() {
   if (clients.size() < most_connections) return;
   auto* silent = clients.begin()->second;
   for (const auto& [number, client] : clients)
@@ -195,14 +195,14 @@ void Server::Core::make_room() {
   silent->close();
 }
 
-void Server::Desk::ask() {
+void ModbusServer::Desk::ask() {
   if (asked || waiting.empty() || core == nullptr) return;
   asked = true;
   core->line.ask({0, Visit{[self = shared_from_this()](LineRun& run) { self->serve(run); }}});
 }
 
 /// As many as fit between two cycles.
-std::vector<Server::Desk::Job> Server::Desk::take() {
+std::vector<ModbusServer::Desk::Job> ModbusServer::Desk::take() {
   const std::lock_guard lock(mutex);
   std::vector<Job> taken;
   std::size_t cost = 0;
@@ -214,7 +214,7 @@ std::vector<Server::Desk::Job> Server::Desk::take() {
   return taken;
 }
 
-void Server::Desk::serve(LineRun& run) {
+void ModbusServer::Desk::serve(LineRun& run) {
   auto jobs = take();
   for (auto& job : jobs) answer(run, job.frame);
   const std::lock_guard lock(mutex);
@@ -227,7 +227,7 @@ void Server::Desk::serve(LineRun& run) {
   ask();
 }
 
-void Server::Desk::answer(LineRun& run, Frame& frame) {
+void ModbusServer::Desk::answer(LineRun& run, ModbusFrame& frame) {
   if (run_number != run.number()) {
     run_number = run.number();
     told_closed = false;
@@ -247,7 +247,7 @@ void Server::Desk::answer(LineRun& run, Frame& frame) {
 }
 
 // Once a run: a master that asks again and again hears it from its exception.
-void Server::Desk::tell_closed(int unit) {
+void ModbusServer::Desk::tell_closed(int unit) {
   if (std::exchange(told_closed, true)) return;
   fmt::print(
       "Modbus: unit {} does not answer (exception 11): the controller has no power, the program has not "
@@ -257,14 +257,14 @@ void Server::Desk::tell_closed(int unit) {
   std::fflush(stdout);
 }
 
-Server::Server(Options options, Line& line)
+ModbusServer::ModbusServer(Options options, Line& line)
     : desk_(std::make_shared<Desk>()), core_(std::make_unique<Core>(std::move(options), line, *desk_)) {
   desk_->core = core_.get();
   core_->accept();
   core_->thread = std::thread([this] { core_->context.run(); });
 }
 
-Server::~Server() {
+ModbusServer::~ModbusServer() {
   {
     const std::lock_guard lock(desk_->mutex);
     desk_->core = nullptr;
@@ -273,6 +273,6 @@ Server::~Server() {
   core_->thread.join();
 }
 
-std::uint16_t Server::port() const { return core_->options.port; }
+std::uint16_t ModbusServer::port() const { return core_->options.port; }
 
 }  // namespace drycut::sim::live::modbus

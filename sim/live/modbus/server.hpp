@@ -16,17 +16,17 @@ std::string lacking(Line& line);
 ///
 /// A connection that sends what is no frame, or half of one for ten seconds, or does not read its answers, is
 /// closed; of more than 64 the one that has been silent for longest.
-class Server {
+class ModbusServer {
  public:
   struct Options {
     std::string address = "127.0.0.1";
     std::uint16_t port = 502;  ///< 0 = any free one
   };
   /// Where it listens is taken here. Throws CannotListen. The line may go on when it is gone.
-  Server(Options options, Line& line);
-  ~Server();
-  Server(const Server&) = delete;
-  Server& operator=(const Server&) = delete;
+  ModbusServer(Options options, Line& line);
+  ~ModbusServer();
+  ModbusServer(const ModbusServer&) = delete;
+  ModbusServer& operator=(const ModbusServer&) = delete;
 
   [[nodiscard]] std::uint16_t port() const;
 

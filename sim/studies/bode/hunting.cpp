@@ -1,4 +1,4 @@
-#include "sim/studies/bode/hunting.hpp"
+#include "sim/studies/bode/loop.hpp"
 
 #include <fmt/format.h>
 
@@ -163,13 +163,13 @@ bool is_play(const std::string& name) {
 
 }  // namespace
 
-Hunting find_hunting(loop::Simulation& excited, loop::Simulation& still, std::size_t wire, Time at,
-                     Time sampling, double period) {
+HuntingPoint find_hunting(loop::Simulation& excited, loop::Simulation& still, std::size_t wire, Time at,
+                          Time sampling, double period) {
   constexpr double up = 1.25;
   constexpr double down = 1.02;
   constexpr double most = 100;
   constexpr double least = 0.2;
-  Hunting found;
+  HuntingPoint found;
   Pushed loop(excited, still, wire, sampling, period);
   loop.wait(at);
   const auto own = loop.own();

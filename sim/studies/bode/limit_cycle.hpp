@@ -28,7 +28,7 @@ struct LimitCycle {
   std::vector<AmplitudeMargin> margins;  ///< in ascending order of amplitude
   std::optional<std::size_t> least;      ///< of `margins`
   bool at_end = false;                   ///< the least lies at an end of the amplitudes: beyond may be less
-  std::optional<Hunting> hunting;        ///< what pushes have found
+  std::optional<HuntingPoint> hunting;   ///< what pushes have found
 
   /// The amplitude of the least margin, where the next smaller one gave none: the bound may lie there [V];
   /// else 0.

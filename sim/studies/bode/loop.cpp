@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "plants/power_stage.hpp"
+#include "sim/loop/names.hpp"
 #include "sim/record/recording.hpp"
 #include "sim/scenario/units.hpp"
 
@@ -181,8 +182,8 @@ std::optional<LoopResult> measure_loop(const scenario::Scenario& scenario, const
   return result;
 }
 
-std::optional<Hunting> push_loop(const scenario::Scenario& scenario, const LoopRequest& request,
-                                 double period, Problems& problems) {
+std::optional<HuntingPoint> push_loop(const scenario::Scenario& scenario, const LoopRequest& request,
+                                      double period, Problems& problems) {
   const auto prepared = prepare(scenario, request, problems);
   if (!prepared.still) return {};
   const auto& plan = *prepared.plan;

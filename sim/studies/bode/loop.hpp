@@ -3,11 +3,39 @@
 #include <optional>
 #include <string>
 
+#include "sim/loop/simulation.hpp"
 #include "sim/scenario/scenario.hpp"
-#include "sim/studies/bode/hunting.hpp"
 #include "sim/studies/bode/sweep.hpp"
 
 namespace drycut::sim::studies {
+
+// Play and stiction let a loop rest that hunts for ever once something has moved it. No single sine finds
+// that: one that is too small never leaves the play, a larger one hides it. So the loop is pushed, at the
+// gain in force and then at more of it, until an oscillation keeps itself up; from there the gain goes down
+// again, under way, until the oscillation dies.
+
+/// From which gain on a loop hunts.
+struct HuntingPoint {
+  std::optional<double> from;  ///< times the gain in force: from there on an oscillation keeps itself up
+  double tried = 0;            ///< the largest factor at which every push died out; 0 = none
+  double frequency = 0;        ///< of the oscillation at `from` [Hz]
+  double amplitude = 0;        ///< of the oscillation at `from`, at the wire [V]
+  std::string failure;  ///< why nothing can be told: the axis moves, the simulation stopped; "" if it can
+
+  [[nodiscard]] bool hunts_now() const { return from && *from <= 1; }
+};
+
+/// The pushes [V], each for a quarter of a period.
+inline constexpr double least_push = 0.1;
+inline constexpr double largest_push = 1.6;
+
+/// Pushes the loop at `wire` of Bus::analogue_wires() from time `at` on. `excited` and `still` are the same
+/// scenario twice; `period` is about that of an oscillation [s], 0 = not known.
+HuntingPoint find_hunting(loop::Simulation& excited, loop::Simulation& still, std::size_t wire, Time at,
+                          Time sampling, double period);
+
+/// Play and stiction of the plant that a plug belongs to: "axis.gap 0.4 mm"; "" if it has none.
+std::string play_of(const scenario::Scenario& scenario, const std::string& plug);
 
 /// Where and how a loop is to be measured, as a user says it.
 struct LoopRequest {
@@ -35,7 +63,7 @@ struct LoopResult {
   Margins margins;
   std::optional<Margins> without_computing;  ///< the same with compute_time 0, where the scenario has one
   std::string play;                          ///< of the plant at the wire: "axis.gap 0.4 mm", "" = none
-  std::optional<Hunting> hunting;            ///< where there is play, if it was asked for
+  std::optional<HuntingPoint> hunting;       ///< where there is play, if it was asked for
 
   /// The least gain margin over all amplitudes, if it is known: with play an oscillation may keep itself up
   /// at less gain than one sine shows.
@@ -54,8 +82,8 @@ std::optional<LoopResult> measure_both(scenario::Scenario& scenario, const LoopR
                                        Problems& problems, const std::function<void(double)>& progress = {});
 /// Pushes the loop of `scenario`: from which gain on it hunts. `period` is about that of an oscillation [s],
 /// 0 = not known. nullopt and problems if the request does not fit.
-std::optional<Hunting> push_loop(const scenario::Scenario& scenario, const LoopRequest& request,
-                                 double period, Problems& problems);
+std::optional<HuntingPoint> push_loop(const scenario::Scenario& scenario, const LoopRequest& request,
+                                      double period, Problems& problems);
 /// The plug at which `request` measures, nullopt if it is not clear which.
 std::optional<std::string> wire_of(const scenario::Scenario& scenario, const LoopRequest& request);
 /// Runs `scenario` twice, and twice more where play asks for pushes, and measures; nullopt and problems if

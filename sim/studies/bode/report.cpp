@@ -57,7 +57,7 @@ Table table_of(const LoopResult& result) {
 }
 
 /// From which gain on a loop with play keeps an oscillation up.
-std::string pushes_text(const Hunting& hunting) {
+std::string pushes_text(const HuntingPoint& hunting) {
   if (!hunting.failure.empty()) return "not known: " + hunting.failure;
   if (!hunting.from)
     return fmt::format("not found: pushes of {} to {} V died out up to {:.3g} times the gain", least_push,

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "renders/plots.hpp"
-#include "sim/loop/checks.hpp"
 #include "sim/output_folder.hpp"
+#include "sim/record/outcome.hpp"
 #include "sim/studies/bode/limit_cycle.hpp"
 #include "sim/studies/bode/loop.hpp"
 

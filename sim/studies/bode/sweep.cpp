@@ -82,7 +82,7 @@ Sweep::Loop push(Twins& twins, const SweepPlan& plan, double& waited) {
 }
 
 /// Comes to rest with the tone, then measures it over its samples. False if the simulation failed.
-bool measure_tone(Twins& twins, const SweepPlan& plan, const Tone& tone, BodePoint& point) {
+bool measure_tone(Twins& twins, const SweepPlan& plan, const TestTone& tone, BodePoint& point) {
   const std::int64_t steps = plan.sampling / plan.step;  // in a sampling
   const double period = static_cast<double>(tone.samples) / static_cast<double>(tone.cycles);
   const auto settle =
@@ -148,14 +148,14 @@ void measure_below(Twins& twins, const SweepPlan& plan, std::vector<BodePoint>& 
 
 }  // namespace
 
-std::vector<Tone> plan_tones(double from, double to, int points, Time sampling, double window) {
+std::vector<TestTone> plan_tones(double from, double to, int points, Time sampling, double window) {
   constexpr double least_periods = 4;
   const double rate = 1 / seconds(sampling);
-  std::vector<Tone> tones;
+  std::vector<TestTone> tones;
   for (int i = 0; i < points; ++i) {
     const double share = points > 1 ? static_cast<double>(i) / (points - 1) : 0;
     const double wanted = from * std::pow(to / from, share);
-    Tone tone;
+    TestTone tone;
     tone.cycles = std::llround(std::ceil(std::max(least_periods, wanted * window)));
     tone.samples = std::max<std::int64_t>(std::llround(static_cast<double>(tone.cycles) * rate / wanted),
                                           2 * tone.cycles);

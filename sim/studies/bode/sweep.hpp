@@ -10,7 +10,7 @@
 namespace drycut::sim::studies {
 
 /// One frequency of a sweep: `cycles` whole periods in `samples` samplings of the controller.
-struct Tone {
+struct TestTone {
   std::int64_t cycles = 0;
   std::int64_t samples = 0;
   [[nodiscard]] double frequency(Time sampling) const {  ///< [Hz]
@@ -21,7 +21,7 @@ struct Tone {
 /// About `points` frequencies from `from` to `to` [Hz], evenly on a logarithmic axis, each measured over at
 /// least `window` seconds and four periods; `to` at most half the sampling frequency. Neighbours that would
 /// be the same are one.
-std::vector<Tone> plan_tones(double from, double to, int points, Time sampling, double window);
+std::vector<TestTone> plan_tones(double from, double to, int points, Time sampling, double window);
 
 /// What to measure and how.
 struct SweepPlan {
@@ -32,7 +32,7 @@ struct SweepPlan {
   Time sampling = 0;     ///< of the device that drives the wire
   double amplitude = 0;  ///< of the sine [V]
   double settle = 0;     ///< before each measurement [s], and at least two periods
-  std::vector<Tone> tones;
+  std::vector<TestTone> tones;
   double lowest = 0;  ///< [Hz] down to here lower tones follow until |L| > 1, so that the crossover is found;
                       ///< 0 = none
 };

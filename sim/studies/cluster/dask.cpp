@@ -121,10 +121,10 @@ class Dask final : public Engine {
       client_->say({{"chunk", chunk.number}, {"bundle", name}, {"items", chunk.items}});
   }
 
-  std::vector<News> wait() override {
+  std::vector<WorkNews> wait() override {
     const auto messages = client_->hear();
     if (!messages) throw std::runtime_error("the client of Dask has ended");
-    std::vector<News> news;
+    std::vector<WorkNews> news;
     for (const auto& message : *messages) {
       if (message.contains("fatal")) throw std::runtime_error(message.at("fatal").get<std::string>());
       if (message.contains("workers")) workers_ = message.at("workers").get<int>();

@@ -157,7 +157,7 @@ class Dispatch {
     return false;
   }
 
-  void settle(const News& news) {
+  void settle(const WorkNews& news) {
     const auto chunk = std::move(out_.at(news.chunk));
     out_.erase(news.chunk);
     Items left;

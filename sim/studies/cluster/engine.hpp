@@ -17,7 +17,7 @@ struct Chunk {
 };
 
 /// What is heard of a chunk.
-struct News {
+struct WorkNews {
   int chunk = 0;
   std::string line;    ///< that `drycut work` wrote
   bool ended = false;  ///< there will be no more of it
@@ -38,7 +38,7 @@ class Engine {
   virtual void submit(const std::string& name, const std::string& bundle,
                       const std::vector<Chunk>& chunks) = 0;
   /// What has come, after a while at most; may be nothing. Throws Interrupted.
-  virtual std::vector<News> wait() = 0;
+  virtual std::vector<WorkNews> wait() = 0;
   /// How many chunks it can run at the same time now, at least 1.
   [[nodiscard]] virtual int workers() const = 0;
   /// How many chunks it is given at a time.

@@ -106,8 +106,8 @@ class Slurm final : public Engine {
                                 static_cast<std::ptrdiff_t>(std::min(chunks.size(), first + most_tasks))});
   }
 
-  std::vector<News> wait() override {
-    std::vector<News> news;
+  std::vector<WorkNews> wait() override {
+    std::vector<WorkNews> news;
     // A look at the answers costs the file server something for every chunk.
     rest(std::clamp(milliseconds(2) * static_cast<int>(out_.size()), milliseconds(50), milliseconds(2000)));
     for (auto& [number, task] : out_) listen(number, task, news);
@@ -169,7 +169,7 @@ class Slurm final : public Engine {
   }
 
   /// The whole lines that have come; "end" is the last one of a chunk that has done all.
-  void listen(int number, Task& task, std::vector<News>& news) const {
+  void listen(int number, Task& task, std::vector<WorkNews>& news) const {
     std::ifstream stream(file(number, "answers"), std::ios::binary);
     if (!stream || !stream.seekg(task.read)) return;
     for (std::string line; std::getline(stream, line) && !stream.eof();) {
@@ -181,7 +181,7 @@ class Slurm final : public Engine {
   }
 
   /// A task that two looks have not found in the queue, and that has not said that it is done, was lost.
-  void look_for_lost(std::vector<News>& news) {
+  void look_for_lost(std::vector<WorkNews>& news) {
     const auto begin = Clock::now();
     const auto told = ask_slurm(
         "squeue", {"--noheader", "--array", "--user=" + own_user(), "--name=" + name_, "--format=%F_%K"});

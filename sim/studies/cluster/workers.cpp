@@ -13,7 +13,7 @@ void Workers::run(const Round& round) const {
   for_each_index(round.count, jobs_, [&](std::size_t i) {
     const auto ask = round.ask(i);
     if (!ask) return;
-    const Answer answer{ask->here(), ""};
+    const WorkerAnswer answer{ask->here(), ""};
     const std::lock_guard lock(mutex);
     round.take(i, answer);
   });

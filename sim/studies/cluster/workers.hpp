@@ -15,7 +15,7 @@ struct Ask {
   std::function<std::string()> here;  ///< answers it in this process
 };
 /// What came of it.
-struct Answer {
+struct WorkerAnswer {
   std::string text;  ///< in one line
   std::string lost;  ///< why there is none: whoever ran it died, each time. "" = there is one
 };
@@ -28,7 +28,7 @@ struct Round {
   /// Reads run `i`, on several threads at once; nothing if its answer is known.
   std::function<std::optional<Ask>(std::size_t i)> ask;
   /// Is given the answers as they come, one at a time.
-  std::function<void(std::size_t i, const Answer& answer)> take;
+  std::function<void(std::size_t i, const WorkerAnswer& answer)> take;
 };
 
 /// Whoever does the runs of a study: threads of this process, or an engine on other machines. The answers do

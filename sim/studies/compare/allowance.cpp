@@ -48,16 +48,16 @@ bool speaks_of(const std::string& text, const std::string& name) {
 }
 
 /// Something that an allowance can be for.
-struct Quantity {
+struct ComparedQuantity {
   std::string name;
   std::string unit;
-  bool operator<(const Quantity& other) const {
+  bool operator<(const ComparedQuantity& other) const {
     return std::tie(name, unit) < std::tie(other.name, other.unit);
   }
 };
 
-std::set<Quantity> quantities_of(const ComparedRun& run) {
-  std::set<Quantity> all;
+std::set<ComparedQuantity> quantities_of(const ComparedRun& run) {
+  std::set<ComparedQuantity> all;
   for (const auto& column : run.recording.columns()) all.insert({column.name, column.unit});
   for (const auto& event : run.recording.events()) {
     for (const auto& value : event.values) {
@@ -170,7 +170,7 @@ Allowances read_allowances(const std::vector<std::string>& texts, Problems& prob
 
 void check_allowances(const Allowances& allowances, const std::vector<ComparedRun>& runs,
                       const std::vector<std::pair<std::string, std::string>>& figures, Problems& problems) {
-  std::set<Quantity> known = {{time_name, "s"}};
+  std::set<ComparedQuantity> known = {{time_name, "s"}};
   for (const auto& run : runs) {
     known.merge(quantities_of(run));
     for (const auto& check : run.outcome.checks) known.insert({check.name, check.unit});

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "sim/loop/checks.hpp"
+#include "sim/record/outcome.hpp"
 #include "sim/studies/compare/run_folder.hpp"
 
 namespace drycut::sim::studies {

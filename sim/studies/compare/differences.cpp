@@ -14,7 +14,7 @@ namespace drycut::sim::studies {
 namespace {
 
 /// Names in the order in which they are first met.
-class Order {
+class EventOrder {
  public:
   void add(const std::string& name) {
     if (place_.emplace(name, names_.size()).second) names_.push_back(name);
@@ -108,7 +108,7 @@ class EventJudge {
 }  // namespace
 
 std::vector<CheckRow> compare_checks(const std::vector<ComparedRun>& runs, const Allowances& allowances) {
-  Order order;
+  EventOrder order;
   for (const auto& run : runs)
     for (const auto& check : run.outcome.checks) order.add(check.name);
   std::vector<CheckRow> rows;
@@ -157,7 +157,7 @@ std::vector<EventRow> differing_events(const std::vector<ComparedRun>& runs, con
 }
 
 std::vector<ParameterRow> differing_parameters(const std::vector<ComparedRun>& runs) {
-  Order order;
+  EventOrder order;
   std::vector<std::map<std::string, std::string>> values;
   for (const auto& run : runs) {
     values.emplace_back(run.parameters.begin(), run.parameters.end());

@@ -8,17 +8,18 @@
 #include <algorithm>
 #include <set>
 
-#include "devices/plcopen/axis_values.hpp"
+#include "devices/plcopen/axis.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/known_events.hpp"
-#include "sim/record/csv_files.hpp"
-#include "sim/record/hdf5_reader.hpp"
+#include "sim/loop/names.hpp"
+#include "sim/record/hdf5_file.hpp"
 #include "sim/record/json.hpp"
+#include "sim/record/trace_files.hpp"
 #include "sim/report/results.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/units.hpp"
 #include "sim/scenario/yaml_node.hpp"
-#include "sim/scenario/yaml_reader.hpp"
-#include "sim/studies/compare/recorded_csv.hpp"
+#include "sim/studies/recorded_csv.hpp"
 
 namespace drycut::sim::studies {
 

@@ -17,7 +17,7 @@ struct ComparisonScene {
   std::filesystem::path file;
   std::vector<std::string> sources;  ///< the file, then what it extends
   scenario::Text extends;            ///< never kept: for the schema
-  std::vector<scenario::Variable> variables;
+  std::vector<scenario::VariableEntry> variables;
   std::string title;
   struct Channel {
     scenario::Text name;  ///< what all runs call it
@@ -27,7 +27,7 @@ struct ComparisonScene {
   struct Member {
     scenario::Text name;      ///< of the run: its folder, its label, its name in checks; default: the file's
     scenario::Text scenario;  ///< path, relative to the scene
-    std::vector<std::pair<scenario::Override, scenario::Place>> set;
+    std::vector<std::pair<scenario::Override, scenario::ScenePlace>> set;
     std::vector<Channel> channels;
   };
   std::vector<Member> members;
@@ -46,7 +46,8 @@ struct ComparisonScene {
   };
   std::vector<Check> checks;
 
-  [[nodiscard]] Problem problem(const scenario::Place& place, std::string what, std::string remedy) const {
+  [[nodiscard]] Problem problem(const scenario::ScenePlace& place, std::string what,
+                                std::string remedy) const {
     return {sources.at(static_cast<std::size_t>(place.source)), place.line, place.column, std::move(what),
             std::move(remedy)};
   }

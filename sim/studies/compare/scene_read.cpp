@@ -4,9 +4,9 @@
 #include <cctype>
 
 #include "sim/file.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/extends.hpp"
 #include "sim/scenario/format.hpp"
-#include "sim/scenario/forms.hpp"
 #include "sim/scenario/json_schema.hpp"
 #include "sim/scenario/variables.hpp"
 #include "sim/studies/compare/scene.hpp"
@@ -58,7 +58,7 @@ void visit_compare(scenario::Archive& archive, ComparisonScene& scene) {
 }  // namespace
 
 // set: {scene.duration: 2 s}
-void visit(scenario::Archive& archive, std::pair<scenario::Override, scenario::Place>& setting) {
+void visit(scenario::Archive& archive, std::pair<scenario::Override, scenario::ScenePlace>& setting) {
   auto value = scenario::form(setting.first.value);
   value.read = [&setting, read = value.read](const scenario::YamlNode& node, const auto& name,
                                              auto& findings) {
@@ -142,7 +142,7 @@ void visit(scenario::Archive& archive, ComparisonScene& scene) {
   archive.value({"extends", "another such scene that this one changes", false},
                 scenario::form(scene.extends));
   archive.names({"variables", "used as ${name} in this scene", !scene.variables.empty()}, scene.variables,
-                &scenario::Variable::name);
+                &scenario::VariableEntry::name);
   archive.section({"scene", ""}, [&](scenario::Archive& inner) {
     inner.value({"title", "what reports call it"}, scenario::form(scene.title));
   });

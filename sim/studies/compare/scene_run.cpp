@@ -7,7 +7,7 @@
 #include <deque>
 #include <limits>
 
-#include "sim/scenario/yaml_reader.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/studies/tune/metric.hpp"
 
 namespace drycut::sim::studies {

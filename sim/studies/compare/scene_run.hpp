@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/loop/known_events.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/studies/compare/comparison.hpp"
 #include "sim/studies/compare/report.hpp"

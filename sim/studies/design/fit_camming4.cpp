@@ -14,7 +14,7 @@ namespace drycut::sim::studies {
 
 namespace {
 
-using devices::camming4::CamTable;
+using devices::camming4::CamSectors;
 using devices::camming4::Row;
 
 constexpr int most_space = 999999;  // of a sector [Um]
@@ -106,7 +106,7 @@ class SectorTable {
   }
   void pass(double master) { master_ += master; }
 
-  CamTable table;
+  CamSectors table;
   double sync_begin = 0;
 
  private:
@@ -138,14 +138,14 @@ RampAims aims_of(const DesignJob& job, const UmJob& um) {
   if (job.max_travel) aims.most_down = std::max(1, static_cast<int>(*job.max_travel / um.um - um.sync) / 2);
   aims.friction = {job.friction().viscous * um.um, job.friction().coulomb * um.um};
   constexpr double samplings = 1.5;  // at least, for each of a sector's phases
-  const double sampling = CamTable().TCamp * 1e-3;
+  const double sampling = CamSectors().TCamp * 1e-3;
   aims.shortest = job.speed ? static_cast<int>(std::ceil(samplings * *job.speed * sampling / um.um)) : 1;
   aims.most_sectors = devices::camming4::cam_rows - 5;
   return aims;
 }
 
 /// measure and pulse: Um, and counts in them.
-bool set(devices::camming4::Resolution& resolution, const PulseWay& way, int decpt, const char* option,
+bool set(devices::camming4::GrainResolution& resolution, const PulseWay& way, int decpt, const char* option,
          Problems& problems) {
   double um = way.millimetres * std::pow(10, decpt);
   double count = way.count;
@@ -251,7 +251,7 @@ DeviceCam played(SectorTable table, const DesignJob& job, const UmJob& um) {
 
 std::optional<DeviceCam> fit_camming4(const DesignJob& job, const DesignAxes& axes, Problems& problems) {
   const auto um = in_um(job, axes, problems);
-  CamTable head;
+  CamSectors head;
   if (um) {
     head.settings.decpt = um->decpt;
     set(head.settings.master, axes.master, um->decpt, "--master-pulse", problems);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/ecam_table.hpp"
+#include "devices/lx3vp/registers.hpp"
 #include "sim/studies/design/fit.hpp"
 
 namespace drycut::sim::studies {

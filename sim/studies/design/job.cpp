@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/units.hpp"
-#include "sim/cams/findings.hpp"
+#include "sim/cams/report.hpp"
 
 namespace drycut::sim::studies {
 
@@ -15,13 +15,13 @@ namespace {
 constexpr int coarse = 32;  // steps of half the way, to see whether there is a move at all
 
 /// A limit of the job.
-struct Bound {
+struct JobBound {
   const char* option;
   std::optional<double> DesignJob::*value;
   MoveGoal least;
   std::string (*text)(double);
 };
-constexpr Bound bounds[] = {
+constexpr JobBound bounds[] = {
     {"--max-velocity", &DesignJob::max_velocity, MoveGoal::ratio, velocity_text},
     {"--max-acceleration", &DesignJob::max_acceleration, MoveGoal::gradient, acceleration_text},
     {"--max-travel", &DesignJob::max_travel, MoveGoal::excursion, length_text},
@@ -45,7 +45,7 @@ bool is_possible(const DesignJob& job) {
 }
 
 /// The least that a limit must be, in its own unit; nothing if the job is impossible without it too.
-std::optional<double> least(const DesignJob& job, const Bound& bound) {
+std::optional<double> least(const DesignJob& job, const JobBound& bound) {
   auto without = job;
   (without.*bound.value).reset();
   if (!is_possible(without)) return {};

@@ -186,9 +186,9 @@ std::optional<Ramps> out_and_back(int master, int slave, int rest, const WantedS
   return OutAndBack(master, slave, rest, wanted, aims).run();
 }
 
-std::optional<Turn> turn_round(int master, int slave, double still, const WantedSpeed& wanted,
-                               const RampAims& aims) {
-  Best<Turn> best(aims.goal);
+std::optional<TurnRound> turn_round(int master, int slave, double still, const WantedSpeed& wanted,
+                                    const RampAims& aims) {
+  Best<TurnRound> best(aims.goal);
   const int most = aims.cycloidal ? 1 : std::min(aims.most_ramps / 2, (aims.most_sectors - 3) / 4);
   const auto inner = [&](double part) { return wanted(still + (1 - 2 * still) * part); };
   for (int count = 1; count <= most; ++count) {
@@ -201,7 +201,7 @@ std::optional<Turn> turn_round(int master, int slave, double still, const Wanted
       if (q < aims.shortest || q < 2 || left < 2 * aims.shortest) continue;
       for (const double bias : biases) {
         if (count == 1 && bias != 0) break;
-        Turn turn;
+        TurnRound turn;
         int before = q / 2;
         int way = 0;
         bool forward = true;

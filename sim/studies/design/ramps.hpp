@@ -59,13 +59,13 @@ std::optional<Ramps> out_and_back(int master, int slave, int rest, const WantedS
 
 /// From the master's speed to rest (`down`), out the other way or not at all, and from rest to its speed
 /// again.
-struct Turn {
+struct TurnRound {
   std::vector<RampSector> down;  ///< backwards they lead up
   std::vector<RampSector> out;
   RampCost cost;
 };
 /// `still`: the part of `master` after which the slave stands first; `wanted` over the whole of it.
-std::optional<Turn> turn_round(int master, int slave, double still, const WantedSpeed& wanted,
-                               const RampAims& aims);
+std::optional<TurnRound> turn_round(int master, int slave, double still, const WantedSpeed& wanted,
+                                    const RampAims& aims);
 
 }  // namespace drycut::sim::studies

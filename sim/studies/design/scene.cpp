@@ -11,8 +11,8 @@
 
 #include "base/text.hpp"
 #include "devices/camming4/cam_table.hpp"
-#include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/ecam_table.hpp"
+#include "devices/lx3vp/registers.hpp"
 #include "sim/cams/study.hpp"
 #include "sim/record/own_file.hpp"
 #include "sim/scenario/format.hpp"
@@ -34,7 +34,7 @@ class SceneMaker {
   std::optional<CamScene> make() {
     const auto before = problems_.size();
     if (const auto* qmove = section<controllers::QmoveSection>("camming4"))
-      take(sheet_.device->table.as<devices::camming4::CamTable>(), *qmove);
+      take(sheet_.device->table.as<devices::camming4::CamSectors>(), *qmove);
     else if (const auto* lx3vp = section<controllers::Lx3vpSection>("lx3vp"))
       take(sheet_.device->table.as<devices::lx3vp::EcamTable>(), *lx3vp);
     else if (const auto* plcopen = section<controllers::PlcopenSection>("mc_camin"))
@@ -72,7 +72,7 @@ class SceneMaker {
     return "";
   }
 
-  void take(const devices::camming4::CamTable& cam, const controllers::QmoveSection& section) {
+  void take(const devices::camming4::CamSectors& cam, const controllers::QmoveSection& section) {
     const auto configuration = content(section.configuration);
     const auto axes = found_in(configuration, R"(^\s*(\w+)\s+CAMMING4\b)");
     if (axes.size() != 1)

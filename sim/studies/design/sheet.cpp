@@ -85,9 +85,9 @@ std::string move_text(const DesignJob& job) {
 }
 
 /// A cam's line of the table.
-class Line {
+class SheetLine {
  public:
-  Line(const DesignJob& job, const CamFigures& figures) : job_(job), figures_(figures) {}
+  SheetLine(const DesignJob& job, const CamFigures& figures) : job_(job), figures_(figures) {}
 
   [[nodiscard]] std::vector<std::string> cells(const std::string& name) const {
     const double v = job_.speed.value_or(1);
@@ -164,7 +164,7 @@ std::string table_of_figures(const DesignSheet& sheet) {
   if (job.goal == MoveGoal::energy) headings.push_back({"rms force", "N"});
   cams::Columns columns(headings);
   const auto add = [&](const std::string& name, const CamFigures& figures) {
-    columns.add(Line(job, figures).cells(name));
+    columns.add(SheetLine(job, figures).cells(name));
   };
   add("designed", figures_of(sheet.cam));
   if (sheet.device) add("as " + sheet.device_name + " plays it", sheet.device->figures);

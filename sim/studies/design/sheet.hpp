@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "renders/plots.hpp"
-#include "sim/cams/findings.hpp"
+#include "sim/cams/report.hpp"
 #include "sim/studies/design/fit.hpp"
 
 namespace drycut::sim::studies {

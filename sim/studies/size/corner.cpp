@@ -8,7 +8,7 @@
 #include "base/text.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/simulation.hpp"
-#include "sim/studies/compare/recorded_csv.hpp"
+#include "sim/studies/recorded_csv.hpp"
 
 namespace drycut::sim::studies {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "sim/studies/compare/recorded_csv.hpp"
+#include "sim/studies/recorded_csv.hpp"
 
 namespace drycut::sim::studies {
 

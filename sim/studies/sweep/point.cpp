@@ -11,8 +11,8 @@
 #include "base/text.hpp"
 #include "plants/plant.hpp"
 #include "sim/loop/statistics.hpp"
-#include "sim/studies/compare/recorded_csv.hpp"
 #include "sim/studies/fingerprint.hpp"
+#include "sim/studies/recorded_csv.hpp"
 #include "sim/studies/sweep/rated_drive.hpp"
 #include "sim/studies/tune/metric.hpp"
 
@@ -104,8 +104,8 @@ std::vector<PointQuestion::Piece> pieces_of(const std::vector<loop::KnownEvent>&
       if (value == "mismatch") piece.mismatch_unit = unit;
     }
     if (piece.length_unit.empty()) continue;
-    const auto looks =
-        std::find_if(scenario.checks.begin(), scenario.checks.end(), [&](const scenario::Check& check) {
+    const auto looks = std::find_if(
+        scenario.checks.begin(), scenario.checks.end(), [&](const scenario::CheckRequest& check) {
           return (check.event.text == plants::cut_event || check.event.text == event.source + ".cut") &&
                  check.from > 0;
         });
@@ -133,7 +133,7 @@ std::vector<std::string> columns_of(const PointQuestion& question,
   }
   for (std::size_t i = 0; i < checks.size(); ++i) {
     const bool in_time =
-        i < scenario.checks.size() && scenario.checks[i].kind == scenario::Check::Kind::eventually;
+        i < scenario.checks.size() && scenario.checks[i].kind == scenario::CheckRequest::Kind::eventually;
     const auto unit = in_time ? std::string("s") : checks[i].unit;
     columns.push_back(
         fmt::format("margin of {}{}", checks[i].name, unit.empty() ? "" : fmt::format(" [{}]", unit)));

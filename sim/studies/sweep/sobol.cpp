@@ -12,20 +12,20 @@ namespace {
 constexpr int sobol_bits = 32;
 using Directions = std::array<std::uint32_t, sobol_bits>;
 
-struct Row {
+struct SobolRow {
   int degree;
   std::uint32_t polynomial;  // its inner coefficients
   std::array<std::uint32_t, 5> begin;
 };
-constexpr std::array<Row, sobol_axes - 1> joe_kuo_rows = {{{1, 0, {1}},
-                                                           {2, 1, {1, 3}},
-                                                           {3, 1, {1, 3, 1}},
-                                                           {3, 2, {1, 1, 1}},
-                                                           {4, 1, {1, 1, 3, 3}},
-                                                           {4, 4, {1, 3, 5, 13}},
-                                                           {5, 2, {1, 1, 5, 5, 17}},
-                                                           {5, 4, {1, 1, 5, 5, 5}},
-                                                           {5, 7, {1, 1, 7, 11, 19}}}};
+constexpr std::array<SobolRow, sobol_axes - 1> joe_kuo_rows = {{{1, 0, {1}},
+                                                                {2, 1, {1, 3}},
+                                                                {3, 1, {1, 3, 1}},
+                                                                {3, 2, {1, 1, 1}},
+                                                                {4, 1, {1, 1, 3, 3}},
+                                                                {4, 4, {1, 3, 5, 13}},
+                                                                {5, 2, {1, 1, 5, 5, 17}},
+                                                                {5, 4, {1, 1, 5, 5, 5}},
+                                                                {5, 7, {1, 1, 7, 11, 19}}}};
 
 constexpr Directions directions_of(std::size_t axis) {
   Directions v{};

@@ -82,7 +82,7 @@ std::vector<PointRow> PointStore::rows(const PointQuestion& question, const std:
     return cluster::Ask{json(points[i]).dump(),
                         [&question, point] { return row_text(run_point(question, *point)); }};
   };
-  const auto take = [&](std::size_t i, const cluster::Answer& answer) {
+  const auto take = [&](std::size_t i, const cluster::WorkerAnswer& answer) {
     const std::lock_guard lock(mutex);
     if (!answer.lost.empty()) {
       rows[i] =

@@ -29,7 +29,7 @@ std::string sweep_csv(const PointQuestion& question, const SweepAxes& axes,
                       const std::vector<SweepPoint>& points, const std::vector<PointRow>& rows);
 
 /// A value of the sought parameter that was looked at.
-struct Look {
+struct ValueLook {
   double value = 0;
   PointRow::Verdict verdict = PointRow::Verdict::passed;
 };
@@ -49,7 +49,7 @@ struct Bound {
   std::vector<double> numbers;                  ///< of the row at `value`
   std::vector<std::pair<double, double>> gaps;  ///< beyond the bound: fails from here to there, then holds
   std::optional<double> again;                  ///< beyond the bound it holds again, here
-  std::vector<Look> looks;                      ///< all of them, ascending
+  std::vector<ValueLook> looks;                 ///< all of them, ascending
 };
 std::string_view name_of(Bound::Kind kind);
 

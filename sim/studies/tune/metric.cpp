@@ -8,7 +8,7 @@
 
 #include "base/text.hpp"
 #include "sim/loop/statistics.hpp"
-#include "sim/scenario/expression_scan.hpp"
+#include "sim/scenario/expression_tree.hpp"
 
 namespace drycut::sim::studies {
 

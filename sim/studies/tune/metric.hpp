@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/loop/checks.hpp"
+#include "sim/loop/known_events.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/loop/watch.hpp"
 #include "sim/record/recording.hpp"

@@ -9,7 +9,6 @@
 
 #include "base/text.hpp"
 #include "plants/plant.hpp"
-#include "sim/controllers/kinds.hpp"
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/overwritten.hpp"
 #include "sim/scenario/units.hpp"
@@ -20,9 +19,9 @@ namespace {
 
 constexpr std::string_view integer_suffix = ":integer";
 
-class Reader {
+class VaryReader {
  public:
-  Reader(const std::string& text, const std::string& option, Problems& problems)
+  VaryReader(const std::string& text, const std::string& option, Problems& problems)
       : text_(text), option_(option), problems_(problems) {}
 
   std::optional<TunedParameter> run(bool relative) {
@@ -159,7 +158,7 @@ std::optional<double> variable_value(TunedParameter& parameter, const scenario::
 
 std::optional<TunedParameter> parse_parameter(const std::string& text, const std::string& option,
                                               bool relative, Problems& problems) {
-  return Reader(text, option, problems).run(relative);
+  return VaryReader(text, option, problems).run(relative);
 }
 
 std::string value_text(const TunedParameter& parameter, double value) {
@@ -192,7 +191,7 @@ std::vector<scenario::Override> overrides_of(const TunedParameters& parameters, 
 }
 
 std::optional<PresetName> preset_name(const std::string& path) {
-  for (const auto& kind : controllers::controller_kinds()) {
+  for (const auto& kind : scenario::controller_kinds()) {
     const auto prefix = fmt::format("controller.{}.set.", kind.name);
     if (path.starts_with(prefix)) return PresetName{std::string(kind.name), path.substr(prefix.size())};
   }

@@ -14,7 +14,7 @@ namespace drycut::sim::studies {
 namespace {
 
 /// A value at its place in the scenario.
-struct Entry {
+struct PatchEntry {
   std::string path;
   std::string value;
   std::string who;
@@ -44,10 +44,10 @@ bool lies_in_a_list(const std::string& path) {
   return false;
 }
 
-std::vector<Entry> entries_of(const Tuning& tuning) {
+std::vector<PatchEntry> entries_of(const Tuning& tuning) {
   const auto& parameters = tuning.trials.parameters();
   const auto& point = tuning.trials.at(tuning.best).point;
-  std::vector<Entry> entries;
+  std::vector<PatchEntry> entries;
   for (std::size_t i = 0; i < parameters.size() && !tuning.stays; ++i) {
     const auto& before = tuning.present[i].value;
     entries.push_back({parameters[i].path, value_text(parameters[i], point[i]),
@@ -56,14 +56,15 @@ std::vector<Entry> entries_of(const Tuning& tuning) {
   }
   for (const auto& override : tuning.study.set) {
     const bool told = std::any_of(entries.begin(), entries.end(),
-                                  [&](const Entry& entry) { return entry.path == override.path; });
+                                  [&](const PatchEntry& entry) { return entry.path == override.path; });
     if (!told) entries.push_back({override.path, override.value, "--set"});
   }
   return entries;
 }
 
-std::string yaml_of(std::vector<Entry> entries) {
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.path < b.path; });
+std::string yaml_of(std::vector<PatchEntry> entries) {
+  std::sort(entries.begin(), entries.end(),
+            [](const PatchEntry& a, const PatchEntry& b) { return a.path < b.path; });
   std::string text;
   std::vector<std::string> open;  // keys of the line before
   for (const auto& [path, value, who] : entries) {
@@ -100,7 +101,7 @@ std::string patch_text(const Tuning& tuning) {
   std::string others;
   for (const auto& [path, value, who] : entries)
     if (lies_in_a_list(path)) others += fmt::format("#   {}: {} ({})\n", path, value, who);
-  std::erase_if(entries, [](const Entry& entry) { return lies_in_a_list(entry.path); });
+  std::erase_if(entries, [](const PatchEntry& entry) { return lies_in_a_list(entry.path); });
 
   std::string text;
   if (const auto miss = miss_text(tuning); !miss.empty()) text += fmt::format("# {}\n", miss);

@@ -8,10 +8,10 @@
 
 #include "sim/file.hpp"
 #include "sim/loop/simulation.hpp"
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 #include "sim/studies/tune/patch.hpp"
-#include "sim/studies/tune/search.hpp"
+#include "sim/studies/tune/trials.hpp"
 
 namespace drycut::sim::studies {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/extends.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::studies {
 

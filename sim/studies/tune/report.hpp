@@ -7,7 +7,6 @@
 
 #include "sim/output_folder.hpp"
 #include "sim/studies/tune/present.hpp"
-#include "sim/studies/tune/search.hpp"
 #include "sim/studies/tune/study.hpp"
 #include "sim/studies/tune/trials.hpp"
 

@@ -1,4 +1,4 @@
-#include "sim/studies/tune/search.hpp"
+#include "sim/studies/tune/trials.hpp"
 
 #include <algorithm>
 #include <array>

@@ -44,7 +44,7 @@ void record_names(scenario::Scenario& scenario, const std::vector<Gauge>& all) {
     scenario.sources.push_back(gauge.option);
     for (const auto& name : gauge.metric.names()) {
       if (!name.event.empty()) continue;
-      const scenario::Place place{1, static_cast<int>(name.offset) + 1, source};
+      const scenario::ScenePlace place{1, static_cast<int>(name.offset) + 1, source};
       scenario.record.channels.push_back({name.text, place});
     }
   }
@@ -94,7 +94,7 @@ void judge_limit(const Gauge& gauge, double room, double& worst, Verdict& verdic
 }
 
 /// Takes what pushes have found: values that hunt after one are beyond every limit.
-void judge_pushes(const std::optional<Hunting>& hunting, Verdict& verdict) {
+void judge_pushes(const std::optional<HuntingPoint>& hunting, Verdict& verdict) {
   if (!hunting) return;
   verdict.runs += 2;
   if (!hunting->failure.empty()) return;

@@ -17,10 +17,10 @@
 #include "base/text.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/controller_loader.hpp"
-#include "sim/studies/compare/recorded_csv.hpp"
 #include "sim/studies/fingerprint.hpp"
 #include "sim/studies/override_json.hpp"
 #include "sim/studies/proven_line.hpp"
+#include "sim/studies/recorded_csv.hpp"
 
 namespace drycut::sim::studies {
 
@@ -220,7 +220,7 @@ std::vector<std::size_t> Trials::run(const std::string& phase, const std::vector
     return std::optional(cluster::Ask{
         asked.dump(), [this, overrides, to_beat] { return text_of(measure(study_, overrides, to_beat)); }});
   };
-  const auto take = [&](std::size_t i, const cluster::Answer& answer) {
+  const auto take = [&](std::size_t i, const cluster::WorkerAnswer& answer) {
     auto& trial = trials_[open[i]];
     came[i] = answer.lost.empty() ? answer.text : "lost";
     if (answer.lost.empty()) {

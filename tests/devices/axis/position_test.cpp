@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "devices/axis/frequency_meter.hpp"
-#include "devices/axis/speed.hpp"
-
 namespace drycut::devices::axis {
 namespace {
 

@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "devices/axis/dac.hpp"
-#include "devices/axis/following_error.hpp"
-
 namespace drycut::devices::axis {
 namespace {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "devices/camming4/arc.hpp"
+#include "devices/camming4/laws.hpp"
 #include "tests/devices/camming4/cam_bench.hpp"
 
 namespace drycut::devices::camming4 {

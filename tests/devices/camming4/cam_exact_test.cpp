@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "devices/camming4/exact.hpp"
+#include "devices/camming4/sector.hpp"
 
 namespace drycut::devices::camming4 {
 namespace {

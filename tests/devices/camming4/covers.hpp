@@ -1,7 +1,7 @@
 #pragma once
 #include "devices/camming4/camming4.hpp"
-#include "devices/camming4/codes.hpp"
 #include "devices/camming4/messages.hpp"
+#include "devices/camming4/sector.hpp"
 #include "tests/devices/coverage.hpp"
 
 namespace drycut::devices::camming4 {

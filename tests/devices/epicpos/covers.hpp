@@ -1,5 +1,4 @@
 #pragma once
-#include "devices/eanpos/eanpos.hpp"
 #include "devices/epicpos/epicpos.hpp"
 #include "tests/devices/coverage.hpp"
 

@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 
-#include "devices/eanpos/eanpos.hpp"
 #include "devices/epicpos/epicpos.hpp"
 
 namespace drycut::devices::epicpos {

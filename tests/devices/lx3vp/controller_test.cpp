@@ -28,7 +28,7 @@ class Plc {
     controller_.offer({Kind::output, 0, 7});
   }
 
-  static il::Program compile(const std::string& text) {
+  static il::IlProgram compile(const std::string& text) {
     Problems problems;
     auto program = il::compile(text, "test.il", problems);
     for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);

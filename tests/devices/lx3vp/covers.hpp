@@ -1,7 +1,7 @@
 #pragma once
 #include <fmt/format.h>
 
-#include "devices/lx3vp/block.hpp"
+#include "devices/lx3vp/registers.hpp"
 #include "tests/devices/coverage.hpp"
 
 namespace drycut::devices::lx3vp {

@@ -1,7 +1,6 @@
 // ECAMTBX as a program calls it: from a list in D registers to a cam's block.
 #include "devices/lx3vp/ecamtbx_registers.hpp"
 
-#include "devices/lx3vp/ecamtbx_words.hpp"
 #include "tests/devices/lx3vp/bench.hpp"
 #include "tests/devices/lx3vp/ecamtbx_bench.hpp"
 #include "tests/devices/lx3vp/il_bench.hpp"

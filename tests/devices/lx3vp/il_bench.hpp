@@ -76,7 +76,7 @@ class Plc {
     Problems problems;
     program_ = compile(text + "\nEND\n", "p.il", problems);
     for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
-    scanner_ = std::make_unique<Scanner>(program_);
+    scanner_ = std::make_unique<ProgramScan>(program_);
     registers.m[8000] = true;  // always ON
   }
   Plc& scan(int times = 1) {
@@ -100,8 +100,8 @@ class Plc {
   Notes notes;
 
  private:
-  Program program_;
-  std::unique_ptr<Scanner> scanner_;
+  IlProgram program_;
+  std::unique_ptr<ProgramScan> scanner_;
 };
 
 }  // namespace drycut::devices::lx3vp::il

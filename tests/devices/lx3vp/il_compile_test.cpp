@@ -2,8 +2,8 @@
 #include <random>
 #include <set>
 
-#include "devices/lx3vp/il_doubts.hpp"
 #include "devices/lx3vp/il_operands.hpp"
+#include "devices/lx3vp/il_program.hpp"
 #include "tests/devices/lx3vp/il_bench.hpp"
 
 namespace drycut::devices::lx3vp::il {
@@ -281,7 +281,7 @@ TEST(IlCompile, RandomTextNeverCrashes) {
     ++sound;
     Registers registers;
     Notes notes;
-    Scanner scanner(program);
+    ProgramScan scanner(program);
     scanner.scan(registers, notes);
   }
   EXPECT_GT(sound, 10);

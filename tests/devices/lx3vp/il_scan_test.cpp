@@ -179,7 +179,7 @@ TEST(IlTimers, NoTimeIsLostBetweenScansThatDoNotDivideTheUnit) {
   Registers registers;
   registers.m[8000] = true;
   Notes notes;
-  Scanner scanner(program);
+  ProgramScan scanner(program);
   for (int i = 0; i <= 1000; ++i) {
     registers.time_ns = i * 3'700'000LL;
     scanner.scan(registers, notes);

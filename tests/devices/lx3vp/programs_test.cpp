@@ -22,7 +22,7 @@ struct WatchedPlc {
       : controller(compiled_program(text), scan_time, step_ns) {
     controller.offer({Kind::input, 0, 0});
   }
-  static il::Program compiled_program(const std::string& text) {
+  static il::IlProgram compiled_program(const std::string& text) {
     Problems problems;
     auto program = il::compile(text, "watched.il", problems);
     for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);

@@ -22,7 +22,7 @@ struct TimedPlc {
     controller.offer({Kind::output, 0, 0});
     controller.offer({Kind::output, 0, 1});
   }
-  static il::Program compiled(const std::string& text) {
+  static il::IlProgram compiled(const std::string& text) {
     Problems problems;
     auto program = il::compile(text, "test.il", problems);
     for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);

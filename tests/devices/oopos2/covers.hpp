@@ -1,4 +1,5 @@
 #pragma once
+#include "base/problem.hpp"
 #include "devices/oopos2/oopos2.hpp"
 #include "tests/devices/coverage.hpp"
 

@@ -97,7 +97,7 @@ TEST_P(Oopos2Random, EveryStopEndsWithinToldly) {
     const auto leg = [&] {
       return Leg{pick(0, 1) == 1, pick(0, 1) == 1, pick(0, 1) == 1, pick(-5000, 5000), pick(-50, 300)};
     };
-    if (movement.phase() == Phase::still && pick(0, 1) == 0)
+    if (movement.phase() == MovementPhase::still && pick(0, 1) == 0)
       movement.place(pick(0, 1) == 0 ? std::optional(leg()) : std::nullopt, leg());
     else
       movement.run(leg());
@@ -105,13 +105,13 @@ TEST_P(Oopos2Random, EveryStopEndsWithinToldly) {
       movement.tick(period);
       movement.step(pick(-6000, 6000), pick(0, 500));
       ASSERT_GE(movement.timer_ms(), 0);
-      ASSERT_EQ(movement.outputs().braked, movement.phase() == Phase::still);
+      ASSERT_EQ(movement.outputs().braked, movement.phase() == MovementPhase::still);
     }
-    if (movement.phase() == Phase::still || movement.phase() == Phase::tolerance) continue;
+    if (movement.phase() == MovementPhase::still || movement.phase() == MovementPhase::tolerance) continue;
     movement.stop();
     ASSERT_FALSE(movement.running());
     int ms = 0;
-    for (; movement.phase() != Phase::still; ms += period) {
+    for (; movement.phase() != MovementPhase::still; ms += period) {
       ASSERT_LE(ms, movement.times.tolerance + period);
       movement.tick(period);
       movement.step(0, 0);

@@ -31,7 +31,7 @@ TEST(PlcopenCam, OffsetsAndScalingsAreThoseOfTheTransform) {
 
 TEST(PlcopenCam, ThePositionIsExactHoweverManyTurnsThereWere) {
   // The law itself, at a master that has made ten million turns and comes to the same part of one.
-  const CamTable table{.file = {}, .name = {}, .id = 1, .type = 3, .values = {0, 1'000'000, 2'500'000}};
+  const McCamTable table{.file = {}, .name = {}, .id = 1, .type = 3, .values = {0, 1'000'000, 2'500'000}};
   const CamCurve curve = curve_of(table, Interpolation::linear, turn, turn, Endless::positive);
   Coupling coupling(CamFollow{.curve = curve}, turn);
   Coupling engaged(CamFollow{.curve = curve}, turn);
@@ -188,7 +188,7 @@ TEST(PlcopenCam, AWriteReachesARunningSlaveUnlessTheTableIsLocked) {
   c.couple(hli_ci_f_periodic | hli_ci_lock_table);
   EXPECT_EQ(c.kernel.write_table(1, 0, 0, 70'000), ErrorId::table_locked);
   EXPECT_EQ(c.kernel.begin_table_change(1), ErrorId::table_locked);
-  EXPECT_EQ(c.kernel.add_table(CamTable{.file = {}, .name = {}, .id = 1, .type = 3, .values = {5}}),
+  EXPECT_EQ(c.kernel.add_table(McCamTable{.file = {}, .name = {}, .id = 1, .type = 3, .values = {5}}),
             ErrorId::table_locked);
   auto out = c.make<McCamOut>();
   out.Execute = true;

@@ -1,5 +1,5 @@
 // The PLCopen controller as the simulation sees it: terminals, values by name, events, power.
-#include "devices/plcopen/controller.hpp"
+#include "devices/plcopen/controller/controller.hpp"
 
 #include <gmock/gmock.h>
 
@@ -37,8 +37,8 @@ END_PROGRAM
 // A controller with an encoder axis, a drive axis in deg and a virtual axis in mm. The knife's drive turns as
 // fast as it is told, exactly.
 struct Rig {
-  static Configuration configuration() {
-    Configuration made;
+  static PlcopenConfiguration configuration() {
+    PlcopenConfiguration made;
     AxisConfiguration web{"Web", {}, Measure::length};
     web.parameters.kind = AxisKind::encoder;
     web.parameters.modulo = 8'000'000;
@@ -50,7 +50,7 @@ struct Rig {
     line.parameters.kind = AxisKind::virtual_axis;
     line.parameters.homed_at_start = true;
     made.axes = {web, knife, line};
-    CamTable table;
+    McCamTable table;
     table.file = "knife.tab";
     table.id = 1;
     table.type = 7;
@@ -64,7 +64,7 @@ struct Rig {
     for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
     return compiled;
   }
-  explicit Rig(const std::string& text = turning_line, const Configuration& made = configuration())
+  explicit Rig(const std::string& text = turning_line, const PlcopenConfiguration& made = configuration())
       : controller(program(text), "line.st", made) {}
 
   void run(int milliseconds) {
@@ -196,7 +196,7 @@ TEST(PlcopenController, ProgramsRunInTheirTasksAndPassThemWithoutPower) {
       "order := order * 10 + 1; END_PROGRAM PROGRAM Slow VAR n : INT; END_VAR n := n + 1; order := order * "
       "10 + 2; "
       "END_PROGRAM PROGRAM Rest VAR n : INT; END_VAR n := n + 1; order := order * 10 + 3; END_PROGRAM";
-  Configuration made = Rig::configuration();
+  PlcopenConfiguration made = Rig::configuration();
   made.cycle_ns = 1'000'000;
   made.task_ns = 5'000'000;
   made.tasks = {{"slow", 0, 0, 4'000'000, 0, {"slow"}}, {"fast", 0, 0, 2'000'000, 1, {"FAST"}}};
@@ -322,7 +322,7 @@ END_PROGRAM
 }
 
 TEST(PlcopenController, ARefusalNamesTheAxisThatItIsAbout) {
-  Configuration made = Rig::configuration();
+  PlcopenConfiguration made = Rig::configuration();
   for (AxisConfiguration& axis : made.axes) axis.parameters.is_master = axis.name != "Line";
   made.axes[0].parameters.modulo = 0;
   made.axes[1].parameters.homed_at_start = true;
@@ -348,7 +348,7 @@ END_PROGRAM
 }
 
 TEST(PlcopenController, ACamBehindALinearMasterNamesTheMaster) {
-  Configuration made = Rig::configuration();
+  PlcopenConfiguration made = Rig::configuration();
   made.axes[0].parameters.is_master = true;
   made.axes[0].parameters.modulo = 0;
   made.axes[1].parameters.homed_at_start = true;

@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "base/problem.hpp"
 #include "devices/plcopen/axis_parameters.hpp"
 #include "devices/plcopen/cam_table.hpp"
 #include "devices/plcopen/errors.hpp"

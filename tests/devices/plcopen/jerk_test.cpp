@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "devices/plcopen/jerk_profile.hpp"
+#include "devices/plcopen/coupling.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {

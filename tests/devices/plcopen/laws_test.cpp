@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "devices/plcopen/cam_laws.hpp"
+#include "devices/plcopen/cam_table.hpp"
 #include "tests/devices/plcopen/covers.hpp"
 
 namespace drycut::devices::plcopen {
@@ -12,14 +12,14 @@ namespace {
 
 constexpr double turn = 3'600'000;
 
-CamTable slaves(std::vector<double> values) {
+McCamTable slaves(std::vector<double> values) {
   return {.file = {}, .name = {}, .id = 1, .type = 3, .values = std::move(values)};
 }
-CamTable pairs(std::vector<double> values) {
+McCamTable pairs(std::vector<double> values) {
   return {.file = {}, .name = {}, .id = 1, .type = 7, .values = std::move(values)};
 }
 
-CamCurve curve(const CamTable& table, Interpolation type, Endless endless = Endless::no) {
+CamCurve curve(const McCamTable& table, Interpolation type, Endless endless = Endless::no) {
   return curve_of(table, type, turn, turn, endless);
 }
 
@@ -103,7 +103,7 @@ TEST(PlcopenLaws, PolynomThreeIsNoNaturalSpline) {
 }
 
 TEST(PlcopenLaws, CoefficientsAreOfTheLocalShare) {
-  CamTable table{.file = {}, .name = {}, .id = 1, .type = 5, .values = {1, 2, 3, 4, 10, 0, 0, -5}};
+  McCamTable table{.file = {}, .name = {}, .id = 1, .type = 5, .values = {1, 2, 3, 4, 10, 0, 0, -5}};
   const CamCurve cam = curve(table, Interpolation::polynom_3_koeff);
   EXPECT_EQ(at(cam, 0).position, 1);
   EXPECT_DOUBLE_EQ(at(cam, turn / 4).position, 1 + 2 * 0.5 + 3 * 0.25 + 4 * 0.125);
@@ -217,7 +217,7 @@ TEST(PlcopenLaws, EndlessTurnsAStepAgainstItsDirectionOverTheTurn) {
 }
 
 TEST(PlcopenLaws, EndlessCoefficientsGoOnInTheTurnInWhichTheyEnd) {
-  CamTable table{.file = {}, .name = {}, .id = 1, .type = 5, .values = {0, turn, 0, 0}};
+  McCamTable table{.file = {}, .name = {}, .id = 1, .type = 5, .values = {0, turn, 0, 0}};
   EXPECT_EQ(curve(table, Interpolation::polynom_3_koeff, Endless::positive).turns, 1);
   EXPECT_EQ(curve(table, Interpolation::polynom_3_koeff).turns, 0);
 }

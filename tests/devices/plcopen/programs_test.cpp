@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/plcopen/controller.hpp"
+#include "devices/plcopen/controller/controller.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {
@@ -20,8 +20,8 @@ struct WatchedRig {
 
   explicit WatchedRig(const std::string& text, std::int64_t statement_ns = 0)
       : controller(compiled_text(text), "watched.st", configured(statement_ns)) {}
-  static Configuration configured(std::int64_t statement_ns) {
-    Configuration made;
+  static PlcopenConfiguration configured(std::int64_t statement_ns) {
+    PlcopenConfiguration made;
     made.cycle_ns = ms;
     made.task_ns = 10 * ms;
     made.statement_ns = statement_ns;

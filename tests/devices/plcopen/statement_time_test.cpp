@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/plcopen/controller.hpp"
+#include "devices/plcopen/controller/controller.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {
@@ -23,8 +23,8 @@ struct TimedRig {
 
   TimedRig(const std::string& text, std::int64_t task_ns, std::int64_t statement_ns)
       : controller(compiled(text), "line.st", configuration(task_ns, statement_ns)) {}
-  static Configuration configuration(std::int64_t task_ns, std::int64_t statement_ns) {
-    Configuration made;
+  static PlcopenConfiguration configuration(std::int64_t task_ns, std::int64_t statement_ns) {
+    PlcopenConfiguration made;
     made.cycle_ns = 1000 * us;
     made.task_ns = task_ns;
     made.statement_ns = statement_ns;

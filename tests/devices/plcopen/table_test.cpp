@@ -184,7 +184,7 @@ TEST(PlcopenTable, EachTypeGoesWithItsInterpolationsOnly) {
   // 1..3 with 0..2, 4 and 5 with 3, 7 with 4 and 5, 6 with none.
   for (int type = 1; type <= 7; ++type) {
     for (int wanted = 0; wanted <= 5; ++wanted) {
-      const CamTable table{.file = {}, .name = {}, .id = 1, .type = type, .values = {0, 0, 5'000, 0}};
+      const McCamTable table{.file = {}, .name = {}, .id = 1, .type = type, .values = {0, 0, 5'000, 0}};
       const bool fits = (type <= 3 && wanted <= 2) || ((type == 4 || type == 5) && wanted == 3) ||
                         (type == 7 && wanted >= 4);
       EXPECT_EQ(check(table, static_cast<Interpolation>(wanted), 3'600'000),
@@ -221,7 +221,7 @@ TEST(PlcopenTable, PairsAscendByATenthOfADegreeOverTheWrapTooAndAreEven) {
 TEST(PlcopenTable, TheStoreRefusesWhatItCannotHold) {
   CamTables tables;
   const auto table = [](int type, std::uint16_t id, std::vector<double> values) {
-    return CamTable{.file = "a.tab", .name = {}, .id = id, .type = type, .values = std::move(values)};
+    return McCamTable{.file = "a.tab", .name = {}, .id = id, .type = type, .values = std::move(values)};
   };
   EXPECT_EQ(tables.add(table(1, 0, {1})), ErrorId::table_id);
   EXPECT_EQ(tables.add(table(6, 1, {1})), ErrorId::table_type_unknown);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/catalogue.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/qmove_controller.hpp"
 
 // The manuals' programs, in the folder that the environment variable DRYCUT_EXAMPLES names, else beside the
@@ -43,7 +43,8 @@ TEST_P(QmoveExamples, CompileWithoutAProblem) {
       parse_configuration(contents(cnf), cnf.filename(), catalogue(), problems);
   for (const Problem& problem : problems)
     if (problem.what.starts_with("unknown device type")) GTEST_SKIP() << to_string(problem);
-  const Program program = compile_module(contents(mod), mod.filename(), configuration, catalogue(), problems);
+  const QclProgram program =
+      compile_module(contents(mod), mod.filename(), configuration, catalogue(), problems);
   for (const Problem& problem : problems) ADD_FAILURE() << to_string(problem);
   EXPECT_FALSE(program.code.empty());
 }

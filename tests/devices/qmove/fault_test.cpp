@@ -168,7 +168,7 @@ TEST(QmoveFault, LeavesNoCode) {
   Problems problems;
   const Configuration configuration =
       parse_configuration(testing::usual_cnf, "c", testing::puppets(), problems);
-  const Program program =
+  const QclProgram program =
       compile_module("slR = 1\nslQ9 = 2\nEND\n", "dir/a.b.mod", configuration, testing::puppets(), problems);
   EXPECT_TRUE(program.code.empty());
   EXPECT_EQ(program.name, "a.b");

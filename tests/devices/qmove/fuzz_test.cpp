@@ -92,7 +92,7 @@ TEST(QmoveFuzz, DamagedModulesGiveProblemsOrAProgramThatRuns) {
   for (unsigned seed = 0; seed < 4000; ++seed) {
     const std::string text = Mutator(seed)(sample_module);
     Problems problems;
-    const Program program = compile_module(text, "m.mod", configuration, puppets(), problems);
+    const QclProgram program = compile_module(text, "m.mod", configuration, puppets(), problems);
     expect_places(problems, text);
     EXPECT_EQ(program.code.empty(), !problems.empty()) << text;
     if (!problems.empty()) continue;
@@ -116,7 +116,8 @@ TEST(QmoveFuzz, DamagedConfigurationsGiveProblemsOrAController) {
     expect_places(problems, text);
     // Modules can be checked against a configuration with faults.
     Problems module_problems;
-    const Program program = compile_module(sample_module, "m.mod", configuration, puppets(), module_problems);
+    const QclProgram program =
+        compile_module(sample_module, "m.mod", configuration, puppets(), module_problems);
     expect_places(module_problems, sample_module);
     if (!problems.empty()) continue;
     ++sound;

@@ -27,7 +27,7 @@ TEST(QmoveStatement, ANumberBeyondTheSizeOfItsVariableWrapsAndIsNoted) {
   const Configuration configuration =
       parse_configuration("CONST\ncBig 40000\n" + std::string(testing::usual_cnf.substr(6)), "test.cnf",
                           testing::puppets(), problems);
-  const Program program = compile_module(module, "task.mod", configuration, testing::puppets(), problems);
+  const QclProgram program = compile_module(module, "task.mod", configuration, testing::puppets(), problems);
   EXPECT_EQ(text_of(problems), "");
   EXPECT_THAT(program.notes,
               ::testing::ElementsAre("task.mod:1:1: gbSmall: 200 does not fit size B, taken as -56",
@@ -43,10 +43,11 @@ TEST(QmoveStatement, AFractionThatIsCutOffIsNoted) {
   const Configuration configuration =
       parse_configuration("CONST\ncDeep -2.5\n" + std::string(testing::usual_cnf.substr(6)), "test.cnf",
                           testing::puppets(), problems);
-  const Program program = compile_module(module, "task.mod", configuration, testing::puppets(), problems);
+  const QclProgram program = compile_module(module, "task.mod", configuration, testing::puppets(), problems);
   EXPECT_EQ(text_of(problems), "");
-  EXPECT_THAT(program.notes, ::testing::ElementsAre("task.mod:1:1: slR takes whole numbers: 0.03 is taken as 0",
-                                                    "task.mod:2:1: slR takes whole numbers: -2.5 is taken as -2"));
+  EXPECT_THAT(program.notes,
+              ::testing::ElementsAre("task.mod:1:1: slR takes whole numbers: 0.03 is taken as 0",
+                                     "task.mod:2:1: slR takes whole numbers: -2.5 is taken as -2"));
 }
 
 TEST(QmoveStatement, IfElseNest) {

@@ -27,7 +27,7 @@ struct Timed {
   Timed(const std::vector<std::string>& modules, std::int64_t statement_ns, std::int64_t cycle_ns,
         std::int64_t step = 10 * us)
       : configuration(parse_configuration(usual_cnf, "test.cnf", puppets(), problems)), step_ns(step) {
-    std::vector<Program> programs;
+    std::vector<QclProgram> programs;
     for (std::size_t i = 0; i < modules.size(); ++i)
       programs.push_back(compile_module(modules[i], "task" + std::to_string(i) + ".mod", configuration,
                                         puppets(), problems));

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "devices/catalogue.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "devices/qmove/qmove_controller.hpp"
 
 // A small device and a bench for tests of the QMOVE controller: no real device is needed to test it.
@@ -42,8 +42,9 @@ class Puppet : public Device {
         State{"st_init", zero, "", ""}, State{"st_still", Retention::one, "", ""},
         State{"st_locked", kept_value, "", ""}, State{"st_int", zero, "", ""}};
     static constexpr std::array commands = {
-        Command{"INIT", {}, "", ""}, Command{"HALT", {1, 1, {}}, "", ""}, Command{"GO", {3, 3, {}}, "", ""},
-        Command{"DELCNT", {1, 1, {}}, "", ""}, Command{"LOCK", {1, 1, {}}, "", ""}};
+        DeviceCommand{"INIT", {}, "", ""}, DeviceCommand{"HALT", {1, 1, {}}, "", ""},
+        DeviceCommand{"GO", {3, 3, {}}, "", ""}, DeviceCommand{"DELCNT", {1, 1, {}}, "", ""},
+        DeviceCommand{"LOCK", {1, 1, {}}, "", ""}};
     static constexpr std::array fields = {
         Field{"TCamp", Field::Kind::period_ms, 1, 250, ""},   Field{"Count", Field::Kind::counter, 0, 0, ""},
         Field{"IntL", Field::Kind::interrupt_line, 1, 8, ""}, Field{"IAZero", Field::Kind::input, 0, 0, ""},
@@ -100,7 +101,7 @@ inline const DeviceType& camming_fields() {
                                         Field{"IoutA", FieldKind::analogue, 0, 0, ""},
                                         Field{"Out", FieldKind::output, 0, 0, ""}};
   static constexpr std::array states = {State{"st_init", Retention::zero, "", ""}};
-  static constexpr std::array commands = {Command{"INIT", {}, "", ""}};
+  static constexpr std::array commands = {DeviceCommand{"INIT", {}, "", ""}};
   static constexpr DeviceType type{"CAMMING4", "", {}, states, commands, fields, {}};
   return type;
 }
@@ -145,7 +146,7 @@ struct Bench {
 
   explicit Bench(const std::vector<std::string>& modules, int cycle_ms = 1, std::string_view cnf = usual_cnf)
       : configuration(parse_configuration(cnf, "test.cnf", puppets(), problems)) {
-    std::vector<Program> programs;
+    std::vector<QclProgram> programs;
     for (std::size_t i = 0; i < modules.size(); ++i)
       programs.push_back(compile_module(modules[i], "task" + std::to_string(i) + ".mod", configuration,
                                         puppets(), problems));

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "plants/end_stop.hpp"
-#include "plants/friction.hpp"
+#include "plants/motor_load.hpp"
 #include "plants/servo_drive.hpp"
 #include "plants/transmission.hpp"
 
@@ -124,7 +124,7 @@ struct Servo {
   static constexpr double hair = 1e-9;  // [N m]
 };
 
-/// Friction of a guided body; the plant's is plants/friction.hpp. Sliding it resists with
+/// Friction of a guided body; the plant's is plants/motor_load.hpp. Sliding it resists with
 ///   viscous v + sign(v) (coulomb + breakaway exp(-(v / stribeck)^2)),
 /// plus what else resists a motion that way; sticking it holds the body against all that is below that.
 struct Dry {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "devices/camming4/cam_table.hpp"
+#include "devices/plcopen/tab_file.hpp"
 #include "sim/cams/camming4/judge.hpp"
 #include "tests/sim/cams/told.hpp"
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "devices/plcopen/cam_table.hpp"
 #include "tests/sim/cams/command_bench.hpp"
 #include "tests/sim/cams/ecam_bench.hpp"
 

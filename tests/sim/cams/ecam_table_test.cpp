@@ -1,6 +1,7 @@
 // Cam tables of LX3VP as text: rows, parameters of ECAMTBX, every fault by its message.
 #include <gmock/gmock.h>
 
+#include "devices/plcopen/tab_file.hpp"
 #include "sim/cams/study.hpp"
 #include "tests/sim/cams/ecam_bench.hpp"
 

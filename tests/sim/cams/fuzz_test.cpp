@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "devices/camming4/codes.hpp"
+#include "devices/camming4/sector.hpp"
 #include "tests/sim/cams/bench.hpp"
 
 namespace drycut::sim::cams {

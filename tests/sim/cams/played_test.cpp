@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "devices/lx3vp/ecamtbx.hpp"
 #include "sim/cams/overlay.hpp"
 #include "sim/cams/judged.hpp"
 #include "sim/cams/page.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/cams/course.hpp"
-#include "sim/cams/findings.hpp"
+#include "sim/cams/report.hpp"
 
 namespace drycut::sim::cams {
 

@@ -100,7 +100,7 @@ struct ModbusLine : CommandTest {
                                                        .pace = 0,
                                                        .running = running,
                                                        .record = folder / "record"});
-    server.emplace(modbus::Server::Options{"127.0.0.1", 0}, *line->line);
+    server.emplace(modbus::ModbusServer::Options{"127.0.0.1", 0}, *line->line);
   }
   /// Of the controller, as the run has it between two cycles.
   double now(const std::string& name) {
@@ -133,7 +133,7 @@ struct ModbusLine : CommandTest {
 
   TestFolder folder;
   std::unique_ptr<RunningLine> line;
-  std::optional<modbus::Server> server;
+  std::optional<modbus::ModbusServer> server;
 };
 
 struct ModbusLx3vpLine : ModbusLine {

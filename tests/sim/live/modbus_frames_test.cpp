@@ -220,7 +220,7 @@ struct TwoNumbers : testing::Test {
   }
 
   bool powered = true;
-  devices::plcopen::ModbusMap map{powered};
+  devices::plcopen::MemoryFace map{powered};
   std::map<std::string, double> numbers{{"wide", 0x10002}, {"real", 1.5}, {"shown", 7}};
   std::vector<std::pair<std::string, double>> given;
   int acts = 0;

@@ -6,7 +6,6 @@
 
 #include "sim/record/deflate.hpp"
 #include "sim/record/hdf5_file.hpp"
-#include "sim/record/hdf5_reader.hpp"
 #include "sim/record/hdf5_table.hpp"
 #include "tests/test_folder.hpp"
 
@@ -163,7 +162,7 @@ TEST_F(Hdf5Test, RefusesWhatIsNoRecord) {
   std::fill(broken.begin() + static_cast<std::ptrdiff_t>(whole.size() / 2), broken.end() - 2000, '\x55');
   EXPECT_THAT(refused(folder.file("broken.h5", broken)), HasSubstr("broken.h5:1:1: "));
   {
-    const hdf5::Turn turn;
+    const hdf5::Hdf5Turn turn;
     const hdf5::Handle empty(
         H5Fcreate((folder / "other.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
   }

@@ -3,7 +3,6 @@
 
 #include "sim/cli/run_cache.hpp"
 #include "sim/record/hdf5_file.hpp"
-#include "sim/record/hdf5_reader.hpp"
 #include "sim/record/json.hpp"
 #include "sim/record/outcome.hpp"
 #include "tests/test_folder.hpp"
@@ -125,8 +124,8 @@ TEST(VisitedOutcome, SaysInJsonThatThereIsNoLimit) {
 
 TEST(VisitedOutcome, IsKeptWholeByTheCache) {
   const auto outcome = Anything(7).made<Outcome>();
-  cli::KeptRun back;
-  take_json(json_of(cli::KeptRun{outcome, true, {"a note"}, "line.glb"}), back);
+  cli::CachedRun back;
+  take_json(json_of(cli::CachedRun{outcome, true, {"a note"}, "line.glb"}), back);
   EXPECT_TRUE(back.outcome == outcome);
   EXPECT_TRUE(back.has_report);
   EXPECT_THAT(back.notes, testing::ElementsAre("a note"));

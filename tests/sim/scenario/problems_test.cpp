@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "devices/controller.hpp"
 #include "tests/sim/scenario/fake_plants.hpp"
 
 namespace drycut::sim::scenario {

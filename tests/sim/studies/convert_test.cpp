@@ -6,7 +6,7 @@
 #include "sim/cli/compare_command.hpp"
 #include "sim/cli/convert_command.hpp"
 #include "sim/cli/run_command.hpp"
-#include "sim/record/hdf5_reader.hpp"
+#include "sim/record/hdf5_file.hpp"
 #include "sim/studies/compare/run_folder.hpp"
 #include "tests/sim/command_bench.hpp"
 

@@ -167,7 +167,7 @@ TEST(BodeLimitCycleText, TellsWhereItBegins) {
               HasSubstr("at most 2 times, 25 Hz at about 0.2 V; below 0.2 V not measured, the bound may be "
                         "lower."));
   EXPECT_DOUBLE_EQ(*cycle.from(), factor_of(*cycle.margins[1].gain));
-  cycle.hunting = Hunting{1.13, 1, 15.6, 0.18, ""};
+  cycle.hunting = HuntingPoint{1.13, 1, 15.6, 0.18, ""};
   EXPECT_THAT(
       told(),
       HasSubstr("Limit cycle from 1.13 times the gain on (below, pushes die out), 15.6 Hz with 0.18 V at "
@@ -175,7 +175,7 @@ TEST(BodeLimitCycleText, TellsWhereItBegins) {
   EXPECT_EQ(*cycle.from(), 1.13);
   cycle.hunting->from = 0.94;
   EXPECT_THAT(told(), HasSubstr("Limit cycle from 0.94 times the gain on (it hunts as it stands)"));
-  cycle.hunting = Hunting{{}, 80, 0, 0, ""};
+  cycle.hunting = HuntingPoint{{}, 80, 0, 0, ""};
   EXPECT_THAT(
       told(),
       HasSubstr(

@@ -14,7 +14,7 @@ using std::numbers::pi;
 
 struct BodeSweep : testing::Test {
   /// Measures the axis of `yaml` with pgain.
-  Sweep sweep(const std::string& yaml, int pgain, double amplitude, const std::vector<Tone>& tones,
+  Sweep sweep(const std::string& yaml, int pgain, double amplitude, const std::vector<TestTone>& tones,
               const std::string& speed = "axis.speed") {
     Problems problems;
     const auto scenario =

@@ -35,7 +35,7 @@ class PlayedEngine final : public Engine {
     waiting_.insert(waiting_.end(), chunks.begin(), chunks.end());
     most_ = std::max(most_, waiting_.size());
   }
-  std::vector<News> wait() override {
+  std::vector<WorkNews> wait() override {
     EXPECT_FALSE(waiting_.empty());
     const auto chunk = waiting_.front();
     waiting_.erase(waiting_.begin());
@@ -86,7 +86,7 @@ class PlayedEngine final : public Engine {
   }
 
   std::vector<Chunk> waiting_;
-  std::vector<News> news_;
+  std::vector<WorkNews> news_;
   std::size_t most_ = 0;
 };
 
@@ -97,7 +97,7 @@ struct ClusterDispatch : testing::Test {
       if (known.contains(i)) return {};
       return Ask{"ask " + std::to_string(i), {}};
     };
-    round.take = [&](std::size_t i, const Answer& answer) {
+    round.take = [&](std::size_t i, const WorkerAnswer& answer) {
       EXPECT_TRUE(answers.emplace(i, answer.text).second) << i << " is answered twice";
       if (!answer.lost.empty()) lost[i] = answer.lost;
     };

@@ -47,7 +47,7 @@ struct TuneMetric : testing::Test {
   }
 
   fakes::FakeController controller;
-  loop::Panel panel;
+  loop::OperatorPanel panel;
   loop::Names names;
   loop::Watch watch;
   record::Recording recording;
