@@ -60,10 +60,10 @@ constexpr double scale_unit = 1e-5;
 
 ordered_json track_json(const Track& track) {
   using Time = Eigen::Matrix<double, 1, 1>;
-  return {{"times", steps<1>(track, time_unit, [](const Key& key) { return Time(key.time_s); })},
-          {"places", steps<3>(track, place_unit, [](const Key& key) { return key.placement.position; })},
-          {"turns", steps<4>(track, turn_unit, [](const Key& key) { return key.placement.rotation; })},
-          {"scales", steps<3>(track, scale_unit, [](const Key& key) { return key.placement.scale; })}};
+  return {{"times", steps<1>(track, time_unit, [](const TrackKey& key) { return Time(key.time_s); })},
+          {"places", steps<3>(track, place_unit, [](const TrackKey& key) { return key.placement.position; })},
+          {"turns", steps<4>(track, turn_unit, [](const TrackKey& key) { return key.placement.rotation; })},
+          {"scales", steps<3>(track, scale_unit, [](const TrackKey& key) { return key.placement.scale; })}};
 }
 
 std::string motion(const MachineView& view) {
@@ -90,7 +90,7 @@ double shortened(std::vector<Track>& tracks, double until_s, std::size_t most_ke
   const double end_s = *last;
   for (auto& track : tracks) {
     const auto behind =
-        std::find_if(track.begin() + 1, track.end(), [&](const Key& key) { return key.time_s > end_s; });
+        std::find_if(track.begin() + 1, track.end(), [&](const TrackKey& key) { return key.time_s > end_s; });
     track.erase(behind, track.end());
   }
   return end_s;
