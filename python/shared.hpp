@@ -79,6 +79,10 @@ py::object python_of(const T& value) {
     py::list list;
     for (const auto& item : value) list.append(python_of(item));
     return list;
+  } else if constexpr (sim::record::is_map<T>) {
+    py::dict dict;
+    for (const auto& [key, item] : value) dict[py::str(key)] = python_of(item);
+    return dict;
   } else if constexpr (sim::record::is_time<T>) {
     return py::float_(sim::seconds(value));
   } else if constexpr (std::is_enum_v<T>) {

@@ -199,9 +199,10 @@ py::dict studied(const SweepCall& call, const Sought& sought, std::optional<std:
     simulated = store.simulated();
     if (place.kept) {
       write_file(asked->folder->add(asked->table()), csv);
-      write_report();
+      finish(write_report(), store, *asked->folder);
+    } else {
+      asked->folder->finish();
     }
-    asked->folder->finish();
   }
   return answer(*asked, csv, simulated);
 }
@@ -214,7 +215,7 @@ py::dict sweep(const SweepCall& call, std::optional<std::size_t> sample, const S
     teller.end(rows.size());
     auto csv = studies::sweep_csv(asked.question, asked.axes, asked.points, rows);
     return std::pair(std::move(csv), [&asked, rows = std::move(rows)] {
-      studies::write_sweep_report(asked.question, asked.axes, asked.points, rows, *asked.folder);
+      return studies::write_sweep_report(asked.question, asked.axes, asked.points, rows, *asked.folder);
     });
   });
 }
@@ -228,7 +229,7 @@ py::dict envelope(const SweepCall& call, const Sought& bound, const StudyPlace& 
     studies::seek(sought.front(), store, std::ref(teller));
     auto csv = studies::envelope_csv(sought);
     return std::pair(std::move(csv), [&asked, sought = std::move(sought)] {
-      studies::write_envelope_report(sought, *asked.folder);
+      return studies::write_envelope_report(sought, *asked.folder);
     });
   });
 }

@@ -80,13 +80,21 @@ Range y_range(const Panel& panel) {
 }
 
 /// Flags and counters have nothing between two whole numbers.
-bool only_whole_numbers(const Panel& panel) {
+bool only_whole_numbers(const Panel& panel, std::vector<double> Curve::*numbers) {
   return std::any_of(panel.curves.begin(), panel.curves.end(),
-                     [](const Curve& curve) { return !curve.y.empty(); }) &&
-         std::all_of(panel.curves.begin(), panel.curves.end(), [](const Curve& curve) {
-           return std::all_of(curve.y.begin(), curve.y.end(),
-                              [](double y) { return !std::isfinite(y) || y == std::floor(y); });
+                     [&](const Curve& curve) { return !(curve.*numbers).empty(); }) &&
+         std::all_of(panel.curves.begin(), panel.curves.end(), [&](const Curve& curve) {
+           return std::all_of((curve.*numbers).begin(), (curve.*numbers).end(), [](double number) {
+             return !std::isfinite(number) || number == std::floor(number);
+           });
          });
+}
+
+/// What has no unit and only whole numbers is counted: trials, pieces.
+bool counts_x(const Plot& plot) {
+  return plot.x_label.find('[') == std::string::npos && !plot.panels.empty() &&
+         std::all_of(plot.panels.begin(), plot.panels.end(),
+                     [](const Panel& panel) { return only_whole_numbers(panel, &Curve::x); });
 }
 
 /// Entries from the left, beside the title as far as they fit and in rows below it. Returns the rows used
@@ -232,7 +240,7 @@ PlotLayout laid_out(const Plot& plot) {
   for (const Panel& panel : plot.panels) {
     PanelLayout here;
     here.y_range = y_range(panel);
-    const double least = only_whole_numbers(panel) ? 1 : 0;
+    const double least = only_whole_numbers(panel, &Curve::y) ? 1 : 0;
     here.y_ticks = axis_ticks(here.y_range.first, here.y_range.second, y_ticks, least);
     if (!panel.lanes.empty()) lay_lanes(panel.lanes, plot.width / 4.0, here);
     widest = std::max(widest, widest_label(here.y_ticks));
@@ -248,8 +256,9 @@ PlotLayout laid_out(const Plot& plot) {
   } else if (!plot.log_x) {
     layout.x_range = up_to_marks(layout.x_range, x_ticks);
   }
-  layout.x_ticks = plot.log_x ? decade_ticks(layout.x_range.first, layout.x_range.second)
-                              : axis_ticks(layout.x_range.first, layout.x_range.second, x_ticks);
+  layout.x_ticks =
+      plot.log_x ? decade_ticks(layout.x_range.first, layout.x_range.second)
+                 : axis_ticks(layout.x_range.first, layout.x_range.second, x_ticks, counts_x(plot) ? 1 : 0);
 
   if (plot.second_x) {
     const double factor = plot.second_x->factor;

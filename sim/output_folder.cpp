@@ -225,6 +225,13 @@ void OutputFolder::finish() {
   waiting_.clear();
 }
 
+std::vector<std::string> OutputFolder::files() const {
+  std::vector<std::string> files;
+  for (const auto& name : listed_)
+    if (aside_.empty() || waiting_.contains(name) || kept_.contains(name)) files.push_back(name);
+  return files;
+}
+
 void OutputFolder::list(const std::vector<std::string>& names) {
   std::ofstream stream(manifest_, std::ios::app);
   for (const auto& name : names) {

@@ -46,6 +46,9 @@ class OutputFolder {
 
   /// What it has, by the manifest, in the manner of "plots/motion.png".
   [[nodiscard]] const std::set<std::string>& listed() const { return listed_; }
+  /// What it will have when all is finished, in the same manner.
+  [[nodiscard]] std::vector<std::string> files() const;
+  [[nodiscard]] const std::string& kind() const { return kind_; }
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
 
  private:

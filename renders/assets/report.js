@@ -256,10 +256,11 @@
       return ticks;
     };
   }
+  // What has no unit and only whole numbers is counted: trials, pieces.
   function isCounted(plot) {
     const curves = plot.panels.flatMap(panel => panel.curves);
-    return curves.length > 0 && curves.every(
-        curve => curve.style === "points" && columns[curve.x].every(Number.isInteger));
+    return !plot.xLabel.includes("[") && curves.length > 0 &&
+        curves.every(curve => columns[curve.x].every(Number.isInteger));
   }
 
   const laneHeight = 30;

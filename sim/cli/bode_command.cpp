@@ -87,14 +87,16 @@ std::string judged_text(const record::CheckResult& check) {
                      limit);
 }
 
-/// All that was asked for; `folder` may be null; `faults` are the lines that fail the measurement.
+/// All that was asked for; `folder` may be null.
 void write(const BodeOptions& options, const scenario::Scenario& scenario, const studies::LoopResult& result,
-           const studies::LimitCycle* cycle, const std::vector<std::string>& faults,
+           const studies::LimitCycle* cycle, const record::Verdict& verdict,
            const std::vector<record::CheckResult>& checks, OutputFolder* folder) {
   if (folder != nullptr)
-    studies::write_bode_report(result, cycle, faults, checks, scenario::expand(scenario), *folder);
+    studies::write_bode_report(result, cycle, verdict, checks, scenario::expand(scenario), *folder);
+  if (folder != nullptr && !result.sweep.points.empty())
+    write_file(folder->add("bode.csv"), bode_csv(result));
+  if (folder != nullptr) record::write_verdict(verdict, *folder);
   if (result.sweep.points.empty()) return;
-  if (folder != nullptr) write_file(folder->add("bode.csv"), bode_csv(result));
   if (options.csv == "-") {
     fmt::print("{}", studies::bode_csv(result));
   } else if (!options.csv.empty()) {
@@ -148,13 +150,14 @@ int measure_bode(const BodeOptions& options) {
   // Where play makes a limit cycle, small motions do not answer: that is what was looked for.
   if (!cycle || !cycle->from()) faults.insert(faults.begin(), doubts.begin(), doubts.end());
   if (cycle && !cycle->from()) faults.emplace_back("no gain margin was found at any amplitude");
-  write(options, scenario, *result, cycle ? &*cycle : nullptr, faults, checks, folder ? &*folder : nullptr);
+  auto verdict = studies::verdict_of(*result, faults, checks);
+  verdict.scenarios = {options.scenario.generic_string()};
+  write(options, scenario, *result, cycle ? &*cycle : nullptr, verdict, checks, folder ? &*folder : nullptr);
   if (!options.out.empty())
     fmt::print(options.csv == "-" ? stderr : stdout, "report: {}\n", (options.out / "report.html").string());
   else if (options.png.empty() && options.csv.empty())
     fmt::print("no plots; --out DIR writes them as a report\n");
-  if (!result->sweep.failure.empty()) return simulation_failed;
-  return faults.empty() ? all_passed : check_failed;
+  return verdict.exit;
 }
 
 void add_bode(CLI::App& app, int& status) {

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "base/problem.hpp"
+#include "sim/record/verdict.hpp"
 
 namespace CLI {
 class App;
@@ -9,14 +10,8 @@ class App;
 
 namespace drycut::sim::cli {
 
-/// Exit status of the program (design §6).
-enum ExitStatus : int {
-  all_passed = 0,
-  check_failed = 1,
-  bad_input = 2,            ///< one line a problem on standard error; nothing was written
-  simulation_failed = 3,    ///< diverged, or a result could not be written; what was recorded is kept
-  interrupted_status = 130  ///< by a signal, where that itself does not end it
-};
+using record::ExitStatus;
+using enum record::ExitStatus;
 
 // Each adds its command with its options to the program; what the chosen one comes to goes to `status`.
 void add_run(CLI::App& app, int& status);

@@ -94,9 +94,10 @@ int compare_runs(const CompareOptions& options) {
     page.source += (page.source.empty() ? "" : ", ") + run.folder.string();
   }
   judge(options, comparison, page);
+  int status = all_passed;
   try {
     folder->begin();
-    studies::write_comparison(comparison, page, *folder, options.pictures);
+    status = studies::write_comparison(comparison, page, *folder, options.pictures);
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", drycut::words_of(error));
     return simulation_failed;
@@ -109,7 +110,7 @@ int compare_runs(const CompareOptions& options) {
                                             : "beyond the tolerance");
   fmt::print("  {}\n", options.pictures ? "report: " + (options.out / "report.html").string()
                                         : "results: " + options.out.string());
-  return page.passed.value_or(true) ? all_passed : check_failed;
+  return status;
 }
 
 void add_compare(CLI::App& app, int& status) {

@@ -282,6 +282,22 @@ std::string table_text(const DesignOptions& options, studies::DesignSheet& sheet
   return text;
 }
 
+record::Verdict verdict_of(const DesignOptions& options, const studies::DesignSheet& sheet) {
+  record::Verdict verdict;
+  verdict.title = fmt::format("Cam of a {}", options.kind);
+  verdict.word = "DESIGNED";
+  if (sheet.device) {
+    const bool unsound = cams::is_unsound(sheet.findings, false);
+    verdict.judge(!unsound);
+    verdict.word = "";
+    verdict.sentence =
+        unsound ? "drycut cam finds fault with the table" : "drycut cam finds no fault with the table";
+  }
+  verdict.counts["findings"] = std::ssize(sheet.findings);
+  if (!options.scene.empty()) verdict.scenarios = {options.scene};
+  return verdict;
+}
+
 }  // namespace
 
 int design_cam(const DesignOptions& options) {
@@ -292,13 +308,17 @@ int design_cam(const DesignOptions& options) {
   if (problems.empty() && base) scene = scene_with(options, *sheet, *base, problems);
   std::optional<OutputFolder> folder;
   if (problems.empty() && !options.out.empty())
-    folder.emplace(options.out, "design", std::vector<std::string>{"design.png"}, problems);
+    folder.emplace(options.out, "design", std::vector<std::string>{"design.png", record::verdict_file},
+                   problems);
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;
   }
+  int status = all_passed;
   try {
     const auto table = sheet->device ? table_text(options, *sheet) : "";
+    const auto verdict = verdict_of(options, *sheet);
+    status = verdict.exit;
     fmt::print("{}", studies::sheet_text(*sheet));
     if (!options.table.empty()) {
       write_file(options.table, table);
@@ -320,13 +340,14 @@ int design_cam(const DesignOptions& options) {
       folder->begin();
       const auto picture = folder->add("design.png");
       report::draw_png(studies::design_plot(*sheet), picture);
+      record::write_verdict(verdict, *folder);
       fmt::print("  picture: {}\n", picture.string());
     }
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", drycut::words_of(error));
     return simulation_failed;
   }
-  return cams::is_unsound(sheet->findings, false) ? check_failed : all_passed;
+  return status;
 }
 
 void add_design(CLI::App& app, int& status) {

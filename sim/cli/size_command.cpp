@@ -137,15 +137,13 @@ int size_drive(const SizeOptions& options) {
     write_file(folder->add(size_file), studies::size_csv(plan.candidates, sized, order));
     const studies::SizeResult result{plan.question, plan.choices, plan.candidates,
                                      plan.corners,  sized,        order};
-    studies::write_size_report(result, *folder);
-    folder->finish();
+    const int status = finish(studies::write_size_report(result, *folder), store, *folder);
     print_words(result);
     fmt::print("{}: {}\nreport: {}\n{} simulated now\n", counted(std::ssize(sized), "candidate"),
                (options.out / size_file).string(), (options.out / "report.html").string(),
                counted(static_cast<std::int64_t>(store.simulated()), "run"));
     for (const auto& lost : store.lost()) fmt::print(stderr, "{}\n", printable(lost));
-    if (!store.lost().empty()) return simulation_failed;
-    return count_fitting(result) > 0 ? all_passed : check_failed;
+    return status;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}: {}\n", options.out.string(), drycut::words_of(error));
     return simulation_failed;

@@ -127,7 +127,7 @@ int bad(const Problems& problems) {
   return bad_input;
 }
 
-/// Runs `work` on the folder's store; what it throws is told.
+/// Runs `work` on the folder's store, which gives the exit status; what it throws is told.
 template <typename Work>
 int in_folder(const StudyOptions& options, OutputFolder& folder, const Work& work) {
   try {
@@ -136,12 +136,11 @@ int in_folder(const StudyOptions& options, OutputFolder& folder, const Work& wor
     if (!problems.empty()) return bad(problems);
     folder.begin_aside({points_file});
     studies::PointStore store(folder.add(points_file), std::move(workers));
-    work(store);
-    folder.finish();
+    const int status = work(store);
     fmt::print("{} runs simulated now{}\n", store.simulated(),
                store.refused() > 0 ? fmt::format(", {} refused", store.refused()) : "");
     for (const auto& lost : store.lost()) fmt::print(stderr, "{}\n", printable(lost));
-    return store.lost().empty() ? all_passed : simulation_failed;
+    return status;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}: {}\n", options.out.string(), drycut::words_of(error));
     return simulation_failed;
@@ -187,12 +186,13 @@ int sweep_scenario(const SweepOptions& options) {
                                      [&](std::size_t done, std::size_t of) { bar.show(done, of); });
     bar.clear();
     write_file(folder->add(sweep_file), studies::sweep_csv(question, axes, points, rows));
-    studies::write_sweep_report(question, axes, points, rows, *folder);
+    auto verdict = studies::write_sweep_report(question, axes, points, rows, *folder);
     print_limits(rows);
     std::vector<studies::PointRow::Verdict> verdicts;
     for (const auto& row : rows) verdicts.push_back(row.verdict);
     fmt::print("{}, {}: {}\nreport: {}\n", counted(rows.size(), "point"), studies::counts_of(verdicts),
                (options.out / sweep_file).string(), (options.out / "report.html").string());
+    return finish(std::move(verdict), store, *folder);
   });
 }
 
@@ -348,7 +348,7 @@ int envelope_scenario(const EnvelopeOptions& options) {
       points += envelope.points.size();
     }
     write_file(folder->add(envelope_file), studies::envelope_csv(envelopes));
-    studies::write_envelope_report(envelopes, *folder);
+    auto verdict = studies::write_envelope_report(envelopes, *folder);
     std::vector<studies::PointRow::Verdict> looks;
     for (const auto& envelope : envelopes) {
       print_envelope(envelope, envelopes.size() > 1);
@@ -359,6 +359,7 @@ int envelope_scenario(const EnvelopeOptions& options) {
     fmt::print("{}, {} values tried, {}: {}\nreport: {}\n", counted(points, "point"), looks.size(),
                studies::counts_of(looks), (options.out / envelope_file).string(),
                (options.out / "report.html").string());
+    return finish(std::move(verdict), store, *folder);
   });
 }
 

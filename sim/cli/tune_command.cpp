@@ -35,12 +35,8 @@ int tune(const TuneOptions& options, const studies::TunePlan& plan, OutputFolder
              (options.out / studies::evaluations_file).string());
   fmt::print("simulated runs: {}\n", studies::runs_text(tuned.found));
   if (tuned.has_report) fmt::print("report: {}\n", (options.out / "report.html").string());
-  const auto& after = tuned.found.after();
-  auto lost = trials->lost();
-  if (spread) lost.insert(lost.end(), spread->lost().begin(), spread->lost().end());
-  for (const auto& text : lost) fmt::print(stderr, "{}\n", printable(text));
-  if (after.stopped || !lost.empty()) return simulation_failed;
-  return after.feasible() && !tuned.found.unmeasurable ? all_passed : check_failed;
+  for (const auto& text : tuned.lost()) fmt::print(stderr, "{}\n", printable(text));
+  return tuned.exit;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "sim/loop/known_events.hpp"
 #include "sim/record/recording.hpp"
 
@@ -23,7 +24,7 @@ void Remarks::happened(const record::RecordedEvent& event) {
 std::vector<std::string> Remarks::notes() const {
   auto notes = remarks_;
   if (count_ > remarks_.size())
-    notes.push_back(fmt::format("and {} more remarks, see events.csv", count_ - remarks_.size()));
+    notes.push_back(fmt::format("and {} more, see events.csv", counted(count_ - remarks_.size(), "remark")));
   return notes;
 }
 

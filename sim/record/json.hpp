@@ -39,6 +39,10 @@ Json json_of(const T& value) {
     auto list = Json::array();
     for (const auto& item : value) list.push_back(json_of(item));
     return list;
+  } else if constexpr (is_map<T>) {
+    auto object = Json::object();
+    for (const auto& [key, item] : value) object[key] = json_of(item);
+    return object;
   } else if constexpr (is_time<T>) {
     return seconds(value);
   } else if constexpr (std::is_enum_v<T>) {
@@ -76,6 +80,9 @@ void take_json(const Json& json, T& value) {
   } else if constexpr (is_list<T>) {
     value.clear();
     for (const auto& item : json.get_ref<const Json::array_t&>()) take_json(item, value.emplace_back());
+  } else if constexpr (is_map<T>) {
+    value.clear();
+    for (const auto& [key, item] : json.get_ref<const Json::object_t&>()) take_json(item, value[key]);
   } else if constexpr (is_time<T>) {
     value = std::llround(json.get<double>() * static_cast<double>(second));
   } else if constexpr (std::is_enum_v<T>) {

@@ -3,11 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
-#include <optional>
 
 #include "base/embedded.hpp"
 #include "base/text.hpp"
@@ -15,7 +10,6 @@
 #include "sim/file.hpp"
 #include "sim/report/report.hpp"
 #include "sim/report/results.hpp"
-#include "sim/scenario/yaml_node.hpp"
 
 namespace drycut::sim::report {
 
@@ -24,15 +18,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view manifest_prefix = ".drycut-";
-constexpr std::size_t head_within = 65536;  ///< title and verdict of a page [bytes]
-constexpr std::size_t most_named = 3;       ///< checks that failed
-
-std::string text_of(const fs::path& file) {
-  Problems ignored;
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) return {};
-  return read_file(file, ignored).value_or("");
-}
 
 /// Who wrote into a folder, by the manifests in it: "run", "compare"; "runs" into one of several.
 std::vector<std::string> kinds_of(const fs::path& folder) {
@@ -70,73 +55,6 @@ void add_picture(const fs::path& folder, const fs::path& root, IndexEntry& entry
   if (!plots.empty()) take(plots.front(), fmt::format("{} of {}", plots.front().stem().string(), entry.name));
 }
 
-/// What checks.json says.
-void read_checks(const fs::path& file, IndexEntry& entry) {
-  const auto json = nlohmann::json::parse(text_of(file), nullptr, false);
-  if (!json.is_object()) return;
-  try {
-    const bool passed = json.at("passed").get<bool>();
-    const auto failure = json.at("failure").get<std::string>();
-    const auto cause = json.value("cause", "");
-    std::vector<std::string> failed;
-    const auto& checks = json.at("checks");
-    for (const auto& check : checks)
-      if (!check.at("passed").get<bool>()) failed.push_back(check.at("name").get<std::string>());
-    entry.simulated = json.at("end").get<double>();
-    entry.version = json.at("drycut").get<std::string>();
-    entry.word = passed ? "PASS" : "FAIL";
-    const auto count = failed.size();
-    const auto more = count > most_named ? fmt::format(" and {} more", count - most_named) : "";
-    if (count > most_named) failed.resize(most_named);
-    entry.verdict = !failure.empty() ? failure
-                    : count > 0      ? fmt::format("{} of {} checks failed: {}{}{}{}", count, checks.size(),
-                                                   listed(failed), more, cause.empty() ? "" : "; ", cause)
-                    : checks.size() == 1 ? "1 check passed"
-                                         : fmt::format("{} checks passed", checks.size());
-  } catch (const nlohmann::json::exception&) {
-    entry.verdict = "checks.json cannot be read";
-  }
-}
-
-std::string plain(std::string text) {
-  for (const auto& [from, to] : std::array<std::pair<std::string_view, std::string_view>, 5>{
-           {{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&#39;", "'"}, {"&amp;", "&"}}})
-    for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-      text.replace(at, from.size(), to);
-  return text;
-}
-
-/// What a page's title says and what stands beside it: "PASS: The knife", "36: Sweep of rotary_knife".
-void read_head(const fs::path& file, IndexEntry& entry) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string page(head_within, '\0');
-  stream.read(page.data(), static_cast<std::streamsize>(page.size()));
-  page.resize(static_cast<std::size_t>(stream.gcount()));
-  const auto begin = page.find("<title>");
-  const auto end = page.find("</title>", begin);
-  if (begin == std::string::npos || end == std::string::npos) return;
-  const auto title = page.substr(begin + 7, end - begin - 7);
-  const auto colon = title.find(": ");
-  if (entry.word.empty() && colon != std::string::npos) entry.word = plain(title.substr(0, colon));
-  entry.title = plain(colon == std::string::npos ? title : title.substr(colon + 2));
-  constexpr std::string_view open = "<span>";
-  const auto span = page.find(open, page.find("<p class=\"verdict"));
-  const auto close = page.find("</span>", span);
-  if (span != std::string::npos && close != std::string::npos)
-    entry.verdict = plain(page.substr(span + open.size(), close - span - open.size()));
-}
-
-/// What the scenario calls itself.
-void read_scene_title(const fs::path& file, IndexEntry& entry) {
-  const auto text = text_of(file);
-  if (text.empty()) return;
-  scenario::Findings findings({file.string()});
-  const auto root = scenario::parse_yaml(text, 0, findings);
-  const auto* scene = scenario::child(root, "scene");
-  const auto* title = scene == nullptr ? nullptr : scenario::child(*scene, "title");
-  if (title != nullptr) entry.title = title->text.text;
-}
-
 IndexEntry entry_of(const fs::path& folder, const fs::path& root, const std::string& kind) {
   IndexEntry entry;
   entry.name = folder.lexically_relative(root).generic_string();
@@ -145,13 +63,17 @@ IndexEntry entry_of(const fs::path& folder, const fs::path& root, const std::str
     return (folder / file).lexically_relative(root).generic_string();
   };
   std::error_code ignored;
-  if (kind == "run") {
-    read_checks(folder / checks_file, entry);
-    read_scene_title(folder / scenario_file, entry);
+  if (const auto verdict = record::read_verdict(folder);
+      verdict && (verdict->kind.empty() || verdict->kind == kind)) {
+    entry.came = verdict->verdict;
+    entry.word = verdict->headword();
+    entry.verdict = verdict->sentence;
+    entry.title = verdict->title;
+    entry.simulated = verdict->simulated;
+    entry.version = verdict->drycut;
   }
   if (fs::is_regular_file(folder / report_file, ignored)) {
     entry.page = relative(report_file);
-    if (kind != "run") read_head(folder / report_file, entry);
   } else {
     for (const auto* file : {trace_file, hdf5_file, checks_file})
       if (entry.page.empty() && fs::is_regular_file(folder / file, ignored)) entry.page = relative(file);
@@ -180,12 +102,17 @@ void collect(const fs::path& folder, const fs::path& root, std::vector<IndexEntr
 
 // ---- the page ----
 
-bool has_failed(const IndexEntry& entry) { return entry.word == "FAIL"; }
+using Came = record::Verdict::Came;
 
-/// FAIL first, then what is not known, what judges nothing, PASS.
+bool has_failed(const IndexEntry& entry) { return entry.came == Came::failed; }
+bool is_judged(const IndexEntry& entry) { return has_failed(entry) || entry.came == Came::passed; }
+
+/// What failed first, then what is not known, what judges nothing, what passed.
 int rank_of(const IndexEntry& entry) {
-  return has_failed(entry) ? 0 : entry.word.empty() ? 1 : entry.word == "PASS" ? 3 : 2;
+  return has_failed(entry) ? 0 : !entry.came ? 1 : entry.came == Came::none ? 2 : 3;
 }
+
+const char* state_of(bool failed, bool judged) { return failed ? "fail" : judged ? "pass" : "told"; }
 
 std::string row_of(const IndexEntry& entry) {
   using renders::html_text;
@@ -201,10 +128,9 @@ std::string row_of(const IndexEntry& entry) {
           : link(fmt::format("<img loading=\"lazy\" width=\"160\" height=\"90\" alt=\"{}\" src=\"{}\">",
                              html_text(entry.picture_words), link_address(entry.picture)),
                  " tabindex=\"-1\"");
-  const auto* state = has_failed(entry) ? "fail" : entry.word == "PASS" ? "pass" : "told";
-  const auto badge = entry.word.empty()
-                         ? std::string("<span class=\"badge told\">?</span>")
-                         : fmt::format("<span class=\"badge {}\">{}</span>", state, html_text(entry.word));
+  const auto badge =
+      fmt::format("<span class=\"badge {}\">{}</span>", state_of(has_failed(entry), is_judged(entry)),
+                  entry.came ? html_text(entry.word) : "?");
   return fmt::format(
       "<tr{}><td class=\"picture\">{}</td><th scope=\"row\" data-sort=\"{}\">{}<small>{}</small></th>"
       "<td data-sort=\"{}\" data-of=\"verdict\">{} {}</td><td data-sort=\"{}\" data-of=\"what\">{}</td>"
@@ -212,8 +138,8 @@ std::string row_of(const IndexEntry& entry) {
       "data-of=\"drycut\">{}</td></tr>\n",
       has_failed(entry) ? " class=\"fail\"" : "", picture, html_text(entry.name),
       link(html_text(entry.name), ""), html_text(entry.title), rank_of(entry), badge,
-      html_text(entry.verdict), html_text(entry.kind), html_text(entry.kind), entry.simulated,
-      entry.simulated < 0 ? "" : fmt::format("{:.6g}", entry.simulated), html_text(entry.version));
+      html_text(entry.verdict), html_text(entry.kind), html_text(entry.kind), entry.simulated.value_or(-1),
+      entry.simulated ? fmt::format("{:.6g}", *entry.simulated) : "", html_text(entry.version));
 }
 
 }  // namespace
@@ -232,7 +158,7 @@ std::string index_verdict(const std::vector<IndexEntry>& entries) {
     std::size_t all = 0;
     std::size_t failed = 0;
     for (const auto& entry : entries) {
-      if ((entry.kind == "run") != runs || rank_of(entry) % 3 != 0) continue;
+      if ((entry.kind == "run") != runs || !is_judged(entry)) continue;
       ++all;
       failed += has_failed(entry) ? 1 : 0;
     }
@@ -253,9 +179,8 @@ std::string index_verdict(const std::vector<IndexEntry>& entries) {
 
 std::string index_page(const std::vector<IndexEntry>& entries) {
   const bool failed = std::ranges::any_of(entries, has_failed);
-  const bool judged =
-      std::ranges::any_of(entries, [](const IndexEntry& entry) { return rank_of(entry) % 3 == 0; });
-  const auto* state = failed ? "fail" : judged ? "pass" : "told";
+  const bool judged = std::ranges::any_of(entries, is_judged);
+  const auto* state = state_of(failed, judged);
   const auto word = failed ? "FAIL" : judged ? "PASS" : "RUNS";
   const auto said = index_verdict(entries);
   std::string rows;

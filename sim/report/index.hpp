@@ -1,11 +1,13 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/problem.hpp"
 #include "sim/output_folder.hpp"
+#include "sim/record/verdict.hpp"
 
 namespace drycut::sim::report {
 
@@ -17,16 +19,17 @@ inline constexpr auto* index_neighbour = "junit.xml";
 
 /// A folder of results below another, as an index shows it.
 struct IndexEntry {
-  std::string name;       ///< its path from the index: "three_way/LX3VP"
-  std::string kind;       ///< what wrote it: "run", "compare", "sweep", ...
-  std::string title;      ///< of its scenario or its page
-  std::string word;       ///< "PASS", "FAIL", what a page is headed with that judges nothing; "" = not known
-  std::string verdict;    ///< "2 of 5 checks failed", the checks that did; "" where nothing is known
-  double simulated = -1;  ///< [s], below 0 = not known
-  std::string version;    ///< of the drycut that ran it
-  std::string page;       ///< path from the index to what it opens: the report, else the trace
-  std::string picture;    ///< a frame, else a plot; "" = none
-  std::string picture_words;  ///< for who does not see it
+  std::string name;                                ///< its path from the index: "three_way/LX3VP"
+  std::string kind;                                ///< what wrote it: "run", "compare", "sweep", ...
+  std::string title;                               ///< of its scenario or its page
+  std::optional<record::Verdict::Came> came = {};  ///< nothing = not known
+  std::string word;     ///< "PASS", "FAIL", what a page is headed with that judges nothing; "" = not known
+  std::string verdict;  ///< "2 of 5 checks failed", the checks that did; "" where nothing is known
+  std::optional<double> simulated = {};  ///< [s]
+  std::string version;                   ///< of the drycut that ran it
+  std::string page;                      ///< path from the index to what it opens: the report, else the trace
+  std::string picture;                   ///< a frame, else a plot; "" = none
+  std::string picture_words;             ///< for who does not see it
 };
 
 /// What lies below `folder`, by path: folders that drycut wrote into, and what is in those; links not

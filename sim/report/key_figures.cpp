@@ -60,9 +60,12 @@ renders::ReportKey value_key(const record::Tolerance& tolerance, const loop::Eve
                          with_unit(rounded(mean, decimals), series.unit),
                          {},
                          {}};
-  if (series.numbers.size() > 1)
+  if (series.numbers.size() > 1 && rounded(sd, decimals) != rounded(0, decimals))
     key.value =
         with_unit(fmt::format("{} ± {}", rounded(mean, decimals), rounded(sd, decimals)), series.unit);
+  else if (series.numbers.size() > 1)
+    key.notes.push_back(fmt::format("{} events, spread below {}", series.numbers.size(),
+                                    with_unit(rounded(std::pow(10.0, -decimals), decimals), series.unit)));
   std::size_t worst = 0;
   for (std::size_t i = 1; i < series.numbers.size(); ++i)
     if (used_of(tolerance, series.numbers[i]) > used_of(tolerance, series.numbers[worst])) worst = i;

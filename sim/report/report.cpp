@@ -9,6 +9,15 @@
 
 namespace drycut::sim::report {
 
+renders::Report page_of(const record::Verdict& verdict) {
+  renders::Report report;
+  report.title = verdict.title;
+  report.passed = verdict.verdict != record::Verdict::Came::failed;
+  report.word = verdict.word;
+  report.verdict = verdict.sentence;
+  return report;
+}
+
 void add_checks(const std::vector<record::CheckResult>& checks, renders::Report& report) {
   for (const auto& check : checks)
     report.checks.push_back(

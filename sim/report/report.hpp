@@ -6,6 +6,7 @@
 #include "renders/report.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/record/outcome.hpp"
+#include "sim/record/verdict.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::report {
@@ -15,6 +16,9 @@ namespace drycut::sim::report {
 /// Where a report and its plots lie in a folder of results.
 inline constexpr auto* report_file = "report.html";
 inline constexpr auto* plots_folder = "plots";
+
+/// A page that begins with the verdict.
+renders::Report page_of(const record::Verdict& verdict);
 
 /// The checks with what is left of their limits.
 void add_checks(const std::vector<record::CheckResult>& checks, renders::Report& report);

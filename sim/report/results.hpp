@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/loop/simulation.hpp"
+#include "sim/record/verdict.hpp"
 
 namespace drycut::sim::report {
 
@@ -56,7 +57,7 @@ void write_checks(const record::Outcome& outcome, const std::filesystem::path& f
 inline constexpr auto* trace_file = "trace.csv";
 inline constexpr auto* events_file = "events.csv";
 inline constexpr auto* hdf5_file = "trace.h5";  ///< in place of both with record.format: hdf5
-inline constexpr auto* checks_file = "checks.json";
+using record::checks_file;
 inline constexpr auto* scenario_file = "scenario.yaml";
 
 /// What an outcome says as long as its run has not come to its end.

@@ -22,7 +22,8 @@ namespace {
 
 std::vector<std::string> files_of_run(const std::string& scene_file) {
   auto names = picture_files;
-  names.insert(names.end(), {trace_file, events_file, hdf5_file, checks_file, scenario_file, scene_file});
+  names.insert(names.end(), {trace_file, events_file, hdf5_file, checks_file, scenario_file, scene_file,
+                             record::verdict_file});
   return names;
 }
 
@@ -44,6 +45,7 @@ RunFolder::RunFolder(const std::filesystem::path& folder, Problems& problems)
 void RunFolder::begin() {
   files_.begin();
   write_checks(outcome_to_come(), files_.add(checks_file));
+  record::write_verdict(record::verdict_of(outcome_to_come()), files_);
 }
 
 RunLeft RunFolder::run(const scenario::Scenario& scenario, loop::Simulation& simulation,
@@ -97,6 +99,11 @@ RunLeft RunFolder::run(const scenario::Scenario& scenario, loop::Simulation& sim
     }
   }
   write_checks(outcome, files_.add(checks_file));
+  auto verdict = record::verdict_of(outcome);
+  if (!outcome.failure.empty() && request.is_interrupted()) verdict.stopped(record::interrupted_status);
+  verdict.title = scenario.scene.title;
+  verdict.scenarios = {scenario.file.generic_string()};
+  record::write_verdict(std::move(verdict), files_);
   return left;
 }
 

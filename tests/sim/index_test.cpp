@@ -4,6 +4,7 @@
 
 #include "sim/cli/index_command.hpp"
 #include "sim/cli/run_command.hpp"
+#include "sim/record/json.hpp"
 #include "sim/report/index.hpp"
 #include "tests/sim/command_bench.hpp"
 
@@ -20,30 +21,33 @@ struct Index : CommandTest {
     fs::create_directories((folder / name).parent_path());
     folder.file(name, text);
   }
+  void verdict(const std::string& name, const record::Verdict& verdict) const {
+    write(name + "/verdict.json", record::json_text(record::json_of(verdict)));
+  }
   /// The folder of a run as drycut run leaves it, whose checks ended so.
   void run(const std::string& name, const std::vector<bool>& checks, bool pictures = true) const {
-    std::string list;
-    bool all = true;
-    for (std::size_t i = 0; i < checks.size(); ++i) {
-      all = all && checks[i];
-      list += fmt::format(R"({}{{"name": "check {}", "passed": {}}})", i > 0 ? "," : "", i + 1, checks[i]);
+    record::Outcome outcome;
+    outcome.end = 12'500 * millisecond;
+    for (const bool passed : checks) {
+      auto& check = outcome.checks.emplace_back();
+      check.name = fmt::format("check {}", outcome.checks.size());
+      check.passed = passed;
     }
+    auto came = record::verdict_of(outcome);
+    came.kind = "run";
+    came.title = "The <line> & more";
     write(name + "/.drycut-run", "checks.json\n");
-    write(name + "/checks.json",
-          fmt::format(R"({{"drycut": "0.1.0", "passed": {}, "end": 12.5, "failure": "", "checks": [{}]}})",
-                      all, list));
-    write(name + "/scenario.yaml", "scene: {title: \"The <line> & more\"}\n");
+    verdict(name, came);
     write(name + "/trace.csv", "time [s]\n");
     if (!pictures) return;
-    write(name + "/report.html", "<title>PASS: it</title>");
+    write(name + "/report.html", "<title>FAIL: no page is read</title>");
     for (const auto* frame : {"0001", "0002", "0003"}) write(name + "/frames/" + frame + ".png", "x");
     write(name + "/plots/motion.png", "x");
   }
-  void study(const std::string& name, const std::string& kind, const std::string& title) const {
-    write(name + "/.drycut-" + kind, "report.html\n");
-    write(name + "/report.html",
-          "<!DOCTYPE html>\n<title>" + title +
-              "</title><p class=\"verdict told\"><strong>x</strong> <span>all &lt; 1</span>");
+  void study(const std::string& name, const record::Verdict& came) const {
+    write(name + "/.drycut-" + came.kind, "report.html\n");
+    verdict(name, came);
+    write(name + "/report.html", "<title>PASS: no page is read</title>");
     write(name + "/plots/map.png", "x");
   }
   int index() {
@@ -57,8 +61,16 @@ TEST_F(Index, FindsWhatDrycutWroteAndNothingElse) {
   run("b", {true});
   run("a", {true, false});
   run("three/LX3VP", {true});  // a member
-  study("three", "compare", "FAIL: a against b");
-  study("sweep", "sweep", "36: Sweep of &lt;it&gt;");
+  record::Verdict compared;
+  compared.kind = "compare";
+  compared.judge(false);
+  study("three", compared);
+  record::Verdict swept;
+  swept.kind = "sweep";
+  swept.word = "36";
+  swept.title = "Sweep of <it>";
+  swept.sentence = "all < 1";
+  study("sweep", swept);
   run("night/one", {true});
   write("night/.drycut-runs", "junit.xml\n");
   run("mine/one", {true});  // nobody wrote into mine
@@ -127,12 +139,40 @@ TEST_F(Index, ThreeOfManyFailedChecksAreNamed) {
 }
 
 TEST_F(Index, WhatCannotBeReadIsNotJudged) {
-  for (const auto* broken : {"{", "[]", R"({"passed": "yes"})"}) {
+  for (const auto* broken : {"{", "[]", R"({"verdict": true})", R"({"kind": "run", "exit": "0"})"}) {
     run("a", {true});
-    write("a/checks.json", broken);
+    write("a/verdict.json", broken);
     const auto entries = index_entries(folder.path);
-    EXPECT_EQ(entries[0].word, "") << broken;
+    EXPECT_FALSE(entries[0].came) << broken;
     EXPECT_THAT(index_page(entries), HasSubstr("<strong>RUNS</strong> <span>nothing is judged</span>"));
+  }
+}
+
+TEST_F(Index, WordsJudgeNothing) {
+  record::Verdict verdict;
+  verdict.kind = "sweep";
+  verdict.word = "FAIL";
+  verdict.sentence = "FAIL: 3 of 5 checks failed";
+  study("a", verdict);
+  EXPECT_EQ(index_verdict(index_entries(folder.path)), "nothing is judged");
+  verdict.judge(true);
+  study("a", verdict);
+  EXPECT_EQ(index_verdict(index_entries(folder.path)), "the one comparison or study passed");
+}
+
+TEST_F(Index, ARunOfAnEarlierReleaseHasItsChecks) {
+  run("a", {true});
+  fs::remove(folder / "a/verdict.json");
+  write("a/checks.json", R"({"drycut": "0.0.9", "passed": false, "end": 12.5, "failure": "",
+    "checks": [{"name": "one", "passed": true}, {"name": "two", "passed": false}]})");
+  const auto entry = index_entries(folder.path)[0];
+  EXPECT_EQ(entry.verdict, "1 of 2 checks failed: two");
+  EXPECT_EQ(entry.word, "FAIL");
+  EXPECT_EQ(entry.version, "0.0.9");
+  EXPECT_EQ(entry.simulated, 12.5);
+  for (const auto* broken : {"{", "[]", R"({"passed": "yes"})"}) {
+    write("a/checks.json", broken);
+    EXPECT_FALSE(index_entries(folder.path)[0].came) << broken;
   }
 }
 

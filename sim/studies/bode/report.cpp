@@ -257,19 +257,31 @@ std::string limit_cycle_text(const LimitCycle& cycle) {
   return text + verdict_of(cycle) + "\n";
 }
 
-void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
-                       const std::vector<std::string>& faults, const std::vector<record::CheckResult>& checks,
-                       const std::string& expanded, OutputFolder& folder) {
+record::Verdict verdict_of(const LoopResult& result, const std::vector<std::string>& faults,
+                           const std::vector<record::CheckResult>& checks) {
+  record::Verdict verdict;
+  verdict.title = "Frequency response: " + result.wire;
+  // Without a limit nothing is judged: who reads PASS would think that it was.
+  if (faults.empty() && checks.empty())
+    verdict.word = "MEASURED";
+  else
+    verdict.judge(faults.empty());
+  if (!result.sweep.failure.empty()) verdict.stopped();
+  verdict.sentence = !faults.empty()  ? fmt::format("{}", fmt::join(faults, "; "))
+                     : checks.empty() ? "no limit given, so no verdict"
+                                      : limits_text(checks);
+  verdict.counts = {{"frequencies", std::ssize(heard(result))},
+                    {"limits", std::ssize(checks)},
+                    {"faults", std::ssize(faults)}};
+  return verdict;
+}
+
+void write_bode_report(const LoopResult& result, const LimitCycle* cycle, const record::Verdict& verdict,
+                       const std::vector<record::CheckResult>& checks, const std::string& expanded,
+                       OutputFolder& folder) {
   std::vector<renders::Plot> plots;
-  renders::Report report;
-  report.title = "Frequency response: " + result.wire;
+  auto report = report::page_of(verdict);
   report.scenario = result.file;
-  report.passed = faults.empty();
-  // A page without a limit judges nothing: who reads PASS would think that it had.
-  if (faults.empty() && checks.empty()) report.word = "MEASURED";
-  report.verdict = !faults.empty()  ? fmt::format("{}", fmt::join(faults, "; "))
-                   : checks.empty() ? "no limit given, so no verdict"
-                                    : limits_text(checks);
   report::add_checks(checks, report);
   report.facts = {
       {{"measured", subject(result)}}, {{"reading", std::string(reading)}}, {{"drycut", DRYCUT_VERSION}}};

@@ -7,6 +7,7 @@
 #include "renders/plots.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/record/outcome.hpp"
+#include "sim/record/verdict.hpp"
 #include "sim/studies/bode/limit_cycle.hpp"
 #include "sim/studies/bode/loop.hpp"
 
@@ -17,13 +18,16 @@ std::string bode_report(const LoopResult& result);
 /// The gain margin over the amplitude, and where a limit cycle begins.
 std::string limit_cycle_text(const LimitCycle& cycle);
 /// What may be written into the folder of a measurement.
-inline const std::vector<std::string> bode_files = {"bode.csv", "report.html", "plots/"};
-/// Writes report.html and plots/ into `folder`; `faults` are what fails it, `checks` the limits that it was
-/// judged by, `expanded` is the scenario with every default; `cycle` may be null. Throws std::runtime_error
-/// if something cannot be written.
-void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
-                       const std::vector<std::string>& faults, const std::vector<record::CheckResult>& checks,
-                       const std::string& expanded, OutputFolder& folder);
+inline const std::vector<std::string> bode_files = {"bode.csv", "report.html", "plots/",
+                                                    record::verdict_file};
+/// What came of it: `faults` are what fails it, `checks` the limits that it was judged by.
+record::Verdict verdict_of(const LoopResult& result, const std::vector<std::string>& faults,
+                           const std::vector<record::CheckResult>& checks);
+/// Writes report.html and plots/ into `folder`; `expanded` is the scenario with every default;
+/// `cycle` may be null. Throws std::runtime_error if something cannot be written.
+void write_bode_report(const LoopResult& result, const LimitCycle* cycle, const record::Verdict& verdict,
+                       const std::vector<record::CheckResult>& checks, const std::string& expanded,
+                       OutputFolder& folder);
 inline constexpr std::string_view bode_csv_header =
     "frequency [Hz],open_loop.gain [dB],open_loop.phase [deg],closed_loop.gain [dB],closed_loop.phase "
     "[deg],sensitivity.gain [dB],error";

@@ -205,13 +205,30 @@ std::string rate_text(const ComparedRun& run) {
   return fmt::format(", recorded every {}", scenario::format_time(times[1] - times[0]));
 }
 
-renders::Report report_of(const Comparison& comparison, const ComparisonPage& page) {
-  renders::Report report;
-  report.title = page.title;
+record::Verdict verdict_of(const Comparison& comparison, const ComparisonPage& page) {
+  record::Verdict verdict;
+  verdict.title = page.title;
+  if (page.passed)
+    verdict.judge(*page.passed);
+  else
+    verdict.word = same(comparison) ? "SAME" : "DIFFERENT";
+  verdict.sentence = page.verdict;
+  const auto count = [&](const char* of, const auto& list, const auto& counts) {
+    verdict.counts[of] = std::count_if(list.begin(), list.end(), counts);
+  };
+  verdict.counts["runs"] = std::ssize(comparison.runs);
+  verdict.counts["checks"] = std::ssize(page.checks);
+  count("failed", page.checks, [](const auto& check) { return !check.passed; });
+  count("channels_beyond", comparison.channels, [](const auto& channel) { return !channel.is_kept(); });
+  verdict.counts["parameters"] = std::ssize(comparison.parameters);
+  verdict.scenarios = page.scenarios;
+  return verdict;
+}
+
+renders::Report report_of(const Comparison& comparison, const ComparisonPage& page,
+                          const record::Verdict& verdict) {
+  auto report = report::page_of(verdict);
   report.scenario = page.source;
-  report.passed = page.passed.value_or(true);
-  if (!page.passed) report.word = same(comparison) ? "SAME" : "DIFFERENT";
-  report.verdict = page.verdict;
   for (const auto& run : comparison.runs) {
     const double start = comparison.from.value_or(settled(run));
     report.facts.push_back(
@@ -229,10 +246,14 @@ renders::Report report_of(const Comparison& comparison, const ComparisonPage& pa
 
 }  // namespace
 
-void write_comparison(const Comparison& comparison, const ComparisonPage& page, OutputFolder& folder,
-                      bool pictures) {
+int write_comparison(const Comparison& comparison, const ComparisonPage& page, OutputFolder& folder,
+                     bool pictures) {
+  const auto verdict = verdict_of(comparison, page);
   write_file(folder.add(csv_file), comparison_csv(comparison, page.figures));
-  if (pictures) report::write_report(report_of(comparison, page), drawn_plots(comparison, page), folder);
+  if (pictures)
+    report::write_report(report_of(comparison, page, verdict), drawn_plots(comparison, page), folder);
+  record::write_verdict(verdict, folder);
+  return verdict.exit;
 }
 
 std::string comparison_text(const Comparison& comparison, bool judged) {

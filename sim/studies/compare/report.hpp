@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/output_folder.hpp"
+#include "sim/record/verdict.hpp"
 #include "sim/studies/compare/comparison.hpp"
 #include "sim/studies/compare/overlays.hpp"
 
@@ -13,6 +14,7 @@ namespace drycut::sim::studies {
 struct ComparisonPage {
   std::string title;
   std::string source;                       ///< what was compared: a scene's file, folders
+  std::vector<std::string> scenarios = {};  ///< a scene's file
   std::vector<Figure> figures;              ///< asked for by name, shown first
   std::vector<record::CheckResult> checks;  ///< over the figures of the runs
   std::optional<bool> passed;               ///< absent: nothing is judged, only compared
@@ -22,12 +24,13 @@ struct ComparisonPage {
 };
 
 /// What a comparison may write into its folder.
-inline const std::vector<std::string> comparison_files = {"comparison.csv", "report.html", "plots/"};
+inline const std::vector<std::string> comparison_files = {"comparison.csv", "report.html", "plots/",
+                                                          record::verdict_file};
 
-/// Writes comparison.csv and, with `pictures`, plots/ and report.html into `folder`. Throws
-/// std::runtime_error if something cannot be written.
-void write_comparison(const Comparison& comparison, const ComparisonPage& page, OutputFolder& folder,
-                      bool pictures);
+/// Writes comparison.csv, verdict.json and, with `pictures`, plots/ and report.html into `folder`. Returns
+/// the exit status. Throws std::runtime_error if something cannot be written.
+int write_comparison(const Comparison& comparison, const ComparisonPage& page, OutputFolder& folder,
+                     bool pictures);
 
 /// What differs, for a terminal: a line a check, a parameter; of what is `judged` also channels, and the
 /// first events.

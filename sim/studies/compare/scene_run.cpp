@@ -296,6 +296,7 @@ ComparedScene compare_members(const ComparisonScene& scene, const std::vector<Me
   auto& page = result.page;
   page.title = scene.title.empty() ? scene.file.stem().string() : scene.title;
   page.source = scene.file.filename().string();
+  page.scenarios = {scene.file.generic_string()};
   page.overlays = scene.plots;
   auto operands = operands_of(scene);
   for (const auto& figure : scene.figures) page.figures.push_back({figure.title, figure.unit, {}});

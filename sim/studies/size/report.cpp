@@ -251,19 +251,29 @@ std::string in_shell(const std::string& words) {
   return text + "'";
 }
 
-renders::Report size_page(const SizeResult& page) {
-  renders::Report report;
+record::Verdict verdict_of(const SizeResult& page) {
+  record::Verdict verdict;
   const auto fitting = count_fitting(page);
-  report.title =
+  verdict.title =
       fmt::format("Sizing of {} in {}", page.choices.drive.full_name(), page.question.file.stem().string());
-  report.scenario = page.question.file.filename().string();
-  report.passed = fitting > 0;
-  report.verdict = best_words(page);
+  verdict.judge(fitting > 0);
+  verdict.sentence = best_words(page);
   if (fitting > 0) {
-    report.word = fmt::format("{} FIT", fitting);
-    report.verdict = fmt::format("of {} at {}; {}", counted(std::ssize(page.candidates), "candidate"),
-                                 counted(std::ssize(page.corners), "corner"), report.verdict);
+    verdict.word = fmt::format("{} FIT", fitting);
+    verdict.sentence = fmt::format("of {} at {}; {}", counted(std::ssize(page.candidates), "candidate"),
+                                   counted(std::ssize(page.corners), "corner"), verdict.sentence);
   }
+  verdict.counts = {{"candidates", std::ssize(page.candidates)},
+                    {"corners", std::ssize(page.corners)},
+                    {"fitting", static_cast<std::int64_t>(fitting)}};
+  verdict.scenarios = {page.question.file.generic_string()};
+  return verdict;
+}
+
+renders::Report size_page(const SizeResult& page, const record::Verdict& verdict) {
+  auto report = report::page_of(verdict);
+  const auto fitting = count_fitting(page);
+  report.scenario = page.question.file.filename().string();
   std::vector<std::string> names;
   for (const auto& corner : page.corners) names.push_back(corner.name);
   report.facts = {
@@ -322,8 +332,9 @@ std::string command_for(const PointQuestion& question, const Candidate& candidat
   return text;
 }
 
-void write_size_report(const SizeResult& page, OutputFolder& folder) {
-  auto report = size_page(page);
+record::Verdict write_size_report(const SizeResult& page, OutputFolder& folder) {
+  auto verdict = verdict_of(page);
+  auto report = size_page(page, verdict);
   if (auto plot = over_gears(page)) report::add_plots({std::move(*plot)}, folder, report);
   std::vector<renders::Plot> small;
   auto section = operating_section(page, small);
@@ -337,6 +348,7 @@ void write_size_report(const SizeResult& page, OutputFolder& folder) {
     for (auto& plot : small) report.live.push_back(std::move(plot));
   }
   report::write_report(std::move(report), {}, folder);
+  return verdict;
 }
 
 }  // namespace drycut::sim::studies

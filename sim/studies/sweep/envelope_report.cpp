@@ -220,38 +220,43 @@ std::string first_command(const Envelope& envelope, const Studied& study) {
                        {setting(envelope.request.parameter, number_text(study.numbers[i][0]))});
 }
 
-renders::Report page_of(const std::vector<Envelope>& envelopes, const std::vector<Studied>& studies) {
-  renders::Report report;
+record::Verdict verdict_of(const std::vector<Envelope>& envelopes, const std::vector<Studied>& studies) {
+  record::Verdict verdict;
   const bool several = studies.size() > 1;
   std::set<std::string> sought;
-  std::vector<const Studied*> all;
   std::vector<std::string> spans;
   for (std::size_t i = 0; i < studies.size(); ++i) {
     sought.insert(sought_text(envelopes[i]));
     spans.push_back(fmt::format("{} {}", envelopes[i].scene, span_text(envelopes[i])));
-    all.push_back(&studies[i]);
-    report.scenario += (i > 0 ? ", " : "") + studies[i].question.file.filename().string();
+    verdict.scenarios.push_back(studies[i].question.file.generic_string());
+    verdict.counts["points"] += std::ssize(studies[i].points);
+    for (const auto come : verdicts_of(envelopes[i])) ++verdict.counts[std::string(name_of(come))];
   }
-  report.title = several ? "Envelopes" : "Envelope of " + studies[0].scene;
-  report.passed = true;
-  report.word = several                             ? fmt::format("{} scenarios", studies.size())
-                : span_text(envelopes[0]) == "none" ? "NONE"
-                                                    : "FOUND";
-  report.verdict = headline(envelopes[0]);
+  verdict.title = several ? "Envelopes" : "Envelope of " + studies[0].scene;
+  verdict.word = several                             ? fmt::format("{} scenarios", studies.size())
+                 : span_text(envelopes[0]) == "none" ? "NONE"
+                                                     : "FOUND";
+  verdict.sentence = headline(envelopes[0]);
   if (several)
-    report.verdict =
+    verdict.sentence =
         fmt::format("{}{}", sought.size() == 1 ? *sought.begin() + ": " : "", fmt::join(spans, "; "));
-  report.facts = facts_of(all);
-  return report;
+  return verdict;
 }
 
 }  // namespace
 
-void write_envelope_report(const std::vector<Envelope>& envelopes, OutputFolder& folder) {
+record::Verdict write_envelope_report(const std::vector<Envelope>& envelopes, OutputFolder& folder) {
   std::vector<Studied> studies;
   studies.reserve(envelopes.size());
   for (const auto& envelope : envelopes) studies.push_back(studied(envelope));
-  auto report = page_of(envelopes, studies);
+  const auto verdict = verdict_of(envelopes, studies);
+  auto report = report::page_of(verdict);
+  std::vector<const Studied*> all;
+  for (const auto& study : studies) {
+    all.push_back(&study);
+    report.scenario += (report.scenario.empty() ? "" : ", ") + study.question.file.filename().string();
+  }
+  report.facts = facts_of(all);
   std::vector<renders::Plot> plots;
   const auto families = families_of(envelopes, studies);
   for (std::size_t k = 0; k < families.size(); ++k) {
@@ -291,6 +296,7 @@ void write_envelope_report(const std::vector<Envelope>& envelopes, OutputFolder&
   if (const auto why = why_again(envelopes); !why.empty()) report.notes.emplace_back(why);
   std::erase_if(plots, [](const renders::Plot& plot) { return plot.panels.empty(); });
   report::write_report(std::move(report), std::move(plots), folder);
+  return verdict;
 }
 
 }  // namespace drycut::sim::studies

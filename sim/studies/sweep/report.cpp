@@ -210,20 +210,23 @@ std::optional<std::size_t> point_to_repeat(const std::vector<PointRow>& rows) {
 
 }  // namespace
 
-void write_sweep_report(const PointQuestion& question, const SweepAxes& axes,
-                        const std::vector<SweepPoint>& points, const std::vector<PointRow>& rows,
-                        OutputFolder& folder) {
+record::Verdict write_sweep_report(const PointQuestion& question, const SweepAxes& axes,
+                                   const std::vector<SweepPoint>& points, const std::vector<PointRow>& rows,
+                                   OutputFolder& folder) {
   auto study = studied(question, axes, points, rows);
   study.lines = lines_of(study);
   const auto title = "Sweep of " + study.scene;
   const auto passed = std::count(study.good.begin(), study.good.end(), true);
-  renders::Report report;
-  report.title = title;
+  record::Verdict verdict;
+  verdict.title = title;
+  verdict.word = fmt::format("{} of {}", passed, points.size());
+  verdict.sentence = "points passed" + (over_axes(study, 1) ? stretches_text(study, rows) : "");
+  if (const auto others = others_text(rows); !others.empty()) verdict.sentence += "; " + others;
+  verdict.counts["points"] = std::ssize(points);
+  for (const auto& row : rows) ++verdict.counts[std::string(name_of(row.verdict))];
+  verdict.scenarios = {question.file.generic_string()};
+  auto report = report::page_of(verdict);
   report.scenario = question.file.filename().string();
-  report.passed = true;
-  report.word = fmt::format("{} of {}", passed, points.size());
-  report.verdict = "points passed" + (over_axes(study, 1) ? stretches_text(study, rows) : "");
-  if (const auto others = others_text(rows); !others.empty()) report.verdict += "; " + others;
   report.facts = facts_of({&study});
   report.summary = {counts_of(study, "What fails first")};
   report.tables = {rows_of(study, "Every point")};
@@ -247,6 +250,15 @@ void write_sweep_report(const PointQuestion& question, const SweepAxes& axes,
   }
   std::erase_if(plots, [](const renders::Plot& plot) { return plot.panels.empty(); });
   report::write_report(std::move(report), std::move(plots), folder);
+  return verdict;
+}
+
+int finish(record::Verdict verdict, const PointStore& store, OutputFolder& folder) {
+  verdict.counts["simulated"] = static_cast<std::int64_t>(store.simulated());
+  if (!store.lost().empty()) verdict.stopped();
+  record::write_verdict(verdict, folder);
+  folder.finish();
+  return verdict.exit;
 }
 
 }  // namespace drycut::sim::studies

@@ -203,6 +203,12 @@ RunSplit split_of(const TuneRequest& request, const TunePlan& plan) {
   return split;
 }
 
+std::vector<std::string> Tuned::lost() const {
+  auto lost = trials->lost();
+  if (spread) lost.insert(lost.end(), spread->lost().begin(), spread->lost().end());
+  return lost;
+}
+
 Tuned tune(const TunePlan& plan, const TuneRequest& request, const cluster::Workers& workers,
            OutputFolder& folder, const TuneProgress& progress) {
   folder.begin_aside({evaluations_file, spread_file});
@@ -260,8 +266,13 @@ Tuned tune(const TunePlan& plan, const TuneRequest& request, const cluster::Work
     }
     write_tuning_report(tuning, folder);
   }
+  Tuned tuned{std::move(trials), std::move(spread), has_report, std::move(tuning)};
+  auto verdict = verdict_of(tuned.found);
+  if (!tuned.lost().empty()) verdict.stopped();
+  tuned.exit = verdict.exit;
+  record::write_verdict(std::move(verdict), folder);
   folder.finish();
-  return {std::move(trials), std::move(spread), has_report, std::move(tuning)};
+  return tuned;
 }
 
 }  // namespace drycut::sim::studies

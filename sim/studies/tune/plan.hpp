@@ -65,7 +65,7 @@ inline constexpr auto* evaluations_file = "evaluations.csv";
 inline constexpr auto* spread_file = "spread.csv";
 inline constexpr auto* patch_file = "patch.txt";
 inline const std::vector<std::string> tuning_files = {evaluations_file, spread_file, patch_file,
-                                                      "report.html", "plots/"};
+                                                      "report.html",    "plots/",    record::verdict_file};
 
 /// A tuning carried out.
 struct Tuned {
@@ -73,6 +73,9 @@ struct Tuned {
   std::unique_ptr<Trials> spread;  ///< none if nothing is spread
   bool has_report = false;
   Tuning found;  ///< refers to the plan and to the trials above
+  int exit = 0;  ///< status, as its verdict has it
+  /// Why each run that was lost was.
+  [[nodiscard]] std::vector<std::string> lost() const;
 };
 /// Tells what is being done and which share of it is.
 using TuneProgress = std::function<void(const char* doing, double share)>;

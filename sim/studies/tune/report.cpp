@@ -315,20 +315,29 @@ std::string summary_text(const Tuning& tuning) {
   return text + "\n" + patch_text(tuning);
 }
 
-void write_tuning_report(const Tuning& tuning, OutputFolder& folder) {
+record::Verdict verdict_of(const Tuning& tuning) {
   const auto& after = tuning.after();
-  renders::Report report;
-  report.title = "Tuning: " + tuning.study.minimise;
-  for (const auto& entry : tuning.study.cases)
-    report.scenario += (report.scenario.empty() ? "" : ", ") + entry.file.filename().string();
-  report.passed = after.feasible();
+  record::Verdict verdict;
+  verdict.title = "Tuning: " + tuning.study.minimise;
+  for (const auto& entry : tuning.study.cases) verdict.scenarios.push_back(entry.file.generic_string());
+  verdict.judge(after.feasible() && !tuning.unmeasurable);
+  if (after.stopped) verdict.stopped();
   auto first = miss_text(tuning);
   if (!first.empty()) first += ". ";
   const auto unit = with_space(tuning.study.metric_unit);
   const auto change = tuning.stays ? metric_equals(tuning, metric_text(after))
                                    : fmt::format("{}: {}{} before, {}{} after", tuning.study.minimise,
                                                  metric_text(tuning.before), unit, metric_text(after), unit);
-  report.verdict = first + change + (after.feasible() ? "; all limits kept" : "");
+  verdict.sentence = first + change + (after.feasible() ? "; all limits kept" : "");
+  verdict.counts["tried"] = std::ssize(tuning.trials.trials());
+  for (const auto& part : tuning.used) verdict.counts["runs"] += part.second;
+  return verdict;
+}
+
+void write_tuning_report(const Tuning& tuning, OutputFolder& folder) {
+  auto report = report::page_of(verdict_of(tuning));
+  for (const auto& entry : tuning.study.cases)
+    report.scenario += (report.scenario.empty() ? "" : ", ") + entry.file.filename().string();
   report.facts = {{{"sets of values tried", fmt::format("{}", tuning.trials.trials().size())}},
                   {{"simulated runs", runs_text(tuning)}},
                   {{"measured from", fmt::format("{} s", record::seconds_text(tuning.study.from))}},

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/output_folder.hpp"
+#include "sim/record/verdict.hpp"
 #include "sim/studies/tune/present.hpp"
 #include "sim/studies/tune/study.hpp"
 #include "sim/studies/tune/trials.hpp"
@@ -44,6 +45,8 @@ std::string miss_text(const Tuning& tuning);
 std::string runs_text(const Tuning& tuning);
 /// Before and after, the values, the surroundings, the spread: for the terminal.
 std::string summary_text(const Tuning& tuning);
+/// What came of it.
+record::Verdict verdict_of(const Tuning& tuning);
 /// Draws plots/ and writes report.html in `folder`. Throws std::runtime_error if something cannot be written.
 void write_tuning_report(const Tuning& tuning, OutputFolder& folder);
 
