@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/camming4/sector.hpp"
+#include "devices/camming4/cam_table.hpp"
 #include "sim/cams/kinds.hpp"
 
 namespace drycut::sim::cams {

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "devices/camming4/cam.hpp"
-#include "devices/camming4/sector.hpp"
+#include "devices/camming4/cam_table.hpp"
 #include "devices/camming4/table.hpp"
 #include "sim/cams/csv.hpp"
 #include "sim/cams/kinds.hpp"

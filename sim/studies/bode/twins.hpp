@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "sim/loop/names.hpp"
 #include "sim/loop/simulation.hpp"
 
 namespace drycut::sim::studies {
