@@ -23,7 +23,7 @@ using Marks = std::set<std::string>;
 /// Adds the names of a device's table: variables and states as it spells them, "START accepted" and "START
 /// refused" for the commands.
 inline void add_table(const DeviceType& type, Marks& marks) {
-  for (const Variable& variable : type.variables) marks.emplace(variable.name);
+  for (const DeviceVariable& variable : type.variables) marks.emplace(variable.name);
   for (const State& state : type.states) marks.emplace(state.name);
   for (const DeviceCommand& command : type.commands) {
     marks.insert(std::string(command.name) + " accepted");

@@ -93,7 +93,7 @@ TEST_P(DeviceTables, EveryRowHasItsOwnNameAMeaningAndASection) {
 }
 
 TEST_P(DeviceTables, RangesHoldWhatTheSizeHolds) {
-  for (const Variable& row : type.variables) {
+  for (const DeviceVariable& row : type.variables) {
     EXPECT_LE(row.min, row.max) << row.name;
     if (row.name == "errvalue" || row.name == "wrnvalue") continue;  // bytes that show rows up to 128
     EXPECT_EQ(wrap(row.size, static_cast<std::int64_t>(row.min)), row.min) << row.name;

@@ -12,24 +12,24 @@ using testing::IsEmpty;
 
 enum State { st_init, st_busy, st_kept };
 enum Value { level, byte, shown, flag, table };
-enum DeviceCommand { c_INIT, c_FIRST, c_SECOND, c_QUIET };
+enum FakeCommand { c_INIT, c_FIRST, c_SECOND, c_QUIET };
 
 constexpr std::array variables = {
-    Variable{"level", Size::L, "Um", -100, 100},
-    Variable{"byte", Size::B, "", -128, 127, Access::read_write, Retention::zero, {0b10, 0b00}},
-    Variable{"shown", Size::L, "", 0, 0, Access::read},
-    Variable{"flag", Size::F, "", 0, 1, Access::read_write, Retention::one},
-    Variable{"code",
-             Size::W,
-             "",
-             0,
-             9,
-             Access::read_write,
-             Retention::retentive,
-             {0, 0, "a free row"},
-             "",
-             "",
-             12},
+    DeviceVariable{"level", Size::L, "Um", -100, 100},
+    DeviceVariable{"byte", Size::B, "", -128, 127, Access::read_write, Retention::zero, {0b10, 0b00}},
+    DeviceVariable{"shown", Size::L, "", 0, 0, Access::read},
+    DeviceVariable{"flag", Size::F, "", 0, 1, Access::read_write, Retention::one},
+    DeviceVariable{"code",
+                   Size::W,
+                   "",
+                   0,
+                   9,
+                   Access::read_write,
+                   Retention::retentive,
+                   {0, 0, "a free row"},
+                   "",
+                   "",
+                   12},
 };
 constexpr std::array states = {devices::State{"st_init"}, devices::State{"st_busy"},
                                devices::State{"st_kept", Retention::retentive}};

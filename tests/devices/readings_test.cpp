@@ -21,7 +21,7 @@ bool has_row(const DeviceType& type, std::string_view name) {
 TEST(Readings, BelongToARowAndNameThePlaceInAManual) {
   for (const CatalogueEntry& entry : catalogue()) {
     std::set<std::string_view> seen;
-    for (const Reading& reading : entry.type->readings) {
+    for (const ManualReading& reading : entry.type->readings) {
       EXPECT_TRUE(reading.of.empty() || has_row(*entry.type, reading.of)) << entry.type->name << reading.of;
       EXPECT_TRUE(reading.of.empty() || seen.insert(reading.of).second) << "twice: " << reading.of;
       EXPECT_FALSE(reading.text.empty()) << reading.of;
@@ -54,7 +54,7 @@ TEST(Readings, SayWhatTheDevicesDecide) {
                                  {"CAMMING4", "prsmodem", "at the enable's edge"},
                                  {"OOPOS2", "tool", "goes to the limit"},
                                  {"OOPOS2", "overpos", "no least way"}}) {
-    const auto says = [&](const Reading& reading) {
+    const auto says = [&](const ManualReading& reading) {
       return reading.of == decided.of && reading.text.find(decided.says) != std::string_view::npos;
     };
     EXPECT_TRUE(std::ranges::any_of(catalogue(),

@@ -28,7 +28,7 @@ inline void expect_variables(const DeviceType& type, std::span<const VariableRul
   ASSERT_EQ(rules.size(), type.variables.size());
   for (std::size_t i = 0; i < rules.size(); ++i) {
     const VariableRule& rule = rules[i];
-    const Variable& variable = type.variables[i];
+    const DeviceVariable& variable = type.variables[i];
     EXPECT_EQ(variable.name, rule.name);
     EXPECT_EQ(static_cast<char>(variable.size), rule.size) << rule.name;
     EXPECT_EQ(variable.access == Access::read, rule.access == "R") << rule.name;

@@ -205,7 +205,7 @@ TEST(RendersGltfTrack, AStretchWithoutChangeKeepsItsEnds) {
     film.frames.push_back(frame);
   }
   std::vector<double> times;
-  for (const Key& key : track_of(film, 0, 1)) times.push_back(key.time_s);
+  for (const TrackKey& key : track_of(film, 0, 1)) times.push_back(key.time_s);
   EXPECT_THAT(times, ::testing::ElementsAre(0, 1, 2, 6, 7, 8, 9));
 }
 

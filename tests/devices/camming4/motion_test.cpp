@@ -188,7 +188,7 @@ TEST_F(Camming4Motion, SaysWhatUnsetParametersActAs) {
 }
 
 TEST_F(Camming4Motion, HostileParametersAreHarmless) {
-  for (const Variable& variable : device->type().variables)
+  for (const DeviceVariable& variable : device->type().variables)
     for (const std::int32_t value : {0, -1, 2147483647, -2147483647 - 1}) {
       write(std::string(variable.name) + (variable.rows > 1 ? "1" : ""), value);
       does("INIT! +1*1000000");

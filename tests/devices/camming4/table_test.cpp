@@ -5,7 +5,7 @@
 namespace drycut::devices::camming4 {
 namespace {
 
-const Variable& variable(std::string_view name) {
+const DeviceVariable& variable(std::string_view name) {
   return camming4_type.variables[find_symbol(camming4_type, name)->index];
 }
 

@@ -90,7 +90,7 @@ constexpr VariableRule variable_rules[] = {
 
 TEST(Camming4Conditions, VariablesAreThoseOfTheManual) {
   expect_variables(camming4_type, variable_rules);
-  for (const Variable& variable : camming4_type.variables)
+  for (const DeviceVariable& variable : camming4_type.variables)
     EXPECT_EQ(variable.rows, variable.name.starts_with("code") && variable.name != "codeMex" ? 128 : 1)
         << variable.name;
 }

@@ -83,7 +83,7 @@ TEST_F(EpicposCounting, OutOfRangeIsTakenAndReported) {
 TEST_F(EpicposCounting, NonsenseInEveryParameterDoesNotStopIt) {
   for (const std::int32_t nonsense : {0, -1, 2147483647, -2147483647 - 1}) {
     does("power");
-    for (const Variable& variable : epicpos_type.variables)
+    for (const DeviceVariable& variable : epicpos_type.variables)
       if (variable.access == Access::read_write) write(variable.name, nonsense);
     does("INIT");
     for (const char* name : {"LOOPON", "START", "STOP", "MANBW", "PRESET", "STOP", "CALON", "CALOFF"}) {

@@ -11,7 +11,7 @@ class EpicposTable : public testing::TestWithParam<const DeviceType*> {};
 INSTANTIATE_TEST_SUITE_P(Both, EpicposTable, testing::Values(&epicpos_type, &eanpos_type),
                          [](const auto& type) { return std::string(type.param->name); });
 
-const Variable& variable(const DeviceType& type, std::string_view name) {
+const DeviceVariable& variable(const DeviceType& type, std::string_view name) {
   return type.variables[static_cast<std::size_t>(find_symbol(type, name).value().index)];
 }
 

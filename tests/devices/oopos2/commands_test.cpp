@@ -132,7 +132,7 @@ TEST_F(Oopos2Commands, PowerLossKeepsWhatIsRetentive) {
   shows("iner05>0");
   after("MANFFW CNTLOCK +30", "on=AM");
   std::vector<std::pair<std::string, std::int32_t>> kept;
-  for (const Variable& row : oopos2_type.variables)
+  for (const DeviceVariable& row : oopos2_type.variables)
     kept.emplace_back(row.name, row.retention == Retention::retentive ? get(row.name) : 0);
   after("power", "on=");
   for (const auto& [name, value] : kept) EXPECT_EQ(get(name), value) << name;

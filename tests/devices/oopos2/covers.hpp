@@ -12,7 +12,7 @@ inline coverage::Marks all_marks() {
   coverage::add_table(oopos2_type, marks);
   for (const char* mode :
        {"bklashmode", "slowtype", "inertmode", "dobiner", "enstol", "prsmode", "prsdir", "breaktype"}) {
-    const Variable& row =
+    const DeviceVariable& row =
         oopos2_type.variables[static_cast<std::size_t>(find_symbol(oopos2_type, mode).value().index)];
     for (int number = 0; number <= static_cast<int>(row.max); ++number)
       marks.insert(mode + (" " + std::to_string(number)));

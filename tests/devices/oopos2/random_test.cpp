@@ -19,7 +19,7 @@ class Oopos2Random : public Oopos2Test, public testing::WithParamInterface<int> 
   /// A write of any variable but `never`: in its range, or now and then anything.
   void any_write(std::string_view never = "") {
     const auto& rows = oopos2_type.variables;
-    const Variable& row = rows[random() % rows.size()];
+    const DeviceVariable& row = rows[random() % rows.size()];
     if (row.name == never) return;
     const int low = static_cast<int>(std::max(row.min, -9999.0));
     const int high = static_cast<int>(std::min(row.max, 9999.0));

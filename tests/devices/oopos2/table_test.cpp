@@ -63,7 +63,7 @@ constexpr VariableRule variable_rules[] = {
 
 TEST(Oopos2Table, VariablesAreThoseOfTheManual) {
   expect_variables(oopos2_type, variable_rules);
-  for (const Variable& variable : oopos2_type.variables) {
+  for (const DeviceVariable& variable : oopos2_type.variables) {
     EXPECT_EQ(variable.rows, 1) << variable.name;
     // Only posit has a condition (001 1.6.3).
     EXPECT_EQ(variable.write.mask, variable.name == "posit" ? 1u : 0u) << variable.name;

@@ -102,7 +102,7 @@ TEST(PlcopenMoveRelative, WhatHasEndedIsNotAbortedByWhatComesLater) {
   execute(refused, b.kernel);  // without a velocity
   finish(done, b);
   ASSERT_TRUE(done.Done);
-  b.s().move({DeviceCommand::move_velocity, 0, {.velocity = 1'000}, Direction::positive});
+  b.s().move({Command::move_velocity, 0, {.velocity = 1'000}, Direction::positive});
   b.kernel.cycle();
   refused.call(b.kernel);
   done.call(b.kernel);

@@ -160,7 +160,7 @@ TEST(PlcopenRanges, NoNumberOnAPinDoesHarm) {
           b.engage(hli_ci_f_periodic);
         }
         if (type.name == "MC_MoveSuperImposed") {
-          b.s().move({DeviceCommand::move_velocity, 0, {.velocity = 1'000}, Direction::positive});
+          b.s().move({Command::move_velocity, 0, {.velocity = 1'000}, Direction::positive});
           b.step();
         }
         const std::unique_ptr<FunctionBlock> block = type.make();
@@ -358,7 +358,7 @@ TEST(PlcopenParameters, AreWrittenInStandstillAndInTheirRange) {
   EXPECT_EQ(error_of(3, 78), id(ErrorId::parameter_range)) << "the limits would cross";
   for (const int number : {1, 4, 8, 10, 12, 17, -1})
     EXPECT_EQ(error_of(static_cast<std::int16_t>(number), 1), id(ErrorId::no_such_parameter)) << number;
-  b.s().move({DeviceCommand::move_velocity, 0, {.velocity = 1'000}, Direction::positive});
+  b.s().move({Command::move_velocity, 0, {.velocity = 1'000}, Direction::positive});
   EXPECT_EQ(error_of(9, 1), id(ErrorId::in_continuous_motion)) << "ISG: only in standstill";
   EXPECT_EQ(b.s().parameters().vb_max, 250'000);
   write.Axis = {};

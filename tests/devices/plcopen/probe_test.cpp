@@ -158,7 +158,7 @@ TEST(PlcopenProbe, MovementsDoNotTouchIt) {
   auto touch = b.make<McTouchProbe>();
   touch.Execute = true;
   touch.call(b.kernel);
-  b.s().move({DeviceCommand::move_velocity, 0, {.velocity = 1'000}, Direction::positive});
+  b.s().move({Command::move_velocity, 0, {.velocity = 1'000}, Direction::positive});
   b.kernel.cycle();
   b.s().fault(ErrorId::drive_error);
   touch.call(b.kernel);

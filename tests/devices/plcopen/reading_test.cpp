@@ -48,9 +48,9 @@ TEST(PlcopenReading, StatusShowsTheOneStateThatTheAxisHas) {
   b.s().home(0);
   shows(AxisState::homing, &McReadStatus::Homing);
   b.kernel.cycle();
-  b.s().move({DeviceCommand::move_absolute, 100'000, {.velocity = 1'000}});
+  b.s().move({Command::move_absolute, 100'000, {.velocity = 1'000}});
   shows(AxisState::discrete_motion, &McReadStatus::DiscreteMotion);
-  b.s().move({DeviceCommand::move_velocity, 0, {.velocity = 1'000}, Direction::positive});
+  b.s().move({Command::move_velocity, 0, {.velocity = 1'000}, Direction::positive});
   shows(AxisState::continuous_motion, &McReadStatus::ContinuousMotion);
   b.couple();
   shows(AxisState::synchronized_motion, &McReadStatus::SynchronizedMotion);

@@ -279,12 +279,12 @@ TEST(PlcopenStates, AnotherCommandAbortsEveryOneUnderWay) {
 
 TEST(PlcopenStates, EachBlockUncouplesItsOwnKindOnly) {
   Walk b(synchronized_motion);
-  EXPECT_EQ(b.s().uncouple(DeviceCommand::gear_out).error, ErrorId::in_synchronized_motion);
+  EXPECT_EQ(b.s().uncouple(Command::gear_out).error, ErrorId::in_synchronized_motion);
   EXPECT_TRUE(b.s().coupling()->engaged());
   const std::unique_ptr<FunctionBlock> gear = b.named("MC_GearIn");
   gear->call(b.kernel);
-  EXPECT_EQ(b.s().uncouple(DeviceCommand::cam_out).error, ErrorId::in_synchronized_motion);
-  EXPECT_EQ(b.s().uncouple(DeviceCommand::gear_out).error, ErrorId::none);
+  EXPECT_EQ(b.s().uncouple(Command::cam_out).error, ErrorId::in_synchronized_motion);
+  EXPECT_EQ(b.s().uncouple(Command::gear_out).error, ErrorId::none);
 }
 
 TEST(PlcopenStates, AnAxisUnpluggedFromARunningBlockDoesNoHarm) {

@@ -117,7 +117,7 @@ TEST(PlcopenSuperImposed, OnACamAndAGearItShiftsTheSlaveAndNothingElse) {
     // Uncoupled it stays where it is.
     const double at_end = b.at(b.s());
     const double speed = b.s().set().velocity;
-    EXPECT_EQ(b.s().uncouple(cam ? DeviceCommand::cam_out : DeviceCommand::gear_out).error, ErrorId::none);
+    EXPECT_EQ(b.s().uncouple(cam ? Command::cam_out : Command::gear_out).error, ErrorId::none);
     b.kernel.cycle();
     EXPECT_NEAR(b.at(b.s()), at_end + speed * cycle_s, 1e-5);
   }

@@ -22,8 +22,9 @@ class Puppet : public Device {
 
   Puppet(const Resources& resources, Cards& cards) : Device(table()), resources_(resources), cards_(cards) {}
 
-  static constexpr Variable variable(std::string_view name, Size size, std::string_view unit, double limit,
-                                     Retention retention, Access access = Access::read_write, int rows = 1) {
+  static constexpr DeviceVariable variable(std::string_view name, Size size, std::string_view unit,
+                                           double limit, Retention retention,
+                                           Access access = Access::read_write, int rows = 1) {
     return {name, size, unit, -limit, limit, access, retention, {}, "", "", rows};
   }
 

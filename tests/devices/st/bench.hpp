@@ -79,7 +79,7 @@ inline void expect_problems(const std::string& text, const std::vector<std::stri
 }
 
 /// Why a program stands after its first scan; a cold start leads out of it.
-inline std::optional<Fault> fault_in_first_scan(const std::string& text) {
+inline std::optional<RuntimeFault> fault_in_first_scan(const std::string& text) {
   Problems problems;
   MotionKernel kernel;
   Runtime runtime(compile(text, "f", problems), kernel);

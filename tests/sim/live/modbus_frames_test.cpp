@@ -147,7 +147,7 @@ TEST(ModbusFrames, RefuseWhatTheStandardRefuses) {
 }
 
 TEST(ModbusFrames, ComeOutOfTheBytesHoweverTheyCome) {
-  const Frame one{0x1234, 17, bytes({3, 0, 1, 0, 2})};
+  const ModbusFrame one{0x1234, 17, bytes({3, 0, 1, 0, 2})};
   const auto sent = bytes_of(one);
   EXPECT_THAT(sent, ElementsAre(0x12, 0x34, 0, 0, 0, 6, 17, 3, 0, 1, 0, 2));
   Bytes two = sent;

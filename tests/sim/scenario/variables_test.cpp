@@ -150,7 +150,8 @@ TEST(Variables, ToldWhereTheyStand) {
                 "1:17: the variable 'a' needs itself: a -> a; give one of them a value of its own"},
            Case{"variables: {l: 800 mm}\n" + use + "${l}\n",
                 "1:16: variables.l is a length (800 mm); it is used as a time (at 3:13); write 800 ms"},
-           Case{"variables: {l: 800 mm, bad: \"${l} + 1 s\"}\n", "1:16: variables.l is a length (800 mm); it is used as a time (at 1:37); write 800 ms"},
+           Case{"variables: {l: 800 mm, bad: \"${l} + 1 s\"}\n",
+                "1:16: variables.l is a length (800 mm); it is used as a time (at 1:37); write 800 ms"},
            Case{"variables: {v: 90 m/s}\nplants: {web: {type: web, speed: \"${v}\"}}\n",
                 "1:16: variables.v is 90 m/s, which is out of range (at 2:35); write 90 m/min"},
            Case{"variables: {l: 800 mn}\n", "1:20: variables.l: unknown unit 'mn'"},
@@ -186,7 +187,9 @@ TEST(Variables, DoNotGrowWithoutEnd) {
               ElementsAre(HasSubstr("2:17: this comes to a text with ${ in it")));
 }
 
-std::vector<Variable> of_length() { return {{{"length", {}}, {"800 mm", {}}}, {{"kind", {}}, {"saw", {}}}}; }
+std::vector<VariableEntry> of_length() {
+  return {{{"length", {}}, {"800 mm", {}}}, {{"kind", {}}, {"saw", {}}}};
+}
 
 TEST(Variables, InATableBecomeNumbersThatKeepTheColumns) {
   Problems problems;
