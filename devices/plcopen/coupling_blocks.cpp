@@ -5,8 +5,8 @@ namespace drycut::devices::plcopen {
 void McCamTableSelect::call(MotionKernel& kernel) {
   about = Slave;
   if (edge_.rising(Execute)) {
-    const plcopen::McCamTable* table = McCamTable.file.empty() ? kernel.tables().find(McCamTable.id)
-                                                               : kernel.tables().find_file(McCamTable.file);
+    const plcopen::McCamTable* table =
+        CamTable.file.empty() ? kernel.tables().find(CamTable.id) : kernel.tables().find_file(CamTable.file);
     const bool axes = kernel.axis(Master) != nullptr && kernel.axis(Slave) != nullptr;
     ErrorId error = table == nullptr ? ErrorId::selected_table_missing : ErrorId::none;
     if (!axes) error = ErrorId::no_such_axis;

@@ -361,7 +361,7 @@ struct CoupledPins {
 };
 
 struct McCamTableSelect final : ExecutedBlock, CoupledPins {
-  CamRef McCamTable;
+  CamRef CamTable;
   std::uint16_t CamTableID = 0;
   void call(MotionKernel& kernel) override;
 };

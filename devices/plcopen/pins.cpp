@@ -114,7 +114,7 @@ std::span<const BlockType> block_types() {
             IN(Direction, "1 positive, 3 negative, 4 current"), BUFFER,
             OUT(InVelocity, "the speed is reached"), ACTIVE, ABORTED, ERRORS),
       BLOCK(McCamTableSelect, "MC_CamTableSelect", "finds a cam table", MASTER_SLAVE, EXECUTE,
-            IN(McCamTable, "the table by its file's name, which wins, or its id"), DONE("the table is there"),
+            IN(CamTable, "the table by its file's name, which wins, or its id"), DONE("the table is there"),
             BUSY, ERRORS, OUT(CamTableID, "for MC_CamIn")),
       BLOCK(McCamIn, "MC_CamIn", "couples by a cam", MASTER_SLAVE, EXECUTE,
             IN(MasterOffset, "added to the scaled master, +-2^31"),
