@@ -85,7 +85,7 @@ std::vector<loop::CamDoubt> cam_doubts(const std::vector<loop::PlayedCam>& playe
     };
     std::size_t told = 0;
     for (const auto& finding : cam.study.findings)
-      if (finding.grade != CamFinding::Grade::remark && ++told <= most)
+      if (finding.grade < CamFinding::Grade::caution && ++told <= most)
         doubts.push_back({fmt::format("cam of {}, {}", one.axis, to_string(finding)), is_of_table(finding)});
   }
   return doubts;

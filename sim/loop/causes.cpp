@@ -234,8 +234,7 @@ std::string Causes::last_resort(const std::vector<record::CheckResult>& checks, 
     if (failed_at && std::abs(blow.at - *failed_at) <= soon)
       return fmt::format("{} {}", blow.at <= *failed_at ? "after" : "shortly before", text_of(blow));
   const auto set = last_set(sets_, checks);
-  if (!set.empty()) return "after " + set;
-  return known.cautions.empty() ? "" : "while " + known.cautions.front();
+  return set.empty() ? "" : "after " + set;
 }
 
 }  // namespace drycut::sim::loop

@@ -32,8 +32,6 @@ class Causes : public record::Observer {
     std::optional<std::pair<double, std::string>> standing = {};
     /// What may be a slip, where nothing tells more: positions that differ, doubtful wires.
     std::vector<std::string> doubts = {};
-    /// What good practice has against the cams, where there is not even a doubt.
-    std::vector<std::string> cautions = {};
   };
   /// Why the checks failed, as the end of a sentence: "because Knife at 2.282 s: the cam asks for ...", or
   /// where it only came before, "after ..."; "" if nothing tells or all passed.

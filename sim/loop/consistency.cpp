@@ -176,9 +176,10 @@ struct MachineUnit {
   double angle = 0;   ///< [rad], 0 = it does not turn
 
   [[nodiscard]] std::string text() const {
-    return fmt::format("{} make a unit of {} that is {}", counted.name, plug,
+    return fmt::format("{}: a unit is {} by {}", counted.name,
                        length > 0 ? fmt::format("{:.4g} mm", length * 1000)
-                                  : fmt::format("{:.4g} deg", angle * 180 / std::numbers::pi));
+                                  : fmt::format("{:.4g} deg", angle * 180 / std::numbers::pi),
+                       plug);
   }
 };
 

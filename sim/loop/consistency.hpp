@@ -35,8 +35,8 @@ std::vector<std::string> contradicting_speeds(const scenario::Scenario& scenario
                                               devices::Controller& controller,
                                               const std::vector<NamedPlant>& plants);
 
-/// Counters whose counts make units of no round length or angle, a phrase each: "AxisX: measurem, pulsem make
-/// a unit of web.wheel that is 0.4 mm". Asked when the program has set the parameters.
+/// Counters whose counts make units of no round length or angle, a phrase each: "AxisX: measurem, pulsem: a
+/// unit is 0.4 mm by web.wheel". Asked when the program has set the parameters.
 std::vector<std::string> strange_units(const scenario::Scenario& scenario, devices::Controller& controller,
                                        const std::vector<NamedPlant>& plants);
 

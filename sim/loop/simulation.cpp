@@ -465,7 +465,7 @@ Causes::Known Simulation::known(const std::vector<CamDoubt>& cams) {
       known.doubts.push_back(std::move(units));
     for (auto& odd : odd_parameters(*controller_)) known.doubts.push_back(std::move(odd));
     for (const auto& cam : cams)
-      if (!cam.is_slip) known.cautions.push_back(cam.text);
+      if (!cam.is_slip) known.doubts.push_back(cam.text);
   }
   if (auto first = unpressed(); !first.empty())
     known.hindrances.push_back(first + (standing.empty() ? "" : "; " + standing));

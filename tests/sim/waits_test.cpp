@@ -126,8 +126,7 @@ TEST(WhyItFailed, TenVoltsThatAreAnotherSpeedForTheAxisAreTold) {
 TEST(WhyItFailed, AWheelWithOtherLinesThanTheProgramTakesIsTold) {
   const auto outcome = outcome_of(lines / "rotary_knife_qmove.yaml",
                                   {{"plants.web.wheel.lines", "10000"}, {"scene.duration", "8 s"}});
-  EXPECT_THAT(outcome.cause, StartsWith("because AxisX: measurem, pulsem make a unit of web.wheel that is "
-                                        "0.025 mm"));
+  EXPECT_THAT(outcome.cause, StartsWith("because AxisX: measurem, pulsem: a unit is 0.025 mm by web.wheel"));
 }
 
 TEST(WhyItFailed, AParameterThatHardlyAnAxisHasIsTold) {
