@@ -5,6 +5,7 @@
 #include <string>
 
 #include "sim/controllers/kinds.hpp"
+#include "sim/loop/names.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/scenario.hpp"
 

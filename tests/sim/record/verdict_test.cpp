@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "sim/file.hpp"
 #include "sim/record/json.hpp"
 #include "tests/sim/command_bench.hpp"
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "sim/controllers/kinds.hpp"
+#include "sim/loop/names.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/variables.hpp"
 #include "tests/sim/scenario/folder.hpp"
