@@ -63,7 +63,7 @@ renders::ReportKey value_key(const record::Tolerance& tolerance, const loop::Eve
   if (series.numbers.size() > 1 && rounded(sd, decimals) != rounded(0, decimals))
     key.value =
         with_unit(fmt::format("{} ± {}", rounded(mean, decimals), rounded(sd, decimals)), series.unit);
-  else if (series.numbers.size() > 1)
+  else if (sd > 0)
     key.notes.push_back(fmt::format("{} events, spread below {}", series.numbers.size(),
                                     with_unit(rounded(std::pow(10.0, -decimals), decimals), series.unit)));
   std::size_t worst = 0;

@@ -140,8 +140,8 @@ TEST_F(Disks, ASweepThatFillsTheDiskLeavesTheEarlierResults) {
     fs::remove(disk / "filler");
     if (sweep("10,20,30,40") != 0) return 13;
     if (files() == before) return 14;
-    // points.cache, sweep.csv, report.html, the manifest
-    return std::distance(fs::directory_iterator(disk / "sweep"), {}) == 4 ? 0 : 15;
+    // points.cache, sweep.csv, report.html, verdict.json, the manifest
+    return std::distance(fs::directory_iterator(disk / "sweep"), {}) == 5 ? 0 : 15;
   });
   if (!status) GTEST_SKIP() << "nothing can be mounted here";
   EXPECT_EQ(*status, 0) << told("told.err");
