@@ -25,23 +25,6 @@ MasterRange range_of(const loop::PlayedCam& played) {
 
 }  // namespace
 
-double fastest_master(const loop::PlayedCam& played) {
-  constexpr Time window = 20 * millisecond;
-  double fastest = 0;
-  std::size_t first = 0;
-  for (std::size_t i = 0; i < played.samples.size(); ++i) {
-    const auto& last = played.samples[i];
-    if (last.begins) first = i;
-    while (first + 1 < i && last.time - played.samples[first + 1].time >= window) ++first;
-    if (first == i) continue;
-    const double way = std::abs(last.master - played.samples[first].master);
-    const Time span = last.time - played.samples[first].time;
-    // Two samples that are near to each other tell more of the device's sampling than of the master.
-    if (span >= window) fastest = std::max(fastest, way / seconds(span));
-  }
-  return fastest;
-}
-
 JudgedCam judged(const loop::PlayedCam& played, const std::string& name) {
   JudgedCam cam{played.text, {}, {}};
   const auto file = name + ".csv";
@@ -56,8 +39,7 @@ JudgedCam judged(const loop::PlayedCam& played, const std::string& name) {
   cam.ideal = ideal_cam(cam.table, range_of(played));
   CamRequest request;
   request.plot_name = "cam_" + name;
-  if (!gives_master_speed(cam.table))
-    cam.master_speed = rounded(fastest_master(played) * cam.ideal.speed_scale);
+  if (!gives_master_speed(cam.table)) cam.master_speed = rounded(played.fastest * cam.ideal.speed_scale);
   if (cam.master_speed > 0) request.duty.master_speed = cam.master_speed;
   cam.study = study_cam(cam.table, request, cam.problems);
   return cam;

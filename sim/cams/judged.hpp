@@ -22,10 +22,6 @@ struct JudgedCam {
 /// `name` is that of its file and its plot.
 JudgedCam judged(const loop::PlayedCam& played, const std::string& name);
 
-/// The fastest that the master was while the cam was played, over 20 ms or a record period [its unit/s]; 0 if
-/// it cannot be told.
-double fastest_master(const loop::PlayedCam& played);
-
 /// What speaks against the cams: errors and passed limits of the tables themselves are slips; what is only
 /// too much at the speed that the master had, and warnings, are none. Cautions are left out.
 std::vector<loop::CamDoubt> cam_doubts(const std::vector<loop::PlayedCam>& played);

@@ -1,6 +1,7 @@
 #include "sim/loop/played_cams.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "devices/cam/table.hpp"
@@ -13,7 +14,8 @@ constexpr std::ptrdiff_t most_samples = 100'000;  // of a cam at least, twice as
 
 }  // namespace
 
-CamRecorder::CamRecorder(std::vector<devices::CamAxis> axes, const Deviation& deviation) {
+CamRecorder::CamRecorder(std::vector<devices::CamAxis> axes, const Deviation& deviation, bool keeps_samples)
+    : keeps_samples_(keeps_samples) {
   for (auto& axis : axes) {
     Follower follower;
     if (axis.pulses) follower.deviation = deviation(*axis.pulses);
@@ -50,6 +52,19 @@ void CamRecorder::take_table(Follower& follower) {
   }
 }
 
+// Two samples that are near to each other tell more of the device's sampling than of the master.
+void CamRecorder::take_speed(Follower& follower, Time time, double master, bool begins) {
+  constexpr Time span = 20 * millisecond;
+  auto& window = follower.window;
+  if (begins) window.clear();
+  window.emplace_back(time, master);
+  while (window.size() > 2 && time - window[1].first >= span) window.pop_front();
+  const auto [since, from] = window.front();
+  if (time - since < span) return;
+  auto& fastest = played_[follower.now].fastest;
+  fastest = std::max(fastest, std::abs(master - from) / seconds(time - since));
+}
+
 void CamRecorder::sample(Time time) {
   for (auto& follower : followers_) {
     if (follower.now == none) continue;
@@ -57,6 +72,8 @@ void CamRecorder::sample(Time time) {
     const bool begins = !follower.followed;
     follower.followed = moment.follows;
     if (!moment.follows) continue;
+    take_speed(follower, time, moment.master, begins);
+    if (!keeps_samples_) continue;
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     const double behind = moment.behind        ? *moment.behind
                           : follower.deviation ? follower.deviation()

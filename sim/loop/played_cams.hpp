@@ -1,4 +1,5 @@
 #pragma once
+#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
@@ -23,7 +24,9 @@ struct PlayedCam {
   std::string axis;
   std::shared_ptr<const devices::CamTable> table;  ///< as the device held it when it took it over
   std::vector<Sample> samples = {};
-  std::string text = {};     ///< of a cam of MC_CamIn that is read from its file: no device held it
+  std::string text = {};  ///< of a cam of MC_CamIn that is read from its file: no device held it
+  /// The fastest that the master was, over 20 ms or a record period [its unit/s]; 0 if it cannot be told.
+  double fastest = 0;
   std::size_t left_out = 0;  ///< earlier samples: of a long run the last ones are kept
 };
 
@@ -32,7 +35,8 @@ class CamRecorder : public record::Observer {
  public:
   /// How far the drive behind a pulse output is behind its pulses, or nothing if none tells.
   using Deviation = std::function<std::function<double()>(const devices::Address& pulses)>;
-  CamRecorder(std::vector<devices::CamAxis> axes, const Deviation& deviation);
+  /// Without `keeps_samples` tables and speeds are all that is kept: a long run takes no more room.
+  CamRecorder(std::vector<devices::CamAxis> axes, const Deviation& deviation, bool keeps_samples = true);
 
   /// After each step of the devices: takes the tables of the cams that have started.
   void step();
@@ -48,13 +52,16 @@ class CamRecorder : public record::Observer {
     devices::CamAxis axis;
     std::function<double()> deviation;
     std::uint64_t start = 0;
-    bool followed = false;          ///< at the last sample, since the last start
-    std::vector<std::size_t> cams;  ///< indices into played_
-    std::size_t now = none;         ///< that is played; none = its table was left out
+    bool followed = false;                       ///< at the last sample, since the last start
+    std::deque<std::pair<Time, double>> window;  ///< the latest samples' times and masters
+    std::vector<std::size_t> cams;               ///< indices into played_
+    std::size_t now = none;                      ///< that is played; none = its table was left out
   };
+  void take_speed(Follower& follower, Time time, double master, bool begins);
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
   void take_table(Follower& follower);
 
+  bool keeps_samples_;
   std::vector<Follower> followers_;
   std::vector<PlayedCam> played_;
   std::size_t untold_ = 0;

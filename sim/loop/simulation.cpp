@@ -201,7 +201,7 @@ void Simulation::keep_nothing() {
   shutter_->close();
 }
 
-void Simulation::follow_cams(CamJudge judge) {
+void Simulation::follow_cams(CamJudge judge, bool keeps_samples) {
   if (!controller_) return;
   judge_cams_ = std::move(judge);
   // A servo behind a pulse output tells on its own channel how far it is behind.
@@ -217,7 +217,7 @@ void Simulation::follow_cams(CamJudge judge) {
     }
     return {};
   };
-  cams_ = std::make_unique<CamRecorder>(controller_->cam_axes(), deviation);
+  cams_ = std::make_unique<CamRecorder>(controller_->cam_axes(), deviation, keeps_samples);
   observers_.push_back(cams_.get());
 }
 

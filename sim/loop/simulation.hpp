@@ -58,7 +58,7 @@ class Simulation {
   void keep_nothing();
   /// Keeps what the controller's cams play, for pictures of it; before run(). What `judge` has against them
   /// is part of the outcome.
-  void follow_cams(CamJudge judge = {});
+  void follow_cams(CamJudge judge = {}, bool keeps_samples = true);
   /// What was kept; nullptr if nothing was asked for.
   [[nodiscard]] const CamRecorder* cams() const { return cams_.get(); }
 
