@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -29,16 +28,16 @@ struct Verdict {
   int format = 1;
   std::string kind = {};  ///< "run", "sweep": what wrote it
   Came verdict = Came::none;
-  int exit = all_passed;                            ///< status of a command that does this alone
-  std::string sentence = {};                        ///< "2 of 5 checks failed: ..."
-  std::vector<std::string> codes{};                 ///< of what was found
-  std::map<std::string, std::int64_t> counts = {};  ///< "checks", "failed", "points"
-  std::vector<std::string> scenarios = {};          ///< files, as they were named
-  std::vector<std::string> files = {};              ///< in the folder, this one among them
-  std::string title = {};                           ///< of what was asked
-  std::string word = {};                            ///< in place of PASS or FAIL: "SAME", "3 FIT"
-  std::string drycut = {};                          ///< the version
-  std::optional<double> simulated = {};             ///< [s] of a run
+  int exit = all_passed;                         ///< status of a command that does this alone
+  std::string sentence = {};                     ///< "2 of 5 checks failed: ..."
+  std::vector<std::string> codes{};              ///< of what was found
+  std::map<std::string, long long> counts = {};  ///< "checks", "failed"; no Time, which is written in seconds
+  std::vector<std::string> scenarios = {};       ///< files, as they were named
+  std::vector<std::string> files = {};           ///< in the folder, this one among them
+  std::string title = {};                        ///< of what was asked
+  std::string word = {};                         ///< in place of PASS or FAIL: "SAME", "3 FIT"
+  std::string drycut = {};                       ///< the version
+  std::optional<double> simulated = {};          ///< [s] of a run
 
   /// It judges, and says so by its exit status.
   void judge(bool passed);

@@ -63,6 +63,8 @@ TEST(VerdictFile, HasTheNamedKeysInTheirOrderAndReadsBack) {
   EXPECT_THAT(keys, ElementsAre("format", "kind", "verdict", "exit", "sentence", "codes", "counts",
                                 "scenarios", "files"));
   EXPECT_EQ(json["verdict"], "passed");
+  EXPECT_TRUE(json["counts"]["candidates"].is_number_integer());
+  EXPECT_EQ(json["counts"]["candidates"], 12);
   Verdict back;
   take_json(json, back);
   EXPECT_EQ(back, verdict);
