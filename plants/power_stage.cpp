@@ -131,6 +131,7 @@ void PowerStage::settle(double h) {
     totals_.from_mains = link_->from_mains();
     totals_.in_resistor = link_->in_resistor();
     peaks_.voltage = std::max(peaks_.voltage, link_->voltage());
+    if (!link_->mains_well()) without_mains_ += seconds;
   } else {
     totals_.from_mains += energy;
   }

@@ -246,6 +246,8 @@ class PowerStage {
   [[nodiscard]] const DriveTotals& totals() const { return totals_; }
   [[nodiscard]] const DrivePeaks& peaks() const { return peaks_; }
   void forget_peaks() { peaks_ = {}; }
+  /// Time in which mains_ok was off, for a phase or more than 15 % of the voltage was missing [s].
+  [[nodiscard]] double without_mains() const { return without_mains_; }
   /// Temperature of the winding with these means for ever [K]: current squared [A2], loss in the rotor [W].
   [[nodiscard]] double steady_temperature(double current_squared, double rotor_loss) const {
     return heat_.steady(current_.resistance * current_squared, rotor_loss);
@@ -305,6 +307,7 @@ class PowerStage {
   const PowerStage* other_ = nullptr;  // that motor, where it had torque since the last settling
 
   DriveTotals totals_;
+  double without_mains_ = 0;
   DrivePeaks peaks_;
   double torque_ = 0;
   double speed_ = 0;

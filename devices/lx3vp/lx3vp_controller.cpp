@@ -266,10 +266,12 @@ void Lx3vpController::tell_notes() {
   for (const PulseNote& note : pulses_.take_notes()) {
     const il::Step* step = step_at(note.step);
     const std::string place = step == nullptr ? "" : fmt::format("{}:{}: ", program_.file, step->line);
+    const il::Step* owner = step_at(note.owner);
+    const auto text = owner == nullptr ? note.text : fmt::format("{} (line {})", note.text, owner->line);
     if (note.code <= 0)
-      tell(note.step, note.code == 0 ? "warning" : "note", place + note.text);
+      tell(note.step, note.code == 0 ? "warning" : "note", place + text);
     else
-      error(note.step, note.code, fmt::format("{}{}: {}", place, note.code, note.text));
+      error(note.step, note.code, fmt::format("{}{}: {}", place, note.code, text));
   }
 }
 

@@ -64,7 +64,8 @@ bool PulseUnit::take(Line& line, int step, int output) {
   if (!std::exchange(refused_[step], true))
     notes_.push_back({step, 0,
                       fmt::format("Y{:o} is in use by {}; this instruction gives no pulses", output,
-                                  by_cam ? "a cam" : "another instruction")});
+                                  by_cam ? "a cam" : "another instruction"),
+                      line.motion.step});
   return false;
 }
 
@@ -210,7 +211,8 @@ void PulseUnit::tick_cam(int step, Decam& cam, CamPort& port) {
         port.registers);
   if (line.motion.step < 0) port.give(cam.operands().direction, line.output.forwards());
   for (auto& note : cam.take_notes()) notes_.push_back({step, note.warns ? 0 : -1, std::move(note.text)});
-  if (auto fault = cam.take_fault()) notes_.push_back({step, fault->code, std::move(fault->text)});
+  if (auto fault = cam.take_fault())
+    notes_.push_back({step, fault->code, std::move(fault->text), line.motion.step});
 }
 
 void PulseUnit::tick_motion(int output, CamPort& port) {

@@ -16,6 +16,7 @@ struct PulseNote {
   int step = 0;  ///< of the program
   int code = 0;  ///< of an error (6781 to 6783), 0 = a warning, -1 = it only informs
   std::string text;
+  int owner = -1;  ///< step of the instruction that has the output instead, -1 = there is none
 };
 
 /// The pulse outputs Y0..Y3 with all that gives pulses on them: cams, DPLSV, DDRVI, DDRVA, PLSY and ZRN. One

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "devices/qmove/qmove_controller.hpp"
 
 namespace drycut::devices::qmove {
@@ -48,6 +49,26 @@ void take_uses(const QclProgram& program, Uses& uses) {
   }
 }
 
+/// Statements one behind the other that set the same thing: the first one does nothing, and was hardly meant
+/// for it.
+void tell_twice_set(const ProgramText& program, std::vector<Controller::ProgramDoubt>& found) {
+  std::string last;
+  int number = 0;
+  for (const auto line : split_lines(program.text)) {
+    ++number;
+    const auto code = trimmed(line.substr(0, line.find(';')));
+    if (code.empty()) continue;
+    const auto at = code.find('=');
+    const auto target = at == std::string_view::npos ? "" : lower(trimmed(code.substr(0, at)));
+    const bool is_name = !target.empty() && target.find_first_of(" \t<>") == std::string::npos;
+    const bool reads = is_name && lower(code.substr(at)).find(target) != std::string::npos;
+    if (is_name && !reads && target == last)
+      found.push_back({fmt::format("{}:{}: {} was set just before: the first of the two does nothing",
+                                   program.file, number, trimmed(code.substr(0, at)))});
+    last = is_name ? target : "";
+  }
+}
+
 }  // namespace
 
 // Retentive values and recipes come from the panel.
@@ -55,6 +76,7 @@ std::vector<Controller::ProgramDoubt> QmoveController::doubts() const {
   Uses uses;
   for (const QclProgram& program : programs_) take_uses(program, uses);
   std::vector<ProgramDoubt> found;
+  for (const QclProgram& program : programs_) tell_twice_set(module_text(program), found);
   for (const NamedThing& thing : names_.things()) {
     const bool array = thing.kind == NamedThing::Kind::array;
     if (thing.kind == NamedThing::Kind::timer && uses.asked.contains(thing.index) &&

@@ -102,8 +102,15 @@ std::vector<ProgramWait> QmoveController::waits() {
     const int at = tasks_[i].waits_at;
     if (at < 0) continue;
     const ProgramText named(programs_[i].file, "qcl", "");
-    waits.push_back({named.name, programs_[i].lines[static_cast<std::size_t>(at)], tasks_[i].waits_since,
-                     tasks_[i].ended});
+    const auto first = static_cast<std::size_t>(at);
+    ProgramWait wait{named.name, programs_[i].lines[first], tasks_[i].waits_since, tasks_[i].ended};
+    const auto& code = programs_[i].code;
+    for (auto asked = first; asked < code.size() && code[asked].op != QclOp::wait_until; ++asked) {
+      const bool is_timer = !wait.ended && code[asked].op == QclOp::load_timer;
+      const auto elapses = is_timer ? machine_.timers[static_cast<std::size_t>(code[asked].a)] : 0;
+      if (elapses > machine_.now) wait.until_ns = std::max(wait.until_ns, elapses);
+    }
+    waits.push_back(std::move(wait));
   }
   return waits;
 }

@@ -46,6 +46,8 @@ struct Check {
   std::string doubt = {};
   std::optional<double> too_few = {};  ///< [s] of events that it counts there were too few, from then on
   bool deadline = false;               ///< its limit is a time by which something has come
+  /// Where it held at none of its instants: what there was, "AxisX.st_error 0", "Axis.follerr -12 to 80".
+  std::string throughout = {};
 
 #if __cplusplus >= 202002L
   bool operator==(const Check&) const = default;
@@ -68,6 +70,7 @@ struct Check {
     archive("doubt", self.doubt);
     archive("too_few", self.too_few);
     archive("deadline", self.deadline);
+    archive("throughout", self.throughout);
   }
 };
 

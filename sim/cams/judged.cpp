@@ -45,12 +45,16 @@ JudgedCam judged(const loop::PlayedCam& played, const std::string& name) {
   return cam;
 }
 
-std::vector<loop::CamDoubt> cam_doubts(const std::vector<loop::PlayedCam>& played) {
+loop::CamJudgement cam_judgement(const std::vector<loop::PlayedCam>& played) {
   constexpr std::size_t most = 3;  // of a cam
-  std::vector<loop::CamDoubt> doubts;
+  loop::CamJudgement judgement;
   for (const auto& one : played) {
     const auto cam = judged(one, "cam");
     if (!cam.problems.empty()) continue;
+    const auto& course = cam.study.course;
+    if (course.runs() && !course.lets_go)
+      judgement.cycles.push_back(
+          {one.axis, course.law.master_length * cam.ideal.shown, cam.ideal.master_unit});
     // What is wrong at any speed is wrong with the table; else its master may have been too fast.
     constexpr double slow = 1e-3;
     CamRequest slowly;
@@ -68,9 +72,9 @@ std::vector<loop::CamDoubt> cam_doubts(const std::vector<loop::PlayedCam>& playe
     std::size_t told = 0;
     for (const auto& finding : cam.study.findings)
       if (finding.grade < CamFinding::Grade::caution && ++told <= most)
-        doubts.push_back({fmt::format("cam of {}, {}", one.axis, to_string(finding)), is_of_table(finding)});
+        judgement.doubts.push_back({fmt::format("cam of {}, {}", one.axis, to_string(finding)), is_of_table(finding)});
   }
-  return doubts;
+  return judgement;
 }
 
 }  // namespace drycut::sim::cams

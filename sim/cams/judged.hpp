@@ -24,6 +24,7 @@ JudgedCam judged(const loop::PlayedCam& played, const std::string& name);
 
 /// What speaks against the cams: errors and passed limits of the tables themselves are slips; what is only
 /// too much at the speed that the master had, and warnings, are none. Cautions are left out.
-std::vector<loop::CamDoubt> cam_doubts(const std::vector<loop::PlayedCam>& played);
+/// Beside them how long their cycles are.
+loop::CamJudgement cam_judgement(const std::vector<loop::PlayedCam>& played);
 
 }  // namespace drycut::sim::cams

@@ -13,7 +13,19 @@ struct CamDoubt {
   bool is_slip = false;  ///< the device stops or passes a limit, however slow the master is
 };
 
+/// A cycle of a cam that a run played.
+struct CamCycle {
+  std::string axis;
+  double length = 0;  ///< of its master, in `unit`
+  std::string unit;   ///< "mm", "Um", "pulses"
+};
+
+struct CamJudgement {
+  std::vector<CamDoubt> doubts;
+  std::vector<CamCycle> cycles;  ///< of cams that go on for ever
+};
+
 /// Who judges cams: the rooms above the loop do.
-using CamJudge = std::function<std::vector<CamDoubt>(const std::vector<PlayedCam>& played)>;
+using CamJudge = std::function<CamJudgement(const std::vector<PlayedCam>& played)>;
 
 }  // namespace drycut::sim::loop

@@ -68,6 +68,14 @@ std::string last_set(const std::vector<record::Alarm>& sets, const std::vector<r
   return "";
 }
 
+// A check whose expression never fits.
+std::string of_check(const std::vector<record::CheckResult>& checks) {
+  for (const auto& check : checks)
+    if (!check.passed && !check.throughout.empty())
+      return fmt::format("check '{}' held at no instant: {}", check.name, check.throughout);
+  return "";
+}
+
 bool found_nothing(const std::vector<record::CheckResult>& checks) {
   return std::any_of(checks.begin(), checks.end(),
                      [](const record::CheckResult& check) { return !check.passed && check.idle; });
@@ -100,6 +108,7 @@ void Causes::happened(const record::RecordedEvent& event) {
     const bool known = std::any_of(blows_.begin(), blows_.end(),
                                    [&](const record::Alarm& one) { return one.source == event.source; });
     if (!known) blows_.push_back({at, event.source, blow});
+    if (!stop_ && event.event != "sag") stop_ = record::Alarm{at, event.source, blow};
   } else if (event.severity >= Severity::error) {
     keep(errors_, false);
   } else if (event.severity == Severity::warning && !event.text.empty()) {
@@ -166,15 +175,21 @@ std::string Causes::by_time(double failed_at, const Known& known) const {
   const auto* error = first_error(failed_at + told_late);
   const auto* warning =
       last_warning(error != nullptr ? error->at : failed_at, error != nullptr ? error->source : "");
+  if (error != nullptr && warning == nullptr) {
+    warning = last_warning(error->at, "");
+    if (warning != nullptr && error->at - warning->at > soon) warning = nullptr;
+  }
   if (fault != nullptr) {
     const bool shown = failed_at - fault->at <= soon || (error != nullptr && error->at >= fault->at) ||
                        (warning != nullptr && warning->at >= fault->at);
     return (shown ? "because " : "after ") + text_of_fault(*fault);
   }
   if (error != nullptr)
-    return warning != nullptr
-               ? fmt::format("because {}; then at {:.6g} s: {}", text_of(*warning), error->at, error->text)
-               : "because " + text_of(*error);
+    return warning == nullptr               ? "because " + text_of(*error)
+           : warning->source == error->source ? fmt::format("because {}; then at {:.6g} s: {}",
+                                                            text_of(*warning), error->at, error->text)
+                                              : fmt::format("because {}; then {}", text_of(*warning),
+                                                            text_of(*error));
   if (known.hunting && known.hunting->first <= failed_at &&
       (warning == nullptr || known.hunting->first <= warning->at))
     return "because " + known.hunting->second;
@@ -207,6 +222,9 @@ std::string Causes::of(const std::vector<record::CheckResult>& checks, const Kno
     return faults_.empty() ? "because " + known.hindrances.front() + joined(last_set(sets_, checks))
                            : "after " + text_of_fault(faults_.front()) + joined(known.hindrances.front());
   auto cause = by_time(failed_at.value_or(ever), known);
+  const auto misfit = of_check(checks);
+  if (errors_.empty() && !misfit.empty() && (cause.empty() || cause.starts_with("after ")))
+    return "because " + misfit;
   if (cause.empty() && known.standing && known.standing->first <= failed_at.value_or(ever))
     cause = "while " + known.standing->second;
   if (cause.empty() || cause.starts_with("after ")) return last_resort(checks, known, cause);

@@ -39,6 +39,8 @@ class Causes : public record::Observer {
   /// "gbPhase stands at 1 since 0.31 s": the state that changed last, if it has not for a long time; "" =
   /// there is none.
   [[nodiscard]] std::string state_that_stands(double now) const;
+  /// The first time that a plant ran into its end stop; nullptr = none did.
+  [[nodiscard]] const record::Alarm* first_stop() const { return stop_ ? &*stop_ : nullptr; }
   /// The first errors and warnings in the order of their times, twenty at most.
   [[nodiscard]] std::vector<record::Alarm> alarms() const;
 
@@ -66,6 +68,7 @@ class Causes : public record::Observer {
   std::vector<record::Alarm> faults_;
   std::vector<record::Alarm> sets_;   ///< what the timeline did to the machine
   std::vector<record::Alarm> blows_;  ///< the first of each source: it ran into a stop, it sank
+  std::optional<record::Alarm> stop_;  ///< the first at an end stop
   std::vector<Limit> limits_;
   std::vector<State> states_;
 };

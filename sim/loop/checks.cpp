@@ -225,10 +225,31 @@ std::string Checks::failed_text(const State& state) {
          fmt::format(", last at {:.4f} s: {}", state.last_failed_at, operands_text(state, &Operand::failed));
 }
 
+/// What the names of a check were that never held.
+std::string Checks::throughout(const State& state) {
+  constexpr int many = 100;  // instants: of few it says nothing
+  if (state.windowed || state.check.kind != scenario::CheckRequest::Kind::always ||
+      state.failed < state.count || state.count < many)
+    return "";
+  std::string text;
+  for (const auto& operand : state.operands) {
+    const auto low = record::without_noise(operand.low);
+    const auto high = record::without_noise(operand.high);
+    text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", operand.name, low);
+    if (high != low) text += fmt::format(" to {:.6g}", high);
+    if (!operand.unit.empty()) text += " " + operand.unit;
+  }
+  return text;
+}
+
 void Checks::evaluate(State& state, double at, const std::string& values) {
   ++state.count;
   const auto evaluation = state.expression->evaluate();
   state.last_at = at;
+  for (auto& operand : state.operands) {
+    operand.low = std::min(operand.low, *operand.number);
+    operand.high = std::max(operand.high, *operand.number);
+  }
   if (!evaluation.holds) {
     if (++state.failed == 1) state.first_failed_at = at;
     state.last_failed_at = at;
@@ -251,6 +272,7 @@ void Checks::evaluate(State& state, double at, const std::string& values) {
   }
   if (decisive) {
     state.worst_at = at;
+    for (auto& operand : state.operands) operand.worst = *operand.number;
     state.worst_values = values;
     if (state.check.kind == scenario::CheckRequest::Kind::always && !evaluation.margin && !state.windowed) {
       note_operands(state);
@@ -425,10 +447,14 @@ record::CheckResult Checks::result(State& state, Time end) {
   if (check.kind == scenario::CheckRequest::Kind::eventually) {
     result.passed = state.held_at.has_value();
     result.at = state.held_at ? *state.held_at : state.worst ? state.worst_at : state.last_at;
+    const auto nearest =
+        state.worst && !state.windowed && state.worst_at != state.last_at
+            ? fmt::format(", nearest at {:.4f} s: {}", state.worst_at, operands_text(state, &Operand::worst))
+            : "";
     result.detail = state.held_at
                         ? fmt::format("first true at {:.4f} s", *state.held_at)
-                        : fmt::format("not true at any of {} {}, the last at {:.4f} s: {}", state.count,
-                                      looked_at(state), state.last_at, operands_text(state));
+                        : fmt::format("not true at any of {} {}{}, the last at {:.4f} s: {}", state.count,
+                                      looked_at(state), nearest, state.last_at, operands_text(state));
     // Once it held, what is left is time.
     result.margin.reset();
     result.used.reset();
@@ -447,6 +473,7 @@ record::CheckResult Checks::result(State& state, Time end) {
                                state.count, looked_at(state));
   if (!result.passed && check.kind != scenario::CheckRequest::Kind::all)
     result.failed_at = state.first_failed_at;
+  if (!result.passed) result.throughout = throughout(state);
   if (state.windowed && is_judged_once(check)) {
     result.detail = state.last_window;
     return result;

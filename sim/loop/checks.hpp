@@ -1,5 +1,6 @@
 #pragma once
 #include <deque>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -54,6 +55,9 @@ class Checks : public record::Observer {
     std::string unit;
     double noted = 0;   ///< the number at an instant to tell of
     double failed = 0;  ///< when it did not hold last
+    double worst = 0;   ///< at the instant that decides
+    double low = std::numeric_limits<double>::infinity();  ///< over all instants
+    double high = -std::numeric_limits<double>::infinity();
   };
   /// What a check has come to so far.
   struct Tally {
@@ -102,6 +106,7 @@ class Checks : public record::Observer {
   static void note_operands(State& state);
   static std::string operands_text(const State& state, double Operand::*number = &Operand::noted);
   static std::string failed_text(const State& state);
+  static std::string throughout(const State& state);
   static void finish_statistics(State& state);
   static std::string looked_at(const State& state);
   record::CheckResult result(State& state, Time end);

@@ -1,6 +1,7 @@
 #include "sim/loop/consistency.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <optional>
 
 #include "base/text.hpp"
+#include "sim/loop/waits.hpp"
 
 namespace drycut::sim::loop {
 
@@ -22,7 +24,11 @@ std::string program_words(const devices::ProgramText& program) {
       while (i < text.size() && text[i] != '\n') ++i;
       words += '\n';
     } else if (is_st && rest.starts_with("(*")) {
-      i = std::min(text.find("*)", i), text.size() - 1) + 1;
+      const auto end = std::min(text.find("*)", i), text.size() - 1) + 1;
+      words.append(static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
+                                                       text.begin() + static_cast<std::ptrdiff_t>(end), '\n')),
+                   '\n');
+      i = end;
     } else {
       words += text[i];
     }
@@ -230,6 +236,38 @@ std::vector<std::string> different_units(const scenario::Scenario& scenario, dev
   return found;
 }
 
+std::vector<std::string> strange_cycles(const scenario::Scenario& scenario, devices::Controller& controller,
+                                        const std::vector<NamedPlant>& plants,
+                                        const std::vector<CamCycle>& cycles,
+                                        const std::vector<record::CheckResult>& checks) {
+  constexpr double tolerance = 0.02;
+  constexpr double millimetres = 1000;
+  const auto is_whole = [&](double ratio) {
+    return std::round(ratio) >= 1 && std::abs(ratio - std::round(ratio)) <= tolerance * ratio;
+  };
+  const auto units = machine_units(scenario, controller, plants);
+  std::vector<std::string> found;
+  for (const auto& cycle : cycles) {
+    double length = cycle.unit == "mm" ? cycle.length : 0;
+    // A device's first counter is its own, the second one its master's.
+    for (std::size_t i = 1; i < units.size() && cycle.unit == "Um"; ++i)
+      if (units[i].counted.axis == cycle.axis && units[i - 1].counted.axis == cycle.axis)
+        length = cycle.length * units[i].length * millimetres;
+    if (length <= 0) continue;
+    for (const auto& check : checks)
+      for (const auto& [event, value, low, high, from, until] : check.tolerances) {
+        const double wanted = (low + high) / 2;
+        if (value != "length" || !std::isfinite(wanted) || wanted <= 0 || is_whole(length / wanted) ||
+            is_whole(wanted / length))
+          continue;
+        found.push_back(fmt::format("a cycle of the cam of {} is {:.4g} mm of material, and check '{}' wants "
+                                    "{:.4g} mm",
+                                    cycle.axis, length, check.name, wanted));
+      }
+  }
+  return found;
+}
+
 namespace {
 
 /// Zero pulses of another encoder than the one that the axis counts.
@@ -250,7 +288,88 @@ std::vector<std::string> strange_zero_pulses(const scenario::Scenario& scenario,
   return notes;
 }
 
+/// The name that a program has for a terminal, in small letters: of the configuration, of AT; "" = none.
+std::string name_in_program(const std::string& terminal, const std::vector<devices::ProgramText>& programs) {
+  const auto wanted = lower(terminal);
+  for (const auto& program : programs) {
+    const auto words = program_words(program);
+    if (program.language == "st") {
+      const auto at = words.find("%" + wanted);
+      if (at != std::string::npos && is_word_at(words, at + 1, wanted.size())) return name_before(words, at);
+    } else if (program.language == "cnf") {
+      for (const auto line : split_lines(words)) {
+        const auto fields = split_words(line, {1, 1}, " \t");
+        if (fields.size() == 2 && fields[1].text == wanted) return fields[0].text;
+      }
+    }
+  }
+  return "";
+}
+
+/// Whether a line of a program, without comment and in small letters, may switch `name` on.
+bool switches_on(const std::string& language, std::string_view line, const std::string& name) {
+  const auto words = split_words(line, {1, 1}, " \t");
+  if (words.empty()) return false;
+  const auto is = [&](std::size_t i, std::string_view word) { return i < words.size() && words[i].text == word; };
+  if (language == "il") return (is(0, "out") || is(0, "set")) && is(1, name);
+  if (language == "qcl") return is(0, "setout") ? is(1, name) : is(0, name) && is(1, "=") && !is(2, "0");
+  const auto assigned = line.find(":=");
+  return assigned != std::string_view::npos && trimmed(line.substr(0, assigned)) == name &&
+         !trimmed(line.substr(assigned + 2)).starts_with("false");
+}
+
+/// Two wires whose terminals have each the name of the other's plug.
+std::vector<std::string> crossed_wires(const scenario::Scenario& scenario, devices::Controller& controller) {
+  struct Named {
+    std::string terminal;
+    std::string plug;
+    std::string name;
+    std::string last;  ///< word of the plug
+    devices::Kind kind;
+  };
+  constexpr std::size_t telling = 4;  // letters
+  std::vector<Named> named;
+  const auto programs = controller.programs();
+  for (const auto& wire : scenario.wiring) {
+    const auto found = controller.terminal(wire.terminal.text);
+    const auto* address = std::get_if<devices::Address>(&found);
+    if (address == nullptr) continue;
+    const auto terminal = controller.terminal_name(*address);
+    auto last = lower(wire.plug.text.substr(wire.plug.text.find_last_of("._") + 1));
+    if (auto name = name_in_program(terminal, programs); !name.empty() && last.size() >= telling)
+      named.push_back({terminal, wire.plug.text, std::move(name), std::move(last), address->kind});
+  }
+  const auto has = [](const Named& one, const Named& other) {
+    return one.name.find(other.last) != std::string::npos;
+  };
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < named.size(); ++i)
+    for (std::size_t j = i + 1; j < named.size(); ++j)
+      if (const auto &one = named[i], &other = named[j]; one.kind == other.kind && has(one, other) &&
+                                                         has(other, one) && !has(one, one) &&
+                                                         !has(other, other))
+        notes.push_back(fmt::format("{}, which the program calls {}, is wired to {}, and {}, {}, to {}",
+                                    one.terminal, one.name, one.plug, other.terminal, other.name,
+                                    other.plug));
+  return notes;
+}
+
 }  // namespace
+
+std::vector<std::string> without_zero_pulse(const scenario::Scenario& scenario,
+                                            devices::Controller& controller) {
+  constexpr double by_zero_pulse = 1;  // prsmode
+  std::vector<std::string> found;
+  for (const auto& loop : controller.position_loops()) {
+    const auto mode = controller.find(loop.name + ".prsmode");
+    if (!loop.zero || !mode || mode->read() != by_zero_pulse || !presets(controller, loop.name)) continue;
+    if (wire_at(scenario, controller, *loop.zero) == nullptr)
+      found.push_back(fmt::format("{} is the zero pulse that PRESET of {} seeks (prsmode 1), and nothing is "
+                                  "wired to it",
+                                  controller.terminal_name(*loop.zero), loop.name));
+  }
+  return found;
+}
 
 std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devices::Controller& controller) {
   std::vector<std::string> notes;
@@ -272,6 +391,7 @@ std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devi
       notes.push_back(fmt::format("{} and {} are both wired to {}", first->second, name, wire.plug.text));
   }
   for (auto& strange : strange_zero_pulses(scenario, controller)) notes.push_back(std::move(strange));
+  for (auto& crossed : crossed_wires(scenario, controller)) notes.push_back(std::move(crossed));
   return notes;
 }
 
@@ -281,6 +401,33 @@ bool presets(devices::Controller& controller, const std::string& axis) {
     return program.language == "qcl" &&
            program_words(program).find("preset " + lower(axis)) != std::string::npos;
   });
+}
+
+std::string switched_on_by(devices::Controller& controller, const std::string& terminal) {
+  const auto programs = controller.programs();
+  const auto given = name_in_program(terminal, programs);
+  std::vector<std::string> places;
+  for (const auto& program : programs) {
+    const auto name = program.language == "il" ? lower(terminal) : given;
+    if (name.empty() || program.language == "cnf") continue;
+    const auto words = program_words(program);
+    int number = 0;
+    for (const auto line : split_lines(words)) {
+      ++number;
+      if (!switches_on(program.language, line, name)) continue;
+      // What it depends on stands before it, or on the line itself.
+      constexpr int near = 3;
+      auto code = code_of(program, number);
+      for (int above = number - 1; program.language == "qcl" && above >= number - near; --above)
+        if (const auto asked = code_of(program, above); lower(asked).starts_with("if ")) {
+          code = asked + ": " + code;
+          break;
+        }
+      places.push_back(fmt::format("{}:{}, {}", program.name, number, code));
+    }
+  }
+  constexpr std::size_t few = 3;
+  return places.empty() || places.size() > few ? "" : fmt::format(", by {}", fmt::join(places, " or "));
 }
 
 bool names_terminal(devices::Controller& controller, const std::string& terminal) {

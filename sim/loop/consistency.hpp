@@ -4,6 +4,8 @@
 
 #include "devices/controller.hpp"
 #include "sim/loop/bus.hpp"
+#include "sim/loop/cam_doubt.hpp"
+#include "sim/record/outcome.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
@@ -16,6 +18,11 @@ std::vector<std::string> contradictions(const scenario::Scenario& scenario,
 /// encoder on two counters.
 std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devices::Controller& controller);
 
+/// Lines of zero pulses that a PRESET seeks and nothing is wired to, a phrase each: asked when the program has
+/// set prsmode.
+std::vector<std::string> without_zero_pulse(const scenario::Scenario& scenario,
+                                            devices::Controller& controller);
+
 /// The wire at a terminal, nullptr = nothing is wired to it.
 const scenario::Wire* wire_at(const scenario::Scenario& scenario, devices::Controller& controller,
                               const devices::Address& address);
@@ -25,6 +32,10 @@ bool presets(devices::Controller& controller, const std::string& axis);
 
 /// A program surely names that terminal, or what the configuration calls it.
 bool names_terminal(devices::Controller& controller, const std::string& terminal);
+
+/// The lines of programs that switch an output on, as the end of a phrase: ", by saw.mod:88, SETOUT ofTrouble";
+/// "" where none is found.
+std::string switched_on_by(devices::Controller& controller, const std::string& terminal);
 
 /// The text without comments, in small letters: of QCL and IL from ';' on, of Structured Text // and (* *).
 std::string program_words(const devices::ProgramText& program);
@@ -43,6 +54,13 @@ std::vector<std::string> strange_units(const scenario::Scenario& scenario, devic
 /// The same of axes whose unit is another length than that of their master.
 std::vector<std::string> different_units(const scenario::Scenario& scenario, devices::Controller& controller,
                                          const std::vector<NamedPlant>& plants);
+
+/// Cams of which no whole number of cycles makes the piece that a check wants, nor the other way round, a
+/// phrase each: "a cycle of the cam of AxisX is 100 mm of material, and check 'cut length' wants 1000 mm".
+std::vector<std::string> strange_cycles(const scenario::Scenario& scenario, devices::Controller& controller,
+                                        const std::vector<NamedPlant>& plants,
+                                        const std::vector<CamCycle>& cycles,
+                                        const std::vector<record::CheckResult>& checks);
 
 /// Terminals that nothing is wired to, a phrase each: "Y1 gives pulses, and nothing is wired to it".
 struct OpenTerminals {

@@ -79,9 +79,14 @@ void Thinned::add(double x, double y) {
 DriveJudge::DriveJudge(const scenario::Scenario& scenario, const std::vector<NamedPlant>& plants)
     : judged_(scenario.drives.judge), cycle_(scenario.drives.cycle) {
   for (const auto& [name, plant] : plants)
-    for (const auto& drive : plant->drives())
+    for (const auto& drive : plant->drives()) {
       drives_.push_back(
           {name, drive.name, drive.stage, drive.load_inertia, drive.alike, DriveCycles(seconds(cycle_))});
+      const auto monitor = fmt::format("{}.{}.mains_ok", name, drive.name);
+      drives_.back().tells_mains =
+          std::any_of(scenario.wiring.begin(), scenario.wiring.end(),
+                      [&](const scenario::Wire& wire) { return wire.plug.text == monitor; });
+    }
 }
 
 void DriveJudge::AtLimit::add(const AtLimit& more) {
@@ -276,6 +281,11 @@ record::DriveVerdict DriveJudge::verdict(Drive drive) const {
                       times == 1 ? "once" : fmt::format("{} times", times), time, first);
   }
   remark(verdict, whole);
+  if (stage.without_mains() > 0 && !drive.tells_mains)
+    verdict.warnings.push_back(
+        fmt::format("{0}: a phase, or more than 15 % of the voltage, of its mains was missing for {1:.3g} s, "
+                    "and nothing is wired to {0}.mains_ok",
+                    verdict.drive, stage.without_mains()));
   verdict.cycle_points = drive.cycle_points.points();
   verdict.points = drive.points.points();
   return verdict;

@@ -94,6 +94,7 @@ class DriveJudge : public record::Observer {
     std::vector<std::string> trips = {};
     Thinned cycle_points = {};
     Thinned points = {};
+    bool tells_mains = false;  ///< its mains_ok is wired: the program knows
   };
 
   static void end_cycle(Drive& drive, DriveCycles::Ended ended);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -21,6 +22,9 @@ struct OddRow {
 constexpr double all_speed = 1000;    // feedfw: the reference is the whole speed
 constexpr double full_scale = 32767;  // offset: 10 V
 constexpr double much_offset = 0.05;  // of it
+constexpr double long_delay = 200;    // 1/100 s
+constexpr double long_ramp = 1e6;     // us
+constexpr double low_gain = 8;        // 1/s: it takes a third of a second to come to rest
 constexpr OddRow rows[] = {
     {"feedfw", [](double value, const Value&) { return value > 0 && value < all_speed / 2; },
      "1000 is feed forward of the whole speed"},
@@ -36,6 +40,21 @@ constexpr OddRow rows[] = {
      "with rampmode 1 the axis brakes without a ramp"},
     {"taccdec", [](double value, const Value& other) { return value == 0 && other("rampmode") != 1; },
      "the axis moves without ramps"},
+    {"tbrake", [](double value, const Value&) { return value > long_delay; }, "it is in 1/100 s"},
+    {"tinvt", [](double value, const Value&) { return value > long_delay; }, "it is in 1/100 s"},
+    {"slowdly", [](double value, const Value&) { return value > long_delay; }, "it is in 1/100 s"},
+    {"slowpos",
+     [](double value, const Value& other) {
+       const double coasted = std::max(other("iner01"), other("iner02")) / 10;
+       return other("slowtype") == 0 && coasted > value / 2;
+     },
+     "it coasts half of that way and more (iner01, iner02), so it was hardly slow when its outputs went off"},
+    {"maxvel", [](double value, const Value& other) { return value == 0 && other("slowtype") > 0; },
+     "with this slowtype the slow range is a share of it"},
+    {"kv", [](double value, const Value&) { return value > 0 && value < low_gain; },
+     "position loops of drives have 20 to 100 1/s, and the following error is the speed over it"},
+    {"dynamik.tr_min", [](double value, const Value&) { return value > long_ramp; },
+     "the acceleration is built up in no less, and the axis brakes as slowly"},
 };
 
 }  // namespace
@@ -52,6 +71,11 @@ std::vector<std::string> odd_parameters(devices::Controller& controller) {
       if (const double is = value(name); is_odd(is, value))
         found.push_back(fmt::format("{}.{} is {:g}: {}", loop.name, name, is, why));
     const auto period = loop.reference ? static_cast<double>(controller.output_period(*loop.reference)) : 0;
+    const double gain = period > 0 ? value("pgain") / 1000 / (period * 1e-9) : std::nan("");
+    if (gain > 0 && gain < low_gain)
+      found.push_back(fmt::format("{0}.pgain is {1:g}, every {2:g} ms: a gain of {3:.3g} 1/s, and position "
+                                  "loops of drives have 20 to 100",
+                                  loop.name, value("pgain"), period * 1e-6, gain));
     if (period > slow_ns)
       found.push_back(fmt::format("{} is sampled every {:g} ms, too rarely for a position loop", loop.name,
                                   period * 1e-6));

@@ -415,25 +415,33 @@ std::string Simulation::unpressed() const {
     for (const auto& entry : scenario_.timeline)
       for (const auto& [target, value] : entry.set)
         if (entry.when && value.number != 0 && target.text == "panel." + name)
-          waits = fmt::format(": '{}' of line {} never came true", entry.when->text, entry.place.line);
+          waits = fmt::format(": '{}' of line {} {}", entry.when->text, entry.place.line,
+                              timeline_->due(entry.place.line)
+                                  ? fmt::format("came true and is due at {} s",
+                                                record::seconds_text(*timeline_->due(entry.place.line)))
+                                  : "never came true");
     unpressed += fmt::format("{}nothing pressed {} (panel.{} was never on{})", unpressed.empty() ? "" : ", ",
                              name, name, waits);
   }
   return unpressed;
 }
 
-Causes::Known Simulation::known(const std::vector<CamDoubt>& cams) {
+Causes::Known Simulation::known(const CamJudgement& cams, const std::vector<record::CheckResult>& checks) {
   Causes::Known known;
   known.contradictions = contradictions_;
-  for (const auto& cam : cams)
+  for (const auto& cam : cams.doubts)
     if (cam.is_slip) known.contradictions.push_back(cam.text);
   known.contradictions.insert(known.contradictions.end(), doubts_of_program_.begin(),
                               doubts_of_program_.end());
   for (const auto* open : {&open_->moving, &open_->others})
     known.contradictions.insert(known.contradictions.end(), open->begin(), open->end());
+  if (controller_)
+    for (auto& open : without_zero_pulse(scenario_, *controller_))
+      known.contradictions.push_back(std::move(open));
   for (auto& told : contradicting_parameters()) known.contradictions.push_back(std::move(told));
   for (const auto& found : directions_ ? directions_->found() : std::vector<Directions::Found>())
     known.astray.emplace_back(found.at, found.text);
+  if (auto lost = search_that_met_a_stop(); lost) known.astray.push_back(std::move(*lost));
   if (hunting_) known.hunting = hunting_->found();
   // An axis that only counts needs no loop.
   const auto moves = [&](const std::string& without) {
@@ -464,7 +472,9 @@ Causes::Known Simulation::known(const std::vector<CamDoubt>& cams) {
     for (auto& units : different_units(scenario_, *controller_, named_))
       known.doubts.push_back(std::move(units));
     for (auto& odd : odd_parameters(*controller_)) known.doubts.push_back(std::move(odd));
-    for (const auto& cam : cams)
+    for (auto& cycle : strange_cycles(scenario_, *controller_, named_, cams.cycles, checks))
+      known.doubts.push_back(std::move(cycle));
+    for (const auto& cam : cams.doubts)
       if (!cam.is_slip) known.doubts.push_back(cam.text);
   }
   if (auto first = unpressed(); !first.empty())
@@ -474,9 +484,21 @@ Causes::Known Simulation::known(const std::vector<CamDoubt>& cams) {
   return known;
 }
 
+// The home switch lies the other way, or is dead.
+std::optional<std::pair<double, std::string>> Simulation::search_that_met_a_stop() const {
+  const auto* blow = causes_.first_stop();
+  if (blow == nullptr || !standing_) return {};
+  const auto never = standing_->never_on(blow->source + ".home");
+  if (never.empty()) return {};
+  return std::pair(blow->at, fmt::format("{} at {:.6g} s: {}, and {} was never on: the search went the other "
+                                         "way, or the switch is not where it should be",
+                                         blow->source, blow->at, blow->text, never));
+}
+
 void Simulation::warn_of_program(std::vector<std::string>& warnings) {
   for (auto& text : overwritten(scenario_, *controller_)) warnings.push_back(std::move(text));
   for (auto& text : ended_at_once(scenario_, *controller_, time_)) warnings.push_back(std::move(text));
+  for (auto& text : without_zero_pulse(scenario_, *controller_)) warnings.push_back(std::move(text));
 }
 
 record::Outcome Simulation::outcome() {
@@ -504,12 +526,12 @@ record::Outcome Simulation::outcome() {
     for (const auto& drive : outcome.drives)
       outcome.warnings.insert(outcome.warnings.end(), drive.warnings.begin(), drive.warnings.end());
   if (controller_ && time_ > 0) warn_of_program(outcome.warnings);
-  const auto cams = cams_ && judge_cams_ ? judge_cams_(cams_->played()) : std::vector<CamDoubt>();
-  for (const auto& cam : cams)
+  const auto cams = cams_ && judge_cams_ ? judge_cams_(cams_->played()) : CamJudgement();
+  for (const auto& cam : cams.doubts)
     if (cam.is_slip) outcome.warnings.push_back(cam.text);
   outcome.alarms = causes_.alarms();
   if (outcome.failure.empty() && !outcome.passed()) {
-    auto known = this->known(cams);
+    auto known = this->known(cams, outcome.checks);
     if (!missed) known.hindrances.clear();  // only ratings, or what no check asks about
     outcome.cause = causes_.of(outcome.checks, known);
   }

@@ -147,13 +147,14 @@ class Simulation {
   void compare_with_machine();
   void look_after_program();
   /// What the run knows besides of why it failed.
-  [[nodiscard]] Causes::Known known(const std::vector<CamDoubt>& cams);
+  [[nodiscard]] Causes::Known known(const CamJudgement& cams, const std::vector<record::CheckResult>& checks);
   /// Of the parameters that the program has set.
   [[nodiscard]] std::vector<std::string> contradicting_parameters() const;
   /// What may be a slip in a run that was sound else: tasks that ended at once, values set in vain.
   void warn_of_program(std::vector<std::string>& warnings);
   /// Switches that nobody pressed.
   [[nodiscard]] std::string unpressed() const;
+  [[nodiscard]] std::optional<std::pair<double, std::string>> search_that_met_a_stop() const;
 
   void run_to_end(const std::function<void(Time)>& progress);
   void step();

@@ -42,7 +42,8 @@ std::string those_never_on(const auto&... levels) {
 
 }  // namespace
 
-Standing::Standing(const scenario::Scenario& scenario, devices::Controller& controller) {
+Standing::Standing(const scenario::Scenario& scenario, devices::Controller& controller)
+    : controller_(controller) {
   auto& cards = controller.cards();
   const bool homes = seeks_home(controller);
   for (const auto& wire : scenario.wiring) {
@@ -100,12 +101,20 @@ std::vector<std::string> Standing::texts(Time now) const {
   if (!never.empty()) texts.push_back(never);
   for (const auto& lamp : lamps_)
     if (lamp.last && lamp.changed && now - *lamp.changed >= stays)
-      texts.push_back(fmt::format("{} is on since {} s", lamp.plug, record::seconds_text(*lamp.changed)));
+      texts.push_back(fmt::format("{} is on since {} s{}", lamp.plug, record::seconds_text(*lamp.changed),
+                                  switched_on_by(controller_, lamp.terminal)));
   if (!never.empty()) return texts;
   // All have worked: where they have stopped, and what they wait for.
   texts.push_back(fmt::format("{} since {} s", fmt::join(states, ", "), record::seconds_text(worked_)));
   if (auto waited = never_on(); !waited.empty()) texts.push_back(std::move(waited));
   return texts;
+}
+
+std::string Standing::never_on(const std::string& plug) const {
+  for (const auto& input : inputs_)
+    if (input.plug == plug && input.of_program && !input.was_on)
+      return fmt::format("{} ({})", input.plug, input.terminal);
+  return "";
 }
 
 std::string Standing::never_on() const {

@@ -23,6 +23,8 @@ class Standing : public record::Observer {
 
   /// "never seen on: saw.home (X10)": of the machine's switches that a program reads; "" = all were.
   [[nodiscard]] std::string never_on() const;
+  /// "saw.home (X10)" if it is such a switch and was never on, else "".
+  [[nodiscard]] std::string never_on(const std::string& plug) const;
 
  private:
   struct Level {
@@ -40,6 +42,7 @@ class Standing : public record::Observer {
     const devices::Counter* counter;
     std::int64_t first;
   };
+  devices::Controller& controller_;
   std::vector<Level> lamps_;
   std::vector<Level> outputs_;  ///< that move the machine
   Time worked_ = 0;             ///< when one of them changed last ...

@@ -173,6 +173,12 @@ std::vector<std::string> Timeline::left_undone(Time end) const {
   return undone;
 }
 
+std::optional<Time> Timeline::due(int line) const {
+  for (const auto& [number, entry] : entries_)
+    if (entry.line == line && !entry.acted && !entry.when) return entry.due;
+  return {};
+}
+
 void Timeline::work(Time now, record::Recording& recording) {
   if (now >= next_look_) {
     trigger(now);

@@ -17,6 +17,8 @@ constexpr Time told_wait = second / 2;  // a wait that is told ...
 constexpr Time share_of_run =
     20;  // ... in a run of at most so many of them: a long run's end finds it at work
 
+constexpr Time long_timer = 4;  // a timer of a quarter of the run and more is one
+
 std::string values_of(const devices::ProgramText& program, int line, devices::Controller& controller) {
   const auto named = program.values.find(line);
   if (named == program.values.end()) return "";
@@ -67,6 +69,8 @@ Waits waits_of(devices::Controller& controller, Time now) {
   for (const auto& wait : waits) {
     const Time waited = now - wait.since_ns;
     if (waited < std::min(told_wait, now / 2) || (!wait.ended && waited < now / share_of_run)) continue;
+    // A timer that soon elapses is no standstill.
+    if (wait.until_ns > 0 && wait.until_ns - wait.since_ns < now / long_timer) continue;
     const auto program = std::find_if(programs.begin(), programs.end(),
                                       [&](const auto& one) { return one.name == wait.program; });
     if (program == programs.end()) continue;
@@ -77,8 +81,10 @@ Waits waits_of(devices::Controller& controller, Time now) {
       continue;
     }
     found.texts.push_back(fmt::format(
-        "{} stands at line {}, {}{}, since {} s", wait.program, wait.line, code_of(*program, wait.line),
-        values_of(*program, wait.line, controller), record::seconds_text(wait.since_ns)));
+        "{} stands at line {}, {}{}, since {} s{}", wait.program, wait.line, code_of(*program, wait.line),
+        values_of(*program, wait.line, controller), record::seconds_text(wait.since_ns),
+        wait.until_ns > 0 ? fmt::format(", until its timer elapses at {} s", record::seconds_text(wait.until_ns))
+                          : ""));
     if (program->language == "st") break;  // what comes behind has to wait for it
   }
   const auto running = std::count_if(programs.begin(), programs.end(),

@@ -64,7 +64,7 @@ struct DriveVerdict {
   /// never.
   std::string limit_elsewhere;
   std::vector<std::string> notes;     ///< heat that is not judged, no steady cycle
-  std::vector<std::string> warnings;  ///< of heat that is not judged and would be over its rating
+  std::vector<std::string> warnings;  ///< heat over its rating that is not judged, mains that were missing
   /// At this share of the machine's speed all would be within 90 % of their ratings, by a cautious estimate
   /// from one run: friction and load stay, the rest of the torque goes with the speed. 1 where all are; 0
   /// where friction and load alone are too much.

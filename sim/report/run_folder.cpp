@@ -51,7 +51,7 @@ void RunFolder::begin() {
 RunLeft RunFolder::run(const scenario::Scenario& scenario, loop::Simulation& simulation,
                        const PartMeshes& meshes, const RunRequest& request, RunResult& result) {
   const bool is_drawn = request.pictures || request.gltf;
-  simulation.follow_cams(cams::cam_doubts, request.pictures);
+  simulation.follow_cams(cams::cam_judgement, request.pictures);
   if (request.pictures) follow_torques(simulation);
   if (!is_drawn && !request.in_memory) simulation.keep_nothing();
   std::filesystem::path hdf5;

@@ -234,6 +234,31 @@ TEST(Causes, AnAxisThatLostItsLoadIsNotHeldToCountTheWrongWay) {
   EXPECT_THAT(causes.of({failed(0.5)}, known), testing::StartsWith("because press at 0.3 s: pulled_out"));
 }
 
+TEST(Causes, WhatTheControllerWarnedOfJustBeforeAMachinesErrorIsToldFirst) {
+  Causes causes;
+  causes.happened(told(1.9, "LX3VP", "warning", "the frequency limit holds back pulses"));
+  causes.happened(told(2.1, "saw", "errorstop", "following error"));
+  EXPECT_EQ(causes.of({failed(2.2)}, {}),
+            "because LX3VP at 1.9 s: the frequency limit holds back pulses; then saw at 2.1 s: following "
+            "error");
+  Causes late;
+  late.happened(told(0.9, "LX3VP", "warning", "the frequency limit holds back pulses"));
+  late.happened(told(2.1, "saw", "errorstop", "following error"));
+  EXPECT_EQ(late.of({failed(2.2)}, {}), "because saw at 2.1 s: following error");
+}
+
+TEST(Causes, ACheckThatNeverHeldIsToldWhereNoErrorIs) {
+  auto never = failed(0);
+  never.name = "no error";
+  never.throughout = "AxisX.st_error 0";
+  Causes causes;
+  Causes::Known known;
+  known.doubts = {"AxisX.offset is 9000"};
+  EXPECT_EQ(causes.of({never}, known), "because check 'no error' held at no instant: AxisX.st_error 0");
+  causes.happened(told(1.9, "AxisX", "errorstop", "following error"));
+  EXPECT_EQ(causes.of({never}, known), "while AxisX.offset is 9000");
+}
+
 TEST(Causes, AlarmsComeInTheOrderOfTheirTimes) {
   Causes causes;
   causes.happened(told(2, "Knife", "warning", "late"));

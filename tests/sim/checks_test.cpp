@@ -54,6 +54,25 @@ struct ChecksTest : testing::Test {
   std::unique_ptr<Checks> checks;
 };
 
+TEST_F(ChecksTest, ACheckThatHeldAtNoInstantSaysWhatThereWas) {
+  add(scenario::CheckRequest::Kind::always, "", "error > 5");
+  start();
+  for (int i = 0; i < 100; ++i) sample(i * millisecond, i % 4);
+  EXPECT_EQ(result().throughout, "error 0 to 3 Um");
+  sample(100 * millisecond, 6);
+  EXPECT_EQ(result().throughout, "");
+}
+
+TEST_F(ChecksTest, WhatNeverCameSaysHowNearItCame) {
+  add(scenario::CheckRequest::Kind::eventually, "", "error > 5").within = 3 * second;
+  start();
+  sample(1 * second, 1);
+  sample(2 * second, 4);
+  sample(3 * second, 2);
+  EXPECT_EQ(result().detail,
+            "not true at any of 3 instants, nearest at 2.0000 s: error=4 Um, the last at 3.0000 s: error=2 Um");
+}
+
 // What a check multiplies by a condition is judged only where that holds.
 TEST_F(ChecksTest, ACheckWhoseConditionNeverCameJudgedNothing) {
   controller.values["step"] = 1;

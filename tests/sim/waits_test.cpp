@@ -135,6 +135,57 @@ TEST(WhyItFailed, AParameterThatHardlyAnAxisHasIsTold) {
               HasSubstr("AxisX.feedfw is 90: 1000 is feed forward of the whole speed"));
 }
 
+TEST(WhyItFailed, ALowGainIsTold) {
+  const auto soft = replaced(studies::tuning::scenario, "AxisX.pgain: 0", "AxisX.pgain: 10");
+  EXPECT_THAT(cause_of(studies::tuning::program, replaced(soft, "feedfw: 900", "feedfw: 0")),
+              HasSubstr("AxisX.pgain is 10, every 2 ms: a gain of 5 1/s"));
+}
+
+// A timer that elapses soon lets its program go on.
+TEST(WhyItFailed, AProgramAtARunningTimerDoesNotStand) {
+  const auto waits = [](const std::string& time) {
+    TestFolder folder;
+    folder.file("axis.cnf", replaced(studies::tuning::configuration, "BUS\n", "TIMER\ntmRest\nBUS\n"));
+    folder.file("axis.mod",
+                replaced(studies::tuning::program, "START AxisX\n",
+                         "REST:\ntmRest = " + time + "\nWAIT tmRest\nJUMP REST\nSTART AxisX\n"));
+    return outcome_of(folder.file("line.yaml", replaced(studies::tuning::scenario, "duration: 1 s",
+                                                        "duration: 20 s") +
+                                                   "checks:\n  - {name: there, eventually: "
+                                                   "axis.position > 399}\n"))
+        .cause;
+  };
+  EXPECT_THAT(waits("4000"), Not(HasSubstr("WAIT tmRest")));
+  EXPECT_THAT(waits("90000"), HasSubstr("WAIT tmRest"));
+  EXPECT_THAT(waits("90000"), HasSubstr("until its timer elapses at 9"));
+}
+
+std::string cause_of_saw(const std::string& name, const std::vector<scenario::Override>& set) {
+  return outcome_of(lines / name, set).cause;
+}
+
+TEST(WhyItFailed, AZeroPulseThatIsNotWiredIsTold) {
+  TestFolder folder;
+  const auto saw = (lines / "flying_saw_qmove.yaml").string();
+  const auto file = folder.file("line.yaml", "extends: " + saw + "\nscene: {duration: 9 s}\n");
+  EXPECT_THAT(outcome_of(file, {{"wiring.INT1", "none"}}).cause,
+              StartsWith("because INT1 is the zero pulse that PRESET of AxisX seeks (prsmode 1), and nothing "
+                         "is wired to it"));
+}
+
+// A cycle of the cam is a tenth of the piece that the check wants.
+TEST(WhyItFailed, ACamWhoseCycleIsNoPieceIsTold) {
+  EXPECT_THAT(cause_of_saw("flying_saw_plcopen.yaml",
+                           {{"controller.plcopen.axes.Tube.modulo", "660 mm"}, {"scene.duration", "9 s"}}),
+              HasSubstr("660"));
+}
+
+TEST(WhyItFailed, ASearchThatMeetsTheStopBeforeItsSwitchIsTold) {
+  EXPECT_THAT(
+      cause_of_saw("flying_saw_plcopen.yaml", {{"plants.saw.home", "-200 mm"}, {"scene.duration", "9 s"}}),
+      HasSubstr("saw.home"));
+}
+
 TEST(WhyItFailed, ForwardAndBackwardSwappedAreTold) {
   TestFolder folder;
   const auto press = (lines / "vertical_press_qmove.yaml").string();

@@ -37,6 +37,12 @@ TEST(QmoveDoubts, ATimerThatNoTaskStarts) {
   EXPECT_THAT(told({"tmWait = 100\nWAIT tmWait\nEND\n"}), IsEmpty());
 }
 
+TEST(QmoveDoubts, WhatIsSetTwiceInARow) {
+  EXPECT_THAT(told({"agTemp[1] = 3\n\nagTemp[1] = 4 ; the second\nEND\n"}),
+              ElementsAre(" task0.mod:3: agTemp[1] was set just before: the first of the two does nothing"));
+  EXPECT_THAT(told({"glI = 3\nglI = glI + 1\nglI = 2 * glI\nWAIT 1\nEND\n"}), IsEmpty());
+}
+
 TEST(QmoveDoubts, RetentiveValuesAndRecipesComeFromThePanel) {
   EXPECT_THAT(told({"glI = slR + asKept[2] + ddlHead[1]\nEND\n"}), IsEmpty());
 }

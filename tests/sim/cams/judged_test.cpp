@@ -28,7 +28,7 @@ record::Outcome outcome_with(const std::string& table) {
   loop::Simulation simulation(scenario, problems);
   EXPECT_TRUE(problems.empty()) << (problems.empty() ? "" : to_string(problems.front()));
   if (!problems.empty()) return {};
-  simulation.follow_cams(cam_doubts);
+  simulation.follow_cams(cam_judgement);
   return simulation.run();
 }
 
