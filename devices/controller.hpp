@@ -119,6 +119,7 @@ struct ProgramWait {
   int line = 0;               ///< from 1
   std::int64_t since_ns = 0;  ///< it has stood there all the time
   bool ended = false;         ///< it came to its end: nothing comes any more
+  std::string lacks = {};     ///< what has never come, where the line does not say it
   std::int64_t until_ns = 0;  ///< a timer that it waits for elapses then; 0 = it waits for none that runs
 };
 

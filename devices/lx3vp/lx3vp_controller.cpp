@@ -262,6 +262,19 @@ const il::Step* Lx3vpController::step_at(int number) const {
   return step == program_.steps.end() ? nullptr : &*step;
 }
 
+std::vector<ProgramWait> Lx3vpController::waits() {
+  std::vector<ProgramWait> waits;
+  for (const il::Step& step : program_.steps) {
+    const Decam* cam = pulses_.cam(step.number);
+    if (cam == nullptr || !cam->enabled() || cam->refused() || cam->starts() > 0) continue;
+    const ProgramText named(program_.file, "il", "");
+    waits.push_back({named.name, step.line, 0});
+    waits.back().lacks = fmt::format("its word {}, D{}, was never 1 or 2", static_cast<int>(word::start),
+                                     cam->operands().block + word::start);
+  }
+  return waits;
+}
+
 void Lx3vpController::tell_notes() {
   for (const PulseNote& note : pulses_.take_notes()) {
     const il::Step* step = step_at(note.step);

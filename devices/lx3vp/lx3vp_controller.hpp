@@ -64,6 +64,8 @@ class Lx3vpController : public Controller, private Instructions {
   void watch_programs(bool on) override { scanner_.watch(on); }
   [[nodiscard]] ProgramPositions positions(std::int64_t time_ns) const override;
   [[nodiscard]] std::vector<ProgramDoubt> doubts() const override;
+  /// Of a DECAM that has power and has never started.
+  [[nodiscard]] std::vector<ProgramWait> waits() override;
 
   [[nodiscard]] bool has_events() const override { return !events_.empty(); }
   std::vector<ControllerEvent> take_events() override { return std::exchange(events_, {}); }

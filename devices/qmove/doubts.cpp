@@ -20,6 +20,8 @@ struct Uses {
   std::set<int> written;
   Readers asked;
   std::set<int> started;
+  Readers read_by_index;        ///< the array's first cell: any of it
+  std::set<int> set_by_index;  ///< the same
 };
 
 /// An index that is a number names one cell; else all of the array may be read or written.
@@ -29,6 +31,8 @@ void take_element(const QclProgram& program, std::size_t at, const std::string& 
   const bool plain = at > 0 && program.code[at - 1].op == QclOp::push;
   const int first = plain ? index.a + program.code[at - 1].a - 1 : index.a;
   const int end = plain ? first + 1 : index.a + index.b;
+  if (!plain && reads) uses.read_by_index.emplace(index.a, place);
+  if (!plain && !reads) uses.set_by_index.insert(index.a);
   for (int cell = first; cell < end; ++cell) {
     if (!reads)
       uses.written.insert(cell);
@@ -69,6 +73,22 @@ void tell_twice_set(const ProgramText& program, std::vector<Controller::ProgramD
   }
 }
 
+/// Of a retentive array that programs set by number but for some elements: those that any index may read.
+void tell_gaps(const NamedThing& array, const Uses& uses, std::vector<Controller::ProgramDoubt>& found) {
+  const auto reader = uses.read_by_index.find(array.index);
+  if (reader == uses.read_by_index.end() || uses.set_by_index.contains(array.index)) return;
+  std::vector<int> gaps;
+  for (int i = 0; i < cell_count(array); ++i)
+    if (!uses.written.contains(array.index + i)) gaps.push_back(i + 1);
+  if (static_cast<int>(gaps.size()) == cell_count(array)) return;  // the panel sets them all
+  for (const int gap : gaps) {
+    const auto name = fmt::format("{}[{}]", array.name, gap);
+    found.push_back({fmt::format("{}: {} is never set, other elements of {} are", reader->second, name,
+                                 array.name),
+                     name});
+  }
+}
+
 }  // namespace
 
 // Retentive values and recipes come from the panel.
@@ -84,8 +104,11 @@ std::vector<Controller::ProgramDoubt> QmoveController::doubts() const {
       found.push_back({fmt::format("{}: the timer {} is asked, and no task starts it",
                                    uses.asked[thing.index], thing.name),
                        thing.name});
-    if ((thing.kind != NamedThing::Kind::scalar && !array) || thing.index >= names_.volatile_cells())
+    if (thing.kind != NamedThing::Kind::scalar && !array) continue;
+    if (thing.index >= names_.volatile_cells()) {
+      if (array) tell_gaps(thing, uses, found);
       continue;
+    }
     for (int cell = thing.index; cell < thing.index + cell_count(thing); ++cell) {
       if (!uses.read.contains(cell) || uses.written.contains(cell)) continue;
       const auto name = array ? fmt::format("{}[{}]", thing.name, cell - thing.index + 1) : thing.name;

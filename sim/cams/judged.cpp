@@ -54,7 +54,8 @@ loop::CamJudgement cam_judgement(const std::vector<loop::PlayedCam>& played) {
     const auto& course = cam.study.course;
     if (course.runs() && !course.lets_go)
       judgement.cycles.push_back(
-          {one.axis, course.law.master_length * cam.ideal.shown, cam.ideal.master_unit});
+          {one.axis, course.law.master_length * cam.ideal.shown, cam.ideal.master_unit,
+           course.law.slave_length * cam.ideal.shown, cam.ideal.slave_unit});
     // What is wrong at any speed is wrong with the table; else its master may have been too fast.
     constexpr double slow = 1e-3;
     CamRequest slowly;

@@ -18,6 +18,8 @@ struct CamCycle {
   std::string axis;
   double length = 0;  ///< of its master, in `unit`
   std::string unit;   ///< "mm", "Um", "pulses"
+  double advance = 0;  ///< that its slave is further behind each cycle, in its own unit
+  std::string slave_unit;
 };
 
 struct CamJudgement {

@@ -13,6 +13,7 @@ namespace drycut::sim::loop {
 namespace {
 
 constexpr std::size_t most_causes = 200;  ///< of each kind
+constexpr double soon = 1;  ///< [s] what lies so little before a failure is held to be its cause
 
 /// Machines tell numbers and no text.
 std::string text_of(const record::RecordedEvent& event) {
@@ -57,7 +58,6 @@ std::optional<double> first_failure(const std::vector<record::CheckResult>& chec
 
 // What the timeline did to the machine just before a check failed, or while it counted too few events.
 std::string last_set(const std::vector<record::Alarm>& sets, const std::vector<record::CheckResult>& checks) {
-  constexpr double soon = 1;  // [s]
   for (const auto& set : sets)
     for (const auto& check : checks) {
       const bool behind = check.failed_at && set.at <= *check.failed_at && *check.failed_at - set.at <= soon;
@@ -161,13 +161,26 @@ const record::Alarm* Causes::last_warning(double until, const std::string& sourc
   const record::Alarm* last = nullptr;
   for (const auto& warning : warnings_)
     if (warning.at <= until && (source.empty() || warning.source == source)) last = &warning;
+  // What the same source warned of just before it explains more.
+  for (const auto& warning : warnings_)
+    if (last != nullptr && warning.source == last->source && warning.at <= last->at &&
+        last->at - warning.at <= soon)
+      return &warning;
   return last;
+}
+
+// An error behind what its source warned of before, or another just before.
+std::string Causes::with_warning(const record::Alarm& error) const {
+  if (const auto* warning = last_warning(error.at, error.source); warning != nullptr)
+    return fmt::format("{}; then at {:.6g} s: {}", text_of(*warning), error.at, error.text);
+  const auto* warning = last_warning(error.at, "");
+  if (warning == nullptr || error.at - warning->at > soon) return text_of(error);
+  return fmt::format("{}; then {}", text_of(*warning), text_of(error));
 }
 
 // What came before a failure: a fault that was put in, an error and the warning behind it, a drive at its
 // limit.
 std::string Causes::by_time(double failed_at, const Known& known) const {
-  constexpr double soon = 1;         // [s] what lies so little before a failure is held to be its cause
   constexpr double told_late = 0.1;  // [s] an error is told once it has lasted
   const record::Alarm* fault = nullptr;
   for (const auto& one : faults_)
@@ -175,21 +188,12 @@ std::string Causes::by_time(double failed_at, const Known& known) const {
   const auto* error = first_error(failed_at + told_late);
   const auto* warning =
       last_warning(error != nullptr ? error->at : failed_at, error != nullptr ? error->source : "");
-  if (error != nullptr && warning == nullptr) {
-    warning = last_warning(error->at, "");
-    if (warning != nullptr && error->at - warning->at > soon) warning = nullptr;
-  }
   if (fault != nullptr) {
     const bool shown = failed_at - fault->at <= soon || (error != nullptr && error->at >= fault->at) ||
                        (warning != nullptr && warning->at >= fault->at);
     return (shown ? "because " : "after ") + text_of_fault(*fault);
   }
-  if (error != nullptr)
-    return warning == nullptr               ? "because " + text_of(*error)
-           : warning->source == error->source ? fmt::format("because {}; then at {:.6g} s: {}",
-                                                            text_of(*warning), error->at, error->text)
-                                              : fmt::format("because {}; then {}", text_of(*warning),
-                                                            text_of(*error));
+  if (error != nullptr) return "because " + with_warning(*error);
   if (known.hunting && known.hunting->first <= failed_at &&
       (warning == nullptr || known.hunting->first <= warning->at))
     return "because " + known.hunting->second;
@@ -242,11 +246,13 @@ std::string Causes::last_resort(const std::vector<record::CheckResult>& checks, 
                                 const std::string& before) const {
   if (found_nothing(checks) && !known.hindrances.empty()) {
     const auto* error = first_error(std::numeric_limits<double>::infinity());
+    const bool announced = error != nullptr && last_warning(error->at, error->source) != nullptr;
+    if (announced && !before.empty())
+      return "because " + with_warning(*error) + joined(known.hindrances.front());
     return "while " + known.hindrances.front() + joined(error != nullptr ? text_of(*error) : "");
   }
   if (!before.empty()) return before + joined(known.doubts.empty() ? "" : known.doubts.front());
   if (!known.doubts.empty()) return "while " + known.doubts.front();
-  constexpr double soon = 1;  // [s]
   const auto failed_at = first_failure(checks);
   for (const auto& blow : blows_)
     if (failed_at && std::abs(blow.at - *failed_at) <= soon)

@@ -59,6 +59,7 @@ class Causes : public record::Observer {
   };
   [[nodiscard]] const record::Alarm* first_error(double until) const;
   [[nodiscard]] const record::Alarm* last_warning(double until, const std::string& source) const;
+  [[nodiscard]] std::string with_warning(const record::Alarm& error) const;
   [[nodiscard]] std::string by_time(double failed_at, const Known& known) const;
   [[nodiscard]] std::string last_resort(const std::vector<record::CheckResult>& checks, const Known& known,
                                         const std::string& before) const;

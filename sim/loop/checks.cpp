@@ -471,6 +471,12 @@ record::CheckResult Checks::result(State& state, Time end) {
   if (!unmet.empty())
     result.doubt = fmt::format("check '{}' judged nothing: {} was 0 at all {} {}", check.name.text, unmet,
                                state.count, looked_at(state));
+  // Its unit may be a slip.
+  constexpr double far_off = 0.001;
+  if (result.passed && result.used && *result.used > 0 && *result.used < far_off)
+    result.doubt = fmt::format("check '{}' would notice no less than {:.0f} times what came: does its limit "
+                               "have the right unit",
+                               check.name.text, 1 / *result.used);
   if (!result.passed && check.kind != scenario::CheckRequest::Kind::all)
     result.failed_at = state.first_failed_at;
   if (!result.passed) result.throughout = throughout(state);

@@ -94,7 +94,7 @@ bool is_named(const std::string& terminal, const std::vector<devices::ProgramTex
       if (at == std::string::npos) continue;
       const auto line = words.rfind('\n', at) + 1;
       const auto fields = split_words(std::string_view(words).substr(line, at - line), {1, 1}, " \t");
-      if (fields.size() != 2) return true;  // a device's
+      if (fields.size() > 3) return true;  // a device's
       int times = 0;
       for (const auto& other : programs)
         if (other.language == "qcl") times += times_named(program_words(other), fields.front().text);
@@ -299,7 +299,7 @@ std::string name_in_program(const std::string& terminal, const std::vector<devic
     } else if (program.language == "cnf") {
       for (const auto line : split_lines(words)) {
         const auto fields = split_words(line, {1, 1}, " \t");
-        if (fields.size() == 2 && fields[1].text == wanted) return fields[0].text;
+        if (fields.size() > 1 && fields.size() < 4 && fields.back().text == wanted) return fields[0].text;
       }
     }
   }
@@ -318,16 +318,32 @@ bool switches_on(const std::string& language, std::string_view line, const std::
          !trimmed(line.substr(assigned + 2)).starts_with("false");
 }
 
+/// Axes that switch their drive on and off, by a terminal that is not wired, where the drive has the plug.
+std::vector<std::string> always_enabled(const scenario::Scenario& scenario, devices::Controller& controller) {
+  constexpr std::string_view reference = ".reference";
+  std::vector<std::string> found;
+  for (const auto& wire : scenario.wiring) {
+    const auto& [terminal, plug] = std::pair(wire.terminal.text, wire.plug.text);
+    if (!terminal.ends_with(reference) || !plug.ends_with(reference)) continue;
+    const auto enable = terminal.substr(0, terminal.size() - reference.size()) + ".enable";
+    const auto at = controller.terminal(enable);
+    const auto* address = std::get_if<devices::Address>(&at);
+    if (address != nullptr && wire_at(scenario, controller, *address) == nullptr)
+      found.push_back(fmt::format("{} is not wired: {} is on always, whatever the axis does", enable,
+                                  plug.substr(0, plug.size() - reference.size()) + ".enable"));
+  }
+  return found;
+}
+
 /// Two wires whose terminals have each the name of the other's plug.
 std::vector<std::string> crossed_wires(const scenario::Scenario& scenario, devices::Controller& controller) {
   struct Named {
     std::string terminal;
     std::string plug;
     std::string name;
-    std::string last;  ///< word of the plug
+    std::vector<std::string> words;  ///< of the plug: head, plunge
     devices::Kind kind;
   };
-  constexpr std::size_t telling = 4;  // letters
   std::vector<Named> named;
   const auto programs = controller.programs();
   for (const auto& wire : scenario.wiring) {
@@ -335,19 +351,30 @@ std::vector<std::string> crossed_wires(const scenario::Scenario& scenario, devic
     const auto* address = std::get_if<devices::Address>(&found);
     if (address == nullptr) continue;
     const auto terminal = controller.terminal_name(*address);
-    auto last = lower(wire.plug.text.substr(wire.plug.text.find_last_of("._") + 1));
-    if (auto name = name_in_program(terminal, programs); !name.empty() && last.size() >= telling)
-      named.push_back({terminal, wire.plug.text, std::move(name), std::move(last), address->kind});
+    auto name = name_in_program(terminal, programs);
+    if (name.empty()) continue;
+    std::vector<std::string> words;
+    const auto plug = lower(wire.plug.text);
+    for (const auto& word : split_words(std::string_view(plug).substr(plug.find('.') + 1), {1, 1}, "._"))
+      words.push_back(word.text);
+    named.push_back({terminal, wire.plug.text, std::move(name), std::move(words), address->kind});
   }
-  const auto has = [](const Named& one, const Named& other) {
-    return one.name.find(other.last) != std::string::npos;
+  // "headdown" has "down", "ifup" ends with "up": a word that both plugs have tells nothing.
+  const auto has = [](const Named& one, const Named& of, const Named& not_of) {
+    constexpr std::size_t telling = 4;  // letters
+    return std::any_of(of.words.begin(), of.words.end(), [&](const std::string& word) {
+      const bool common =
+          std::find(not_of.words.begin(), not_of.words.end(), word) != not_of.words.end();
+      return !common && (one.name.ends_with(word) ||
+                         (word.size() >= telling && one.name.find(word) != std::string::npos));
+    });
   };
   std::vector<std::string> notes;
   for (std::size_t i = 0; i < named.size(); ++i)
     for (std::size_t j = i + 1; j < named.size(); ++j)
-      if (const auto &one = named[i], &other = named[j]; one.kind == other.kind && has(one, other) &&
-                                                         has(other, one) && !has(one, one) &&
-                                                         !has(other, other))
+      if (const auto &one = named[i], &other = named[j]; one.kind == other.kind &&
+                                                         has(one, other, one) && has(other, one, other) &&
+                                                         !has(one, one, other) && !has(other, other, one))
         notes.push_back(fmt::format("{}, which the program calls {}, is wired to {}, and {}, {}, to {}",
                                     one.terminal, one.name, one.plug, other.terminal, other.name,
                                     other.plug));
@@ -391,6 +418,7 @@ std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devi
       notes.push_back(fmt::format("{} and {} are both wired to {}", first->second, name, wire.plug.text));
   }
   for (auto& strange : strange_zero_pulses(scenario, controller)) notes.push_back(std::move(strange));
+  for (auto& enabled : always_enabled(scenario, controller)) notes.push_back(std::move(enabled));
   for (auto& crossed : crossed_wires(scenario, controller)) notes.push_back(std::move(crossed));
   return notes;
 }

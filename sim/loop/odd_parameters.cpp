@@ -60,7 +60,7 @@ constexpr OddRow rows[] = {
 }  // namespace
 
 std::vector<std::string> odd_parameters(devices::Controller& controller) {
-  constexpr double slow_ns = 20e6;
+  constexpr double slow_ns = 10e6;
   std::vector<std::string> found;
   for (const auto& loop : controller.position_loops()) {
     const auto value = [&](const char* name) {
@@ -70,7 +70,9 @@ std::vector<std::string> odd_parameters(devices::Controller& controller) {
     for (const auto& [name, is_odd, why] : rows)
       if (const double is = value(name); is_odd(is, value))
         found.push_back(fmt::format("{}.{} is {:g}: {}", loop.name, name, is, why));
-    const auto period = loop.reference ? static_cast<double>(controller.output_period(*loop.reference)) : 0;
+    auto period = loop.reference ? static_cast<double>(controller.output_period(*loop.reference)) : 0;
+    if (!loop.reference)  // all its axes have one
+      for (const auto& [name, ns] : controller.periods()) period = std::max(period, static_cast<double>(ns));
     const double gain = period > 0 ? value("pgain") / 1000 / (period * 1e-9) : std::nan("");
     if (gain > 0 && gain < low_gain)
       found.push_back(fmt::format("{0}.pgain is {1:g}, every {2:g} ms: a gain of {3:.3g} 1/s, and position "

@@ -439,6 +439,12 @@ Causes::Known Simulation::known(const CamJudgement& cams, const std::vector<reco
     for (auto& open : without_zero_pulse(scenario_, *controller_))
       known.contradictions.push_back(std::move(open));
   for (auto& told : contradicting_parameters()) known.contradictions.push_back(std::move(told));
+  if (controller_) {
+    for (auto& units : different_units(scenario_, *controller_, named_))
+      known.contradictions.push_back(std::move(units));
+    for (auto& cycle : strange_cycles(scenario_, *controller_, named_, cams.cycles, checks))
+      known.contradictions.push_back(std::move(cycle));
+  }
   for (const auto& found : directions_ ? directions_->found() : std::vector<Directions::Found>())
     known.astray.emplace_back(found.at, found.text);
   if (auto lost = search_that_met_a_stop(); lost) known.astray.push_back(std::move(*lost));
@@ -469,11 +475,7 @@ Causes::Known Simulation::known(const CamJudgement& cams, const std::vector<reco
     for (auto& text : whereabouts_ ? whereabouts_->texts() : std::vector<std::string>())
       known.doubts.push_back(std::move(text));
     for (auto& doubt : doubtful_wires(scenario_, *controller_)) known.doubts.push_back(std::move(doubt));
-    for (auto& units : different_units(scenario_, *controller_, named_))
-      known.doubts.push_back(std::move(units));
     for (auto& odd : odd_parameters(*controller_)) known.doubts.push_back(std::move(odd));
-    for (auto& cycle : strange_cycles(scenario_, *controller_, named_, cams.cycles, checks))
-      known.doubts.push_back(std::move(cycle));
     for (const auto& cam : cams.doubts)
       if (!cam.is_slip) known.doubts.push_back(cam.text);
   }

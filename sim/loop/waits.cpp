@@ -80,6 +80,11 @@ Waits waits_of(devices::Controller& controller, Time now) {
                                         record::seconds_text(wait.since_ns)));
       continue;
     }
+    if (!wait.lacks.empty()) {
+      found.texts.push_back(fmt::format("{} stands at line {}, {}: {}", wait.program, wait.line,
+                                        code_of(*program, wait.line), wait.lacks));
+      continue;
+    }
     found.texts.push_back(fmt::format(
         "{} stands at line {}, {}{}, since {} s{}", wait.program, wait.line, code_of(*program, wait.line),
         values_of(*program, wait.line, controller), record::seconds_text(wait.since_ns),

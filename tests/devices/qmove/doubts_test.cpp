@@ -43,6 +43,16 @@ TEST(QmoveDoubts, WhatIsSetTwiceInARow) {
   EXPECT_THAT(told({"glI = 3\nglI = glI + 1\nglI = 2 * glI\nWAIT 1\nEND\n"}), IsEmpty());
 }
 
+TEST(QmoveDoubts, AGapInARetentiveArrayThatIsSetByNumber) {
+  const std::string reads = "glI = asKept[glI]\nEND\n";
+  const auto doubts = told({"asKept[1] = 3\n" + reads});
+  EXPECT_FALSE(doubts.empty());
+  EXPECT_EQ(doubts.front(),
+            "asKept[2] task0.mod:2: asKept[2] is never set, other elements of asKept are");
+  EXPECT_THAT(told({"asKept[1] = 3\nasKept[glI + 1] = 4\n" + reads}), IsEmpty());
+  EXPECT_THAT(told({reads}), IsEmpty());
+}
+
 TEST(QmoveDoubts, RetentiveValuesAndRecipesComeFromThePanel) {
   EXPECT_THAT(told({"glI = slR + asKept[2] + ddlHead[1]\nEND\n"}), IsEmpty());
 }
