@@ -46,7 +46,6 @@ IF Axis:posit LT 0
     Axis:posit = - Axis:posit     ; what the ruler on the machine says
     WAIT Axis:posit GE 0
 ENDIF
-gbStep = 2
 
 ;-----
 ; Both directions: the count follows the machine

@@ -390,8 +390,7 @@ std::vector<record::CheckResult> Checks::results(Time end) {
 std::vector<record::Tolerance> Checks::tolerances_of(const State& state) {
   std::vector<record::Tolerance> tolerances;
   const auto& check = state.check;
-  if (check.kind != scenario::CheckRequest::Kind::each || !state.expression || state.count == 0)
-    return tolerances;
+  if (check.kind != scenario::CheckRequest::Kind::each || !state.expression) return tolerances;
   for (const auto& slot : state.slots) {
     const auto [low, high] = state.expression->range_of(&slot.number);
     if (std::isinf(low) && std::isinf(high)) continue;
@@ -473,7 +472,8 @@ record::CheckResult Checks::result(State& state, Time end) {
                                state.count, looked_at(state));
   // Its unit may be a slip.
   constexpr double far_off = 0.001;
-  if (result.passed && result.used && *result.used > 0 && *result.used < far_off)
+  constexpr double rounding = 1e-7;
+  if (result.passed && result.used && *result.used > rounding && *result.used < far_off)
     result.doubt = fmt::format("check '{}' would notice no less than {:.0f} times what came: does its limit "
                                "have the right unit",
                                check.name.text, 1 / *result.used);

@@ -236,6 +236,26 @@ std::vector<std::string> different_units(const scenario::Scenario& scenario, dev
   return found;
 }
 
+namespace {
+
+/// Axes that may be masters, with the lengths of their turns [mm], of those that turn [deg].
+std::vector<std::pair<std::string, double>> modulo_masters(devices::Controller& controller) {
+  std::vector<std::pair<std::string, double>> masters;
+  constexpr std::string_view role = ".cam_gear.is_master";
+  constexpr double per_millimetre = 10000;  // the kernel counts 0.1 um
+  for (const auto& name : controller.names()) {
+    if (!name.ends_with(role)) continue;
+    const auto axis = name.substr(0, name.size() - role.size());
+    const auto is_master = controller.find(name);
+    const auto modulo = controller.find(axis + ".modulo");
+    if (is_master && is_master->read() != 0 && modulo && modulo->read() > 0)
+      masters.emplace_back(axis, modulo->read() / per_millimetre);
+  }
+  return masters;
+}
+
+}  // namespace
+
 std::vector<std::string> strange_cycles(const scenario::Scenario& scenario, devices::Controller& controller,
                                         const std::vector<NamedPlant>& plants,
                                         const std::vector<CamCycle>& cycles,
@@ -248,6 +268,12 @@ std::vector<std::string> strange_cycles(const scenario::Scenario& scenario, devi
   const auto units = machine_units(scenario, controller, plants);
   std::vector<std::string> found;
   for (const auto& cycle : cycles) {
+    for (const auto& [axis, modulo] : modulo_masters(controller))
+      if (cycle.unit == "mm" && axis != cycle.axis && !is_whole(cycle.length / modulo) &&
+          !is_whole(modulo / cycle.length))
+        found.push_back(fmt::format("a cycle of the cam of {} is {:.4g} mm, and the modulo of its master {} is "
+                                    "{:.4g} mm",
+                                    cycle.axis, cycle.length, axis, modulo));
     double length = cycle.unit == "mm" ? cycle.length : 0;
     // A device's first counter is its own, the second one its master's.
     for (std::size_t i = 1; i < units.size() && cycle.unit == "Um"; ++i)
@@ -449,6 +475,8 @@ std::string switched_on_by(devices::Controller& controller, const std::string& t
       for (int above = number - 1; program.language == "qcl" && above >= number - near; --above)
         if (const auto asked = code_of(program, above); lower(asked).starts_with("if ")) {
           code = asked + ": " + code;
+          break;
+        } else if (lower(asked) == "endif") {
           break;
         }
       places.push_back(fmt::format("{}:{}, {}", program.name, number, code));

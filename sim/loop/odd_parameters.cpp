@@ -51,8 +51,8 @@ constexpr OddRow rows[] = {
      "it coasts half of that way and more (iner01, iner02), so it was hardly slow when its outputs went off"},
     {"maxvel", [](double value, const Value& other) { return value == 0 && other("slowtype") > 0; },
      "with this slowtype the slow range is a share of it"},
-    {"kv", [](double value, const Value&) { return value > 0 && value < low_gain; },
-     "position loops of drives have 20 to 100 1/s, and the following error is the speed over it"},
+    {"kv", [](double value, const Value&) { return value > 0 && value < 100 * low_gain; },
+     "in 0.01/s, and position loops of drives have 2000 to 10000"},
     {"dynamik.tr_min", [](double value, const Value&) { return value > long_ramp; },
      "the acceleration is built up in no less, and the axis brakes as slowly"},
 };

@@ -160,30 +160,61 @@ TEST(WhyItFailed, AProgramAtARunningTimerDoesNotStand) {
   EXPECT_THAT(waits("90000"), HasSubstr("until its timer elapses at 9"));
 }
 
-std::string cause_of_saw(const std::string& name, const std::vector<scenario::Override>& set) {
-  return outcome_of(lines / name, set).cause;
+/// Why a saw of the line's file fails with a program in which a text is another one.
+std::string cause_of_saw(const std::string& line, const std::string& program, const std::string& from,
+                         const std::string& to, const std::string& more) {
+  TestFolder folder;
+  std::ifstream shipped(lines.parent_path() / "programs" / program);
+  folder.file(program, replaced(std::string(std::istreambuf_iterator<char>(shipped), {}), from, to));
+  return outcome_of(folder.file("line.yaml", "extends: " + (lines / line).string() + "\n" + more)).cause;
 }
 
 TEST(WhyItFailed, AZeroPulseThatIsNotWiredIsTold) {
   TestFolder folder;
-  const auto saw = (lines / "flying_saw_qmove.yaml").string();
-  const auto file = folder.file("line.yaml", "extends: " + saw + "\nscene: {duration: 9 s}\n");
-  EXPECT_THAT(outcome_of(file, {{"wiring.INT1", "none"}}).cause,
+  std::ifstream shipped(lines / "flying_saw_qmove.yaml");
+  auto line = replaced(std::string(std::istreambuf_iterator<char>(shipped), {}), "  INT1: saw.encoder.index\n", "");
+  for (int i = 0; i < 2; ++i)
+    line = replaced(line, "../programs", (lines.parent_path() / "programs").string());
+  const auto file = folder.file("line.yaml", line);
+  EXPECT_THAT(outcome_of(file, {{"scene.duration", "4 s"}}).cause,
               StartsWith("because INT1 is the zero pulse that PRESET of AxisX seeks (prsmode 1), and nothing "
                          "is wired to it"));
 }
 
 // A cycle of the cam is a tenth of the piece that the check wants.
 TEST(WhyItFailed, ACamWhoseCycleIsNoPieceIsTold) {
-  EXPECT_THAT(cause_of_saw("flying_saw_plcopen.yaml",
-                           {{"controller.plcopen.axes.Tube.modulo", "660 mm"}, {"scene.duration", "9 s"}}),
-              HasSubstr("660"));
+  EXPECT_THAT(outcome_of(lines / "flying_saw_qmove.yaml",
+                         {{"controller.qmove.set.slLength", "1000"}, {"scene.duration", "10 s"}})
+                  .cause,
+              StartsWith("because a cycle of the cam of AxisX is 100 mm of material, and check 'cut length' "
+                         "wants 1000 mm"));
+  EXPECT_THAT(outcome_of(lines / "flying_saw_plcopen.yaml",
+                         {{"controller.plcopen.axes.Tube.modulo", "660 mm"}, {"scene.duration", "9 s"}})
+                  .cause,
+              StartsWith("because a cycle of the cam of Saw is 1000 mm, and the modulo of its master Tube is "
+                         "660 mm"));
 }
 
 TEST(WhyItFailed, ASearchThatMeetsTheStopBeforeItsSwitchIsTold) {
-  EXPECT_THAT(
-      cause_of_saw("flying_saw_plcopen.yaml", {{"plants.saw.home", "-200 mm"}, {"scene.duration", "9 s"}}),
-      HasSubstr("saw.home"));
+  EXPECT_THAT(cause_of_saw("flying_saw_lx3vp.yaml", "flying_saw.il", "DPLSV   K-2500", "DPLSV   K2500",
+                           "controller: {lx3vp: {program: flying_saw.il}}\n"),
+              ContainsRegex("^because saw at 1[0-9.]+ s: it ran into its end stop at [0-9.]+ mm/s, and saw.home "
+                            "[(]X10[)] was never on: the search went the other way"));
+}
+
+TEST(WhyItFailed, ADecamThatNeverStartsIsTold) {
+  EXPECT_THAT(cause_of_saw("flying_saw_lx3vp.yaml", "flying_saw.il",
+                           "MOV     K1 D1005            ; cyclic", "MOV     K0 D1005",
+                           "scene: {duration: 9 s}\ncontroller: {lx3vp: {program: flying_saw.il}}\n"),
+              AllOf(HasSubstr("flying_saw.il stands at line 51, DECAM"),
+                    HasSubstr("its word 5, D1005, was never 1 or 2")));
+}
+
+TEST(WhyItFailed, TheLineThatSwitchedALampOnIsTold) {
+  EXPECT_THAT(outcome_of(lines / "flying_saw_qmove.yaml",
+                         {{"controller.qmove.set.slTravel", "700"}, {"scene.duration", "10 s"}})
+                  .cause,
+              ContainsRegex("panel.too_long is on since [0-9.]+ s, by flying_saw.mod:66, ofTooLong = slTravel GT 0"));
 }
 
 TEST(WhyItFailed, ForwardAndBackwardSwappedAreTold) {
