@@ -173,7 +173,7 @@ void QmoveController::tell_of_cut(std::size_t number) {
   if (!tasks_[number].cuts.insert(line).second) return;
   const bool byte = static_cast<Size>(program.code[static_cast<std::size_t>(at)].b) == Size::B;
   events_.push_back(
-      {program.name, "warning",
+      {program.name, "value_cut",
        fmt::format("{}:{}: {} does not fit into a variable of size {}, which keeps {}", program.file, line,
                    value, byte ? "B (-128..127)" : "W (-32768..32767)", kept)});
 }

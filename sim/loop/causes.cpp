@@ -113,6 +113,7 @@ void Causes::happened(const record::RecordedEvent& event) {
     keep(errors_, false);
   } else if (event.severity == Severity::warning && !event.text.empty()) {
     keep(warnings_, true);
+    if (!value_cut_ && event.event == "value_cut") value_cut_ = record::Alarm{at, event.source, event.text};
   } else if (event.event == "saturated" && limits_.size() < most_causes) {
     const auto* begin = event.find("begin");
     const auto* end = event.find("end");
@@ -214,12 +215,16 @@ std::string Causes::of(const std::vector<record::CheckResult>& checks, const Kno
   if (std::all_of(checks.begin(), checks.end(),
                   [](const record::CheckResult& check) { return check.passed; }))
     return "";
-  if (!known.contradictions.empty()) {
-    const auto* error = first_error(std::numeric_limits<double>::infinity());
-    return "because " + known.contradictions.front() + (error != nullptr ? "; " + text_of(*error) : "");
-  }
   constexpr auto ever = std::numeric_limits<double>::infinity();
   const auto failed_at = first_failure(checks);
+  if (value_cut_ && value_cut_->at <= failed_at.value_or(ever)) {
+    const auto* error = first_error(ever);
+    return "because " + text_of(*value_cut_) + joined(error != nullptr ? text_of(*error) : "");
+  }
+  if (!known.contradictions.empty()) {
+    const auto* error = first_error(ever);
+    return "because " + known.contradictions.front() + (error != nullptr ? "; " + text_of(*error) : "");
+  }
   for (const auto& [at, text] : known.astray)
     if (at <= failed_at.value_or(ever) && first_error(at) == nullptr) return "because " + text;
   if (const auto* error = first_error(ever); !failed_at && error == nullptr && !known.hindrances.empty())
@@ -233,11 +238,13 @@ std::string Causes::of(const std::vector<record::CheckResult>& checks, const Kno
     cause = "while " + known.standing->second;
   if (cause.empty() || cause.starts_with("after ")) return last_resort(checks, known, cause);
   if (!faults_.empty()) return cause;
-  if (found_nothing(checks) && !known.hindrances.empty())
-    return first_error(failed_at.value_or(ever)) != nullptr
-               ? cause + joined(known.hindrances.front())
-               : fmt::format("because {}; {}", known.hindrances.front(), cause.substr(cause.find(' ') + 1)) +
-                     (known.doubts.empty() ? "" : joined(known.doubts.front()));
+  if (found_nothing(checks) && !known.hindrances.empty()) {
+    const auto both = first_error(failed_at.value_or(ever)) != nullptr
+                          ? cause + joined(known.hindrances.front())
+                          : fmt::format("because {}; {}", known.hindrances.front(),
+                                        cause.substr(cause.find(' ') + 1));
+    return both + (known.doubts.empty() ? "" : joined(known.doubts.front()));
+  }
   return errors_.empty() || known.doubts.empty() ? cause : cause + joined(known.doubts.front());
 }
 
@@ -257,8 +264,8 @@ std::string Causes::last_resort(const std::vector<record::CheckResult>& checks, 
   for (const auto& blow : blows_)
     if (failed_at && std::abs(blow.at - *failed_at) <= soon)
       return fmt::format("{} {}", blow.at <= *failed_at ? "after" : "shortly before", text_of(blow));
-  const auto set = last_set(sets_, checks);
-  return set.empty() ? "" : "after " + set;
+  if (const auto set = last_set(sets_, checks); !set.empty()) return "after " + set;
+  return "";
 }
 
 }  // namespace drycut::sim::loop

@@ -381,10 +381,17 @@ std::vector<record::CheckResult> Checks::results(Time end) {
     if (state.windowed && looks_at_instants(state.check)) close_windows(state, end);
     const Tally so_far = state;
     all.push_back(result(state, end));
-    all.back().tolerances = tolerances_of(state);
+    if (state.count > 0) all.back().tolerances = tolerances_of(state);
     static_cast<Tally&>(state) = so_far;
   }
   return all;
+}
+
+std::vector<std::pair<std::string, record::Tolerance>> Checks::stated() const {
+  std::vector<std::pair<std::string, record::Tolerance>> stated;
+  for (const auto& state : states_)
+    for (auto& tolerance : tolerances_of(state)) stated.emplace_back(state.check.name.text, std::move(tolerance));
+  return stated;
 }
 
 std::vector<record::Tolerance> Checks::tolerances_of(const State& state) {

@@ -36,6 +36,8 @@ class Checks : public record::Observer {
   void happened(const record::RecordedEvent& event) override;
   /// As if the run ended at `end`, now; it may go on.
   [[nodiscard]] std::vector<record::CheckResult> results(Time end);
+  /// The limits that checks set for values of events, with the check's name, whether any event came or not.
+  [[nodiscard]] std::vector<std::pair<std::string, record::Tolerance>> stated() const;
 
  private:
   struct Series {

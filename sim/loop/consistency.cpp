@@ -259,7 +259,7 @@ std::vector<std::pair<std::string, double>> modulo_masters(devices::Controller& 
 std::vector<std::string> strange_cycles(const scenario::Scenario& scenario, devices::Controller& controller,
                                         const std::vector<NamedPlant>& plants,
                                         const std::vector<CamCycle>& cycles,
-                                        const std::vector<record::CheckResult>& checks) {
+                                        const std::vector<std::pair<std::string, record::Tolerance>>& limits) {
   constexpr double tolerance = 0.02;
   constexpr double millimetres = 1000;
   const auto is_whole = [&](double ratio) {
@@ -280,16 +280,15 @@ std::vector<std::string> strange_cycles(const scenario::Scenario& scenario, devi
       if (units[i].counted.axis == cycle.axis && units[i - 1].counted.axis == cycle.axis)
         length = cycle.length * units[i].length * millimetres;
     if (length <= 0) continue;
-    for (const auto& check : checks)
-      for (const auto& [event, value, low, high, from, until] : check.tolerances) {
-        const double wanted = (low + high) / 2;
-        if (value != "length" || !std::isfinite(wanted) || wanted <= 0 || is_whole(length / wanted) ||
-            is_whole(wanted / length))
-          continue;
-        found.push_back(fmt::format("a cycle of the cam of {} is {:.4g} mm of material, and check '{}' wants "
-                                    "{:.4g} mm",
-                                    cycle.axis, length, check.name, wanted));
-      }
+    for (const auto& [check, limit] : limits) {
+      const double wanted = (limit.low + limit.high) / 2;
+      if (limit.value != "length" || !std::isfinite(wanted) || wanted <= 0 || is_whole(length / wanted) ||
+          is_whole(wanted / length))
+        continue;
+      found.push_back(fmt::format("a cycle of the cam of {} is {:.4g} mm of material, and check '{}' wants "
+                                  "{:.4g} mm",
+                                  cycle.axis, length, check, wanted));
+    }
   }
   return found;
 }
@@ -314,18 +313,26 @@ std::vector<std::string> strange_zero_pulses(const scenario::Scenario& scenario,
   return notes;
 }
 
-/// The name that a program has for a terminal, in small letters: of the configuration, of AT; "" = none.
+/// As the program spells it.
+std::string spelt(const std::string& name, const devices::ProgramText& program) {
+  const auto at = lower(program.text).find(name);
+  return at == std::string::npos ? name : program.text.substr(at, name.size());
+}
+
+/// The name that a program has for a terminal, of the configuration, of AT; "" = none.
 std::string name_in_program(const std::string& terminal, const std::vector<devices::ProgramText>& programs) {
   const auto wanted = lower(terminal);
   for (const auto& program : programs) {
     const auto words = program_words(program);
     if (program.language == "st") {
       const auto at = words.find("%" + wanted);
-      if (at != std::string::npos && is_word_at(words, at + 1, wanted.size())) return name_before(words, at);
+      if (at != std::string::npos && is_word_at(words, at + 1, wanted.size()))
+        return spelt(name_before(words, at), program);
     } else if (program.language == "cnf") {
       for (const auto line : split_lines(words)) {
         const auto fields = split_words(line, {1, 1}, " \t");
-        if (fields.size() > 1 && fields.size() < 4 && fields.back().text == wanted) return fields[0].text;
+        if (fields.size() > 1 && fields.size() < 4 && fields.back().text == wanted)
+          return spelt(fields[0].text, program);
       }
     }
   }
@@ -361,7 +368,8 @@ std::vector<std::string> always_enabled(const scenario::Scenario& scenario, devi
   return found;
 }
 
-/// Two wires whose terminals have each the name of the other's plug.
+}  // namespace
+
 std::vector<std::string> crossed_wires(const scenario::Scenario& scenario, devices::Controller& controller) {
   struct Named {
     std::string terminal;
@@ -391,8 +399,9 @@ std::vector<std::string> crossed_wires(const scenario::Scenario& scenario, devic
     return std::any_of(of.words.begin(), of.words.end(), [&](const std::string& word) {
       const bool common =
           std::find(not_of.words.begin(), not_of.words.end(), word) != not_of.words.end();
-      return !common && (one.name.ends_with(word) ||
-                         (word.size() >= telling && one.name.find(word) != std::string::npos));
+      const auto name = lower(one.name);
+      return !common && (name.ends_with(word) ||
+                         (word.size() >= telling && name.find(word) != std::string::npos));
     });
   };
   std::vector<std::string> notes;
@@ -407,7 +416,22 @@ std::vector<std::string> crossed_wires(const scenario::Scenario& scenario, devic
   return notes;
 }
 
-}  // namespace
+std::vector<std::string> backward_masters(const scenario::Scenario& scenario, devices::Controller& controller,
+                                          const std::vector<NamedPlant>& plants) {
+  std::vector<std::string> found;
+  const auto units = controller.counted_units();
+  // A device's first counter is its own, the second one its master's.
+  for (std::size_t i = 1; i < units.size(); ++i) {
+    const auto reversed = controller.find(units[i].axis + ".st_cntrevm");
+    const auto* wire = wire_at(scenario, controller, units[i].counter);
+    if (units[i - 1].axis != units[i].axis || !reversed || wire == nullptr) continue;
+    const auto scale = scale_of(plants, wire->plug.text);
+    if (scale && (reversed->read() != 0) == (scale->value > 0))
+      found.push_back(fmt::format("{} counts its master backwards (st_cntrevm {:g}, {})", units[i].axis,
+                                  reversed->read(), wire->plug.text));
+  }
+  return found;
+}
 
 std::vector<std::string> without_zero_pulse(const scenario::Scenario& scenario,
                                             devices::Controller& controller) {
@@ -445,7 +469,6 @@ std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devi
   }
   for (auto& strange : strange_zero_pulses(scenario, controller)) notes.push_back(std::move(strange));
   for (auto& enabled : always_enabled(scenario, controller)) notes.push_back(std::move(enabled));
-  for (auto& crossed : crossed_wires(scenario, controller)) notes.push_back(std::move(crossed));
   return notes;
 }
 
@@ -462,7 +485,7 @@ std::string switched_on_by(devices::Controller& controller, const std::string& t
   const auto given = name_in_program(terminal, programs);
   std::vector<std::string> places;
   for (const auto& program : programs) {
-    const auto name = program.language == "il" ? lower(terminal) : given;
+    const auto name = lower(program.language == "il" ? terminal : given);
     if (name.empty() || program.language == "cnf") continue;
     const auto words = program_words(program);
     int number = 0;

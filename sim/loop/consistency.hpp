@@ -18,6 +18,13 @@ std::vector<std::string> contradictions(const scenario::Scenario& scenario,
 /// encoder on two counters.
 std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devices::Controller& controller);
 
+/// Two wires whose terminals have each the name of the other's plug in the program, a phrase each.
+std::vector<std::string> crossed_wires(const scenario::Scenario& scenario, devices::Controller& controller);
+
+/// Axes that count their master down as it runs forward, a phrase each: asked when the program has run.
+std::vector<std::string> backward_masters(const scenario::Scenario& scenario, devices::Controller& controller,
+                                          const std::vector<NamedPlant>& plants);
+
 /// Lines of zero pulses that a PRESET seeks and nothing is wired to, a phrase each: asked when the program has
 /// set prsmode.
 std::vector<std::string> without_zero_pulse(const scenario::Scenario& scenario,
@@ -60,7 +67,7 @@ std::vector<std::string> different_units(const scenario::Scenario& scenario, dev
 std::vector<std::string> strange_cycles(const scenario::Scenario& scenario, devices::Controller& controller,
                                         const std::vector<NamedPlant>& plants,
                                         const std::vector<CamCycle>& cycles,
-                                        const std::vector<record::CheckResult>& checks);
+                                        const std::vector<std::pair<std::string, record::Tolerance>>& limits);
 
 /// Terminals that nothing is wired to, a phrase each: "Y1 gives pulses, and nothing is wired to it".
 struct OpenTerminals {

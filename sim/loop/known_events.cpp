@@ -34,6 +34,7 @@ constexpr RunEventRow event_rows[] = {
     {"controller", "warning", warning},
     {"controller", "note", note},
     {"controller", "contradiction", warning, true},
+    {"controller", "value_cut", warning, true},
     {"controller", "held_up", warning, true},
     {"controller", "overrun", warning, true},
     {"controller", "stopped", error},

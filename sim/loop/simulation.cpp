@@ -116,6 +116,7 @@ void Simulation::compare_with_machine() {
       doubts_of_program_.push_back(doubt.text);
   warnings_.insert(warnings_.end(), doubts_of_program_.begin(), doubts_of_program_.end());
   for (auto& doubt : doubtful_wires(scenario_, *controller_)) warnings_.push_back(std::move(doubt));
+  for (auto& crossed : crossed_wires(scenario_, *controller_)) warnings_.push_back(std::move(crossed));
 }
 
 // Its axes' directions, and the numbers of its programs that say how far they are, of those that are looked
@@ -426,7 +427,7 @@ std::string Simulation::unpressed() const {
   return unpressed;
 }
 
-Causes::Known Simulation::known(const CamJudgement& cams, const std::vector<record::CheckResult>& checks) {
+Causes::Known Simulation::known(const CamJudgement& cams) {
   Causes::Known known;
   known.contradictions = contradictions_;
   for (const auto& cam : cams.doubts)
@@ -435,14 +436,19 @@ Causes::Known Simulation::known(const CamJudgement& cams, const std::vector<reco
                               doubts_of_program_.end());
   for (const auto* open : {&open_->moving, &open_->others})
     known.contradictions.insert(known.contradictions.end(), open->begin(), open->end());
-  if (controller_)
+  if (controller_) {
+    for (auto& crossed : crossed_wires(scenario_, *controller_))
+      known.contradictions.push_back(std::move(crossed));
     for (auto& open : without_zero_pulse(scenario_, *controller_))
       known.contradictions.push_back(std::move(open));
+    for (auto& backward : backward_masters(scenario_, *controller_, named_))
+      known.contradictions.push_back(std::move(backward));
+  }
   for (auto& told : contradicting_parameters()) known.contradictions.push_back(std::move(told));
   if (controller_) {
     for (auto& units : different_units(scenario_, *controller_, named_))
       known.contradictions.push_back(std::move(units));
-    for (auto& cycle : strange_cycles(scenario_, *controller_, named_, cams.cycles, checks))
+    for (auto& cycle : strange_cycles(scenario_, *controller_, named_, cams.cycles, checks_->stated()))
       known.contradictions.push_back(std::move(cycle));
   }
   for (const auto& found : directions_ ? directions_->found() : std::vector<Directions::Found>())
@@ -533,9 +539,15 @@ record::Outcome Simulation::outcome() {
     if (cam.is_slip) outcome.warnings.push_back(cam.text);
   outcome.alarms = causes_.alarms();
   if (outcome.failure.empty() && !outcome.passed()) {
-    auto known = this->known(cams, outcome.checks);
+    auto known = this->known(cams);
     if (!missed) known.hindrances.clear();  // only ratings, or what no check asks about
     outcome.cause = causes_.of(outcome.checks, known);
+    // A single check that fails is the first suspect itself.
+    const auto failed = [](const record::CheckResult& check) { return !check.passed; };
+    const auto& checks = outcome.checks;
+    if (outcome.cause.empty() && std::count_if(checks.begin(), checks.end(), failed) == 1)
+      outcome.cause = fmt::format("while nothing but check '{}' is amiss",
+                                  std::find_if(checks.begin(), checks.end(), failed)->name);
   }
   return outcome;
 }

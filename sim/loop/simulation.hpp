@@ -147,7 +147,7 @@ class Simulation {
   void compare_with_machine();
   void look_after_program();
   /// What the run knows besides of why it failed.
-  [[nodiscard]] Causes::Known known(const CamJudgement& cams, const std::vector<record::CheckResult>& checks);
+  [[nodiscard]] Causes::Known known(const CamJudgement& cams);
   /// Of the parameters that the program has set.
   [[nodiscard]] std::vector<std::string> contradicting_parameters() const;
   /// What may be a slip in a run that was sound else: tasks that ended at once, values set in vain.

@@ -37,6 +37,7 @@ TEST(Library, ALineGoesAsTheProgramRunsIt) {
   const auto scenario = sim::scenario::read_scenario(scenes / "rotary_knife.yaml", {}, problems);
   sim::loop::Simulation same(scenario, problems);
   const auto outcome = same.run();
+  EXPECT_EQ(outcome.failure, "");
   ASSERT_EQ(events.size(), same.recording().events().size());
   for (std::size_t i = 0; i < events.size(); ++i) {
     const auto recorded = same.recording().events()[i];

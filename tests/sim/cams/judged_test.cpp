@@ -48,5 +48,25 @@ TEST(JudgedCams, ARowThatStandsTwiceIsAWarningAndTheCause) {
   EXPECT_THAT(outcome.cause, testing::StartsWith("because cam of Saw, row 4 (line "));
 }
 
+std::string cause_of_line(const std::string& line, const std::string& path, const std::string& value) {
+  Problems problems;
+  const auto scenario =
+      scenario::read_scenario(std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/new" / line,
+                              {{path, value}, {"scene.duration", "9 s"}}, problems);
+  loop::Simulation simulation(scenario, problems);
+  EXPECT_TRUE(problems.empty()) << (problems.empty() ? "" : to_string(problems.front()));
+  simulation.follow_cams(cam_judgement);
+  return simulation.run().cause;
+}
+
+TEST(JudgedCams, ACycleThatIsNoPieceIsTheCause) {
+  EXPECT_THAT(cause_of_line("flying_saw_qmove.yaml", "controller.qmove.set.slLength", "13000"),
+              testing::StartsWith("because a cycle of the cam of AxisX is 1300 mm of material, and check 'cut "
+                                  "length' wants 1000 mm"));
+  EXPECT_THAT(cause_of_line("flying_saw_plcopen.yaml", "controller.plcopen.axes.Tube.modulo", "660 mm"),
+              testing::StartsWith("because a cycle of the cam of Saw is 660 mm of material, and check 'cut "
+                                  "length' wants 1000 mm"));
+}
+
 }  // namespace
 }  // namespace drycut::sim::cams
