@@ -52,7 +52,8 @@ loop::CamJudgement cam_judgement(const std::vector<loop::PlayedCam>& played) {
     const auto cam = judged(one, "cam");
     if (!cam.problems.empty()) continue;
     const auto& course = cam.study.course;
-    if (course.runs() && !course.lets_go)
+    // A law with passes in itself begins with what is not repeated.
+    if (course.runs() && !course.lets_go && course.passes == 0)
       judgement.cycles.push_back(
           {one.axis, course.law.master_length * cam.ideal.shown, cam.ideal.master_unit,
            course.law.slave_length * cam.ideal.shown, cam.ideal.slave_unit});
