@@ -37,8 +37,10 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 std::string to_string(const Problem& problem) {
   std::string text = fmt::format("{}:{}:{}: {}", problem.file, problem.line, problem.column, problem.what);
   if (!problem.remedy.empty()) text += "; " + problem.remedy;
-  return text;
+  return fmt::format("{} [{}]", text, problem.code.text());
 }
+
+std::string to_string(const Finding& finding) { return fmt::format("{} [{}]", finding.text, finding.code); }
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
   const std::string wanted = lower(word);

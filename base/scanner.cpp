@@ -4,13 +4,13 @@
 
 namespace drycut {
 
-void Complaints::complain(Place place, std::string what, std::string remedy) {
-  problems_.push_back({file_, place.line, place.column, std::move(what), std::move(remedy)});
+void Complaints::complain(Code code, Place place, std::string what, std::string remedy) {
+  problems_.push_back({code, file_, place.line, place.column, std::move(what), std::move(remedy)});
 }
 
-void Scanner::complain(Token& token, std::string what, std::string remedy) {
+void Scanner::complain(Code code, Token& token, std::string what, std::string remedy) {
   token.kind = Token::Kind::bad;
-  complain(token.place, std::move(what), std::move(remedy));
+  complain(code, token.place, std::move(what), std::move(remedy));
 }
 
 void Scanner::advance(std::size_t count) {

@@ -22,7 +22,7 @@ class Complaints {
   Complaints(const std::string& file, Problems& problems)
       : file_(file), problems_(problems), first_(problems.size()) {}
 
-  void complain(Place place, std::string what, std::string remedy);
+  void complain(Code code, Place place, std::string what, std::string remedy);
 
  protected:
   [[nodiscard]] std::size_t told() const { return problems_.size() - first_; }
@@ -94,14 +94,14 @@ class Scanner : public Complaints {
   [[nodiscard]] Number number_ahead(bool (*digit)(char), bool exponents) const;
 
   using Complaints::complain;
-  void complain(Token& token, std::string what, std::string remedy);
+  void complain(Code code, Token& token, std::string what, std::string remedy);
   /// The number that `digits` of the token write; told if it is above `most`, with `range` as the remedy.
   template <typename Value>
   void read(Token& token, std::string_view digits, Value& value, const char* range,
             Value most = std::numeric_limits<Value>::max()) {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc{} || value > most)
-      complain(token, in_quotes(token.text) + " is out of range", range);
+      complain("text.number-out-of-range"_code, token, in_quotes(token.text) + " is out of range", range);
   }
 
   std::string_view text_;
@@ -135,7 +135,8 @@ class Lexer : public Scanner {
     // Bytes of one non-ASCII character are one stranger.
     const auto foreign = [](char c) { return static_cast<unsigned char>(c) >= 128; };
     LanguageToken& token = add(Kind::bad, std::max<std::size_t>(length(foreign), 1));
-    complain(token, "unexpected character " + in_quotes(token.text), remedy);
+    complain("text.unexpected-character"_code, token, "unexpected character " + in_quotes(token.text),
+             remedy);
   }
 
   std::vector<LanguageToken> tokens_;

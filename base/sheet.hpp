@@ -1,4 +1,6 @@
 #pragma once
+#include <drycut/problem.hpp>
+
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -58,9 +60,9 @@ class Sheet {
   [[nodiscard]] std::vector<std::vector<std::string>> shown() const;
 
   std::string key_;
-  std::string title_;
+  Prose title_;
   std::vector<std::string> keys_;
-  std::vector<std::string> headings_;
+  std::vector<Prose> headings_;
   std::vector<std::vector<Cell>> rows_;
 };
 

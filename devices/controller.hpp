@@ -165,8 +165,9 @@ struct ControllerEvent {
 
 /// Why a text is no terminal of a controller.
 struct TerminalFault {
-  std::string what;
-  std::string remedy;
+  Code code;
+  Prose what;
+  Prose remedy;
 };
 
 /// A controller with its devices and programs, as the simulation sees it. Time is in integer nanoseconds.
@@ -242,6 +243,7 @@ class Controller {
 
   /// What its programs say that is no fault and hardly meant.
   struct ProgramDoubt {
+    Code code;
     std::string text;        ///< "cycle.mod:12: gaQuota[2] is read, and no task sets it: it stays 0"
     std::string value = {};  ///< which the text holds for unless it is set from outside; "" = always
   };

@@ -133,8 +133,16 @@ using Resources = std::vector<Resource>;
 
 /// Something a device did not do, or did with a remark: said once by the device, kept by the simulation.
 struct Diagnostic {
-  enum class Kind : std::uint8_t { command_refused, write_refused, out_of_range, note, contradiction };
-  Kind kind = Kind::note;
+  /// A note tells what something else tells again, when it comes to something.
+  enum class Kind : std::uint8_t {
+    command_refused,
+    write_refused,
+    out_of_range,
+    note,
+    warning,
+    contradiction
+  };
+  Kind kind = Kind::warning;
   std::string subject;  ///< command or variable name
   std::string text;     ///< "st_still is 0, must be 1"
 };

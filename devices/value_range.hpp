@@ -1,4 +1,6 @@
 #pragma once
+#include <drycut/problem.hpp>
+
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,8 +18,9 @@ struct ValueRange {
 };
 
 struct ValueFault {
-  std::string what;
-  std::string remedy;
+  Code code;
+  Prose what;
+  Prose remedy;
   bool operator==(const ValueFault&) const = default;
 };
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/problem.hpp"
 #include "base/units.hpp"
 #include "plants/axis_objections.hpp"
 
@@ -298,13 +299,14 @@ using Objections = std::vector<PlantDefinition::Objection>;
 void object_to_winding(const WindingData& data, const std::string& prefix, double inertia, double h,
                        Objections& found) {
   if (data.rated_speed >= data.synchronous_speed) {
-    found.push_back({prefix + "rated_speed", "it is not below synchronous_speed: no torque without slip",
+    found.push_back({"plant.parameters-contradict"_code, prefix + "rated_speed",
+                     "it is not below synchronous_speed: no torque without slip",
                      "less than synchronous_speed"});
     return;
   }
   if (data.pullout_torque < 1.05 * data.rated_torque) {
-    found.push_back(
-        {prefix + "pullout_torque", "it is not above rated_torque", "1.6 to 3 times rated_torque"});
+    found.push_back({"plant.parameters-contradict"_code, prefix + "pullout_torque",
+                     "it is not above rated_torque", "1.6 to 3 times rated_torque"});
     return;
   }
   // The curve is steepest at no slip.
@@ -321,11 +323,12 @@ Objections axis_drive_objections(const AxisDriveData& data, double inertia, doub
   Objections found;
   object_to_winding(data.motor.winding, "induction_motor.", inertia, h, found);
   if (data.motor.max_speed <= data.motor.winding.rated_speed)
-    found.push_back({"induction_motor.max_speed", "it is not above rated_speed", "more than rated_speed"});
+    found.push_back({"plant.parameters-contradict"_code, "induction_motor.max_speed",
+                     "it is not above rated_speed", "more than rated_speed"});
   const InductionMotorData motor = electrical(data.motor);
   if (motor.no_load_current >= motor.rated_current)
-    found.push_back(
-        {"induction_motor.no_load_current", "it is not below rated_current", "30 to 60 % of rated_current"});
+    found.push_back({"plant.parameters-contradict"_code, "induction_motor.no_load_current",
+                     "it is not below rated_current", "30 to 60 % of rated_current"});
   if (data.kind == "contactors") {
     object_to_winding(data.contactors.slow, "contactors.slow.", inertia, h, found);
     return found;
@@ -334,14 +337,15 @@ Objections axis_drive_objections(const AxisDriveData& data, double inertia, doub
     found.push_back(std::move(objection));
   const auto frequency = [&](const char* name, double hertz) {
     if (hertz > data.motor.rated_frequency)
-      found.push_back({name,
+      found.push_back({"plant.parameters-contradict"_code, name,
                        fmt::format("{:g} Hz is above the rated frequency: the flux would weaken", hertz),
                        fmt::format("at most {:g} Hz", data.motor.rated_frequency)});
   };
   frequency("inverter.fast", data.inverter.fast);
   frequency("inverter.slow", data.inverter.slow);
   if (data.inverter.torque_limit > data.motor.winding.pullout_torque)
-    found.push_back({"inverter.torque_limit", "it is above induction_motor.pullout_torque",
+    found.push_back({"plant.parameters-contradict"_code, "inverter.torque_limit",
+                     "it is above induction_motor.pullout_torque",
                      fmt::format("at most {:g} N m", data.motor.winding.pullout_torque)});
   return found;
 }

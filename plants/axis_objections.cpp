@@ -1,5 +1,7 @@
 #include "plants/axis_objections.hpp"
 
+#include "base/problem.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +10,8 @@
 
 namespace drycut::plants {
 
-void AxisObjections::object(std::string_view parameter, std::string what, std::string remedy) {
-  found_.push_back({std::string(parameter), std::move(what), std::move(remedy)});
+void AxisObjections::object(Code code, std::string_view parameter, std::string what, std::string remedy) {
+  found_.push_back({code, std::string(parameter), std::move(what), std::move(remedy)});
 }
 
 void AxisObjections::pair(std::string_view stiffness, std::string_view damping, const StiffPair& pair,
@@ -22,7 +24,7 @@ void AxisObjections::pair(std::string_view stiffness, std::string_view damping, 
   const auto motion = spring <= damper
                           ? fmt::format("oscillate at {:.4g} Hz", hertz)
                           : fmt::format("settle in {:.3g} us", pair.inertia / pair.damping * 1e6);
-  object(spring <= damper ? stiffness : damping,
+  object("plant.step-too-long"_code, spring <= damper ? stiffness : damping,
          fmt::format("{} {}, steps of {:g} us cannot follow", pair_name, motion, h_ * 1e6),
          fmt::format("{}, or softer, less damped, heavier parts", step_remedy(longest)));
 }
@@ -53,12 +55,15 @@ void AxisObjections::guided(std::string_view guides, const ScrewDriveData& data,
   viscous("motor_friction.viscous", data.motor_friction, motor_inertia, "motor");
   viscous(guides, data.guide_friction, data.mass, what_moves_);
   if (data.travel_max <= data.travel_min)
-    object("travel_max", "it is not above travel_min", "leave room between the end stops");
+    object("plant.parameters-contradict"_code, "travel_max", "it is not above travel_min",
+           "leave room between the end stops");
   else if (data.start < data.travel_min || data.start > data.travel_max)
-    object("start", fmt::format("the {} starts at {:g} mm, in an end stop", what_moves_, data.start * 1000),
+    object("plant.parameters-contradict"_code, "start",
+           fmt::format("the {} starts at {:g} mm, in an end stop", what_moves_, data.start * 1000),
            fmt::format("between {:g} and {:g} mm", data.travel_min * 1000, data.travel_max * 1000));
   if (data.sensors.limit_max <= data.sensors.limit_min)
-    object("limit_max", "it is not above limit_min", "leave room between the limit switches");
+    object("plant.parameters-contradict"_code, "limit_max", "it is not above limit_min",
+           "leave room between the limit switches");
 }
 
 void AxisObjections::add(std::vector<PlantDefinition::Objection> more) {

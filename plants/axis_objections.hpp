@@ -19,7 +19,7 @@ class AxisObjections {
   /// `what_moves`: "carriage", "ram". `h`: the step for which the data are judged [s].
   AxisObjections(std::string_view what_moves, double h) : what_moves_(what_moves), h_(h) {}
 
-  void object(std::string_view parameter, std::string what, std::string remedy);
+  void object(Code code, std::string_view parameter, std::string what, std::string remedy);
   /// A pair, "motor and drum", whose spring or damper (parameters `stiffness`, `damping`) is faster than the
   /// step.
   void pair(std::string_view stiffness, std::string_view damping, const StiffPair& pair,

@@ -1,3 +1,4 @@
+#include "base/problem.hpp"
 #include "plants/transducers.hpp"
 
 #include <fmt/format.h>
@@ -166,7 +167,7 @@ Parameters encoder_error_parameters(EncoderData& data) {
 
 std::vector<PlantDefinition::Objection> encoder_objections(const EncoderData& data) {
   if (data.eccentricity + data.tooth_error * data.teeth < 1) return {};
-  return {{"encoder.tooth_error",
+  return {{"plant.parameters-contradict"_code, "encoder.tooth_error",
            fmt::format("with {} teeth the count would go back within each", data.teeth),
            fmt::format("less than {:.3g} deg, or fewer teeth",
                        (1 - data.eccentricity) / data.teeth * units::degrees)}};

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "base/problem.hpp"
 #include "base/units.hpp"
 #include "plants/axis_objections.hpp"
 #include "plants/flying_saw.hpp"
@@ -53,7 +54,7 @@ Objections objections_to(const WebData& web, const FlyingSawData& saw) {
   const double height = section_height(section);
   if (reach < height + saw.head.switch_margin)
     found.push_back(
-        {"head.stroke",
+        {"plant.parameters-contradict"_code, "head.stroke",
          fmt::format("{:g} mm of stroke less {:g} mm of clearance do not go through {:g} mm of "
                      "material, the section of {}, before the switch head.down",
                      saw.head.stroke * 1000, saw.head.clearance * 1000, height * 1000, saw.web),
@@ -62,7 +63,7 @@ Objections objections_to(const WebData& web, const FlyingSawData& saw) {
   const LeastStroke least = least_stroke(saw, section, web.drive.speed);
   if (saw.stroke_check && least.stroke > travel)
     found.push_back(
-        {"travel_max",
+        {"plant.parameters-contradict"_code, "travel_max",
          fmt::format("at {:g} m/min a cut takes the carriage at least {:.0f} mm ({:.0f} ms from "
                      "clamp to clamp open, and the ramps), and {:.0f} mm are there: it would "
                      "crash into the end stop",
@@ -95,7 +96,8 @@ Objections FlyingSawDefinition::objections(double h) {
   found.pair("head.mass", "head.mass", head_cushion(data.head), "head and the end of its cylinder");
   found.guided("carriage_friction.viscous", data, inertia);
   if (return_speed(data.head) <= 0)
-    found.object("head.up_force", fmt::format("it does not lift the head of {:g} kg", data.head.mass),
+    found.object("plant.parameters-contradict"_code, "head.up_force",
+                 fmt::format("it does not lift the head of {:g} kg", data.head.mass),
                  fmt::format("more than {:.0f} N", data.head.mass * units::gravity));
   found.add(servo_axis_objections(data.drive, inertia, h));
   return found.take();

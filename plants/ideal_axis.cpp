@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/problem.hpp"
 #include "base/units.hpp"
 
 namespace drycut::plants {
@@ -91,7 +92,7 @@ std::vector<PlantDefinition::Objection> IdealAxisDefinition::objections(double h
   constexpr double most = 1000;  // more pulses a step are a slip of a unit, and slow
   const double pulses = data.speed_at_10v * h / data.index_pitch;
   if (pulses <= most) return {};
-  return {{"index_pitch",
+  return {{"plant.step-too-long"_code, "index_pitch",
            fmt::format("at {:g} mm/s the axis passes {:.0f} index pulses in a step of {:g} us",
                        data.speed_at_10v * units::millimetres, pulses, h * 1e6),
            fmt::format("at least {:.3g} mm", data.speed_at_10v * h / most * units::millimetres)}};

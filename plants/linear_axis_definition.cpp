@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/problem.hpp"
 #include "plants/axis_objections.hpp"
 #include "plants/linear_axis.hpp"
 
@@ -99,10 +100,12 @@ std::vector<PlantDefinition::Objection> LinearAxisDefinition::objections(double 
   const bool shared = data.drive.kind == "shared";
   const auto& lender = data.drive.shared.drive;
   if (!shared && lender != no_plant)
-    return {{"shared.drive", "its own drive is named too", "drive: shared, or leave out shared.drive"}};
+    return {{"plant.parameters-contradict"_code, "shared.drive", "its own drive is named too",
+             "drive: shared, or leave out shared.drive"}};
   if (!shared) return of_all(h);
   if (lender != no_plant) return {};
-  return {{"shared.drive", "no axis is named whose drive it shares", "shared: {drive: NAME}"}};
+  return {{"plant.parameters-contradict"_code, "shared.drive", "no axis is named whose drive it shares",
+           "shared: {drive: NAME}"}};
 }
 
 std::vector<PlantDefinition::Objection> LinearAxisDefinition::objections_with(const FindDefinition& find,
@@ -112,10 +115,12 @@ std::vector<PlantDefinition::Objection> LinearAxisDefinition::objections_with(co
   if (lender == nullptr) return {};  // told by whoever looks for it
   const auto& kind = lender->data.drive.kind;
   if (lender == this || kind == "shared")
-    return {{"shared.drive", fmt::format("{} has no drive of its own", data.drive.shared.drive),
+    return {{"plant.parameters-contradict"_code, "shared.drive",
+             fmt::format("{} has no drive of its own", data.drive.shared.drive),
              "name the axis that has the drive"}};
   if (kind != "servo" && kind != "inverter")
-    return {{"shared.drive", fmt::format("the drive of {} is {}", data.drive.shared.drive, kind),
+    return {{"plant.parameters-contradict"_code, "shared.drive",
+             fmt::format("the drive of {} is {}", data.drive.shared.drive, kind),
              "a servo or an inverter may be shared"}};
   data.drive.share(lender->data.drive);
   return of_all(h);

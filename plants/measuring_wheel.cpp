@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/problem.hpp"
 #include "base/units.hpp"
 
 namespace drycut::plants {
@@ -93,12 +94,12 @@ Parameters wheel_parameters(MeasuringWheelData& data) {
 std::vector<PlantDefinition::Objection> wheel_objections(const MeasuringWheelData& data) {
   const double radius = data.radius();
   if (data.eccentricity >= radius / 2)
-    return {{"wheel.eccentricity",
+    return {{"plant.parameters-contradict"_code, "wheel.eccentricity",
              fmt::format("{:g} mm on a radius of {:.4g} mm is no measuring wheel", data.eccentricity * 1000,
                          radius * 1000),
              fmt::format("less than {:.4g} mm", radius * 500)}};
   if (data.tooth_error * data.teeth >= radius)
-    return {{"wheel.tooth_error",
+    return {{"plant.parameters-contradict"_code, "wheel.tooth_error",
              fmt::format("with {} teeth the count would go back within each", data.teeth),
              fmt::format("less than {:.3g} mm, or fewer teeth", radius * 1000 / data.teeth)}};
   return {};

@@ -1,4 +1,6 @@
 #pragma once
+#include <drycut/problem.hpp>
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -440,9 +442,10 @@ class PlantDefinition {
   /// What is wrong with the parameters taken together ("blade_count 0 ..."), each naming its parameter, where
   /// the simulation steps by `h` seconds; ranges of single parameters are checked by the reader.
   struct Objection {
+    Code code;
     std::string parameter;
-    std::string what;
-    std::string remedy;
+    Prose what;
+    Prose remedy;
   };
   virtual std::vector<Objection> objections(double h) {
     (void)h;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/problem.hpp"
 #include "base/units.hpp"
 
 namespace drycut::plants {
@@ -256,15 +257,15 @@ std::vector<PlantDefinition::Objection> power_objections(const std::string& grou
                                                          const SupplyData& supply) {
   std::vector<PlantDefinition::Objection> found;
   if (amplifier.peak_current > 0 && amplifier.peak_current <= amplifier.current)
-    found.push_back({group + "amplifier_peak_current", "it is not above amplifier_current",
-                     "more than amplifier_current"});
+    found.push_back({"plant.parameters-contradict"_code, group + "amplifier_peak_current",
+                     "it is not above amplifier_current", "more than amplifier_current"});
   if (supply.brake_voltage - supply.brake_hysteresis <= 1)
-    found.push_back({group + "supply.brake_hysteresis",
+    found.push_back({"plant.parameters-contradict"_code, group + "supply.brake_hysteresis",
                      "the brake resistor would stay on at the voltage of the mains",
                      "less than supply.brake_voltage has above 100 %"});
   if (supply.overvoltage <= supply.brake_voltage)
-    found.push_back({group + "supply.overvoltage", "it is not above supply.brake_voltage",
-                     "more than supply.brake_voltage"});
+    found.push_back({"plant.parameters-contradict"_code, group + "supply.overvoltage",
+                     "it is not above supply.brake_voltage", "more than supply.brake_voltage"});
   return found;
 }
 

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "base/problem.hpp"
 #include "base/units.hpp"
 #include "plants/axis_objections.hpp"
 #include "plants/rotary_knife.hpp"
@@ -83,11 +84,11 @@ std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections(double
                 "drum");
   if (data.counter.cuts() && data.counter.ratio != 1)
     found.object(
-        "counter.ratio",
+        "plant.parameters-contradict"_code, "counter.ratio",
         fmt::format("blades on both drums meet only where both turn alike, not at {:g}", data.counter.ratio),
         "1, or counter.drum: smooth");
   if (data.motors > 1 && data.counter.turns() && data.counter.ratio != 1)
-    found.object("motors",
+    found.object("plant.parameters-contradict"_code, "motors",
                  fmt::format("the one on the counter drum would have to run {:g} times as fast as the other",
                              data.counter.ratio),
                  "motors: 1, or counter.ratio: 1");
@@ -95,13 +96,13 @@ std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections(double
   found.add(encoder_objections(data.encoder));
   const double most = data.circumference / units::turn / 20;
   if (data.drum_eccentricity > most)
-    found.object("drum_eccentricity",
+    found.object("plant.parameters-contradict"_code, "drum_eccentricity",
                  fmt::format("{:g} mm is more than a twentieth of the radius: such a drum cuts nothing",
                              data.drum_eccentricity * units::millimetres),
                  fmt::format("at most {:.3g} mm", most * units::millimetres));
   if (data.home.width + 2 * data.home.hysteresis >= 2 * std::numbers::pi)
-    found.object("home.width", "target and hysteresis cover the whole turn: the switch never lets go",
-                 "a narrower target");
+    found.object("plant.parameters-contradict"_code, "home.width",
+                 "target and hysteresis cover the whole turn: the switch never lets go", "a narrower target");
   return found.take();
 }
 
@@ -110,7 +111,8 @@ namespace {
 // What keeps the knife from cutting this web.
 std::vector<PlantDefinition::Objection> objections_to(const WebData& web, const RotaryKnifeData& knife) {
   if (web.cross_section().tube)
-    return {{"web", fmt::format("a rotary knife cuts no tube, and {} is one", knife.web),
+    return {{"plant.parameters-contradict"_code, "web",
+             fmt::format("a rotary knife cuts no tube, and {} is one", knife.web),
              "a web of 'section: strip', or a flying_saw"}};
   std::vector<PlantDefinition::Objection> found;
   const double radius = knife.circumference / (2 * std::numbers::pi);
@@ -119,18 +121,18 @@ std::vector<PlantDefinition::Objection> objections_to(const WebData& web, const 
   const double most_lag = web.thickness < radius ? pitch - 2 * engagement_angle(closing, web.thickness) : 0;
   const double lag = helix_lag(radius, knife.helix, web.width);
   if (web.thickness >= radius)
-    found.push_back({"circumference",
+    found.push_back({"plant.parameters-contradict"_code, "circumference",
                      fmt::format("the web of {:g} mm is thicker than the radius of {:g} mm",
                                  web.thickness * 1000, radius * 1000),
                      "a larger circumference or a thinner web"});
   else if (most_lag <= 0)
-    found.push_back({"blade_count",
+    found.push_back({"plant.parameters-contradict"_code, "blade_count",
                      fmt::format("with {} blades two are in the web of {:g} mm at once", knife.blade_count,
                                  web.thickness * 1000),
                      "fewer blades, a larger circumference or a thinner web"});
   else if (lag >= most_lag)
     found.push_back(
-        {"helix",
+        {"plant.parameters-contradict"_code, "helix",
          fmt::format(
              "a blade of {:g} deg takes {:.4g} deg of the drum from edge to edge of the web of {:g} mm: {}",
              knife.helix * units::degrees, lag * units::degrees, web.width * 1000,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/problem.hpp"
 #include "plants/lag.hpp"
 
 namespace drycut::plants {
@@ -67,17 +68,19 @@ constexpr double most_correction = 0.5;
 std::vector<PlantDefinition::Objection> servo_objections(const ServoData& data, double inertia, double h) {
   std::vector<PlantDefinition::Objection> found;
   if (data.max_speed < data.rated_speed)
-    found.push_back({"servo.max_speed", "it is below servo.rated_speed", "at least servo.rated_speed"});
+    found.push_back({"plant.parameters-contradict"_code, "servo.max_speed", "it is below servo.rated_speed",
+                     "at least servo.rated_speed"});
   if (data.peak_torque < data.rated_torque)
-    found.push_back({"servo.peak_torque", "it is below servo.rated_torque", "at least servo.rated_torque"});
+    found.push_back({"plant.parameters-contradict"_code, "servo.peak_torque",
+                     "it is below servo.rated_torque", "at least servo.rated_torque"});
   if (data.torque_at_max_speed > data.peak_torque)
-    found.push_back(
-        {"servo.torque_at_max_speed", "it is above servo.peak_torque", "at most servo.peak_torque"});
+    found.push_back({"plant.parameters-contradict"_code, "servo.torque_at_max_speed",
+                     "it is above servo.peak_torque", "at most servo.peak_torque"});
   for (auto& objection : power_objections("servo.", data.amplifier, data.supply))
     found.push_back(std::move(objection));
   const double most = most_correction * inertia / (share_of(data.current_lag, h) * h);
   if (loop_gain(data) > most)
-    found.push_back({"servo.speed_gain",
+    found.push_back({"plant.step-too-long"_code, "servo.speed_gain",
                      fmt::format("the speed loop of {:g} rad/s, set for {:g} rotors, turns the motor's own "
                                  "{:.3g} kg m2 faster than steps of {:g} us can follow",
                                  data.speed_gain, 1 + data.inertia_ratio, inertia, h * 1e6),

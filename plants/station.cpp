@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/problem.hpp"
 #include "base/units.hpp"
 
 namespace drycut::plants {
@@ -20,7 +21,7 @@ Parameters station_parameters(StationData& data) {
 std::vector<PlantDefinition::Objection> station_objections(const StationData& data, const WebData& web) {
   const double end = web.outfeed.start + web.outfeed.length;
   if (data.place == 0 || data.place < end) return {};
-  return {{"place",
+  return {{"plant.parameters-contradict"_code, "place",
            fmt::format("the outfeed belt ends at {:g} mm: it brings no piece to {:g} mm",
                        end * units::millimetres, data.place * units::millimetres),
            fmt::format("a place before, or an outfeed.length of the web of more than {:g} mm",

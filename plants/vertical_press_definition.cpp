@@ -1,3 +1,4 @@
+#include "base/problem.hpp"
 #include "plants/axis_objections.hpp"
 #include "plants/vertical_press.hpp"
 
@@ -84,7 +85,8 @@ std::vector<PlantDefinition::Objection> VerticalPressDefinition::objections(doub
   found.contact("workpiece", data.workpiece, data.mass, "workpiece");
   found.guided("ram_friction.viscous", data, inertia);
   if (data.workpiece.stiffness > 0 && data.start < data.workpiece_height)
-    found.object("workpiece.height", "the ram starts in the workpiece", "below start");
+    found.object("plant.parameters-contradict"_code, "workpiece.height", "the ram starts in the workpiece",
+                 "below start");
   found.add(axis_drive_objections(data.drive, inertia, h));
   return found.take();
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/problem.hpp"
 #include "base/units.hpp"
 #include "plants/axis_objections.hpp"
 #include "plants/materials.hpp"
@@ -272,7 +273,7 @@ std::vector<PlantDefinition::Objection> WebDefinition::objections(double h) {
              "web and line drive");
   if (data.strip.wheel_distance >= data.strip.puller_distance)
     found.object(
-        "wheel.distance",
+        "plant.parameters-contradict"_code, "wheel.distance",
         fmt::format("the wheel, {:g} mm before the cut, is not behind the line drive, {:g} mm before it",
                     data.strip.wheel_distance * 1000, data.strip.puller_distance * 1000),
         fmt::format("less than {:g} mm, or more drive.distance", data.strip.puller_distance * 1000));
@@ -284,18 +285,18 @@ std::vector<PlantDefinition::Objection> WebDefinition::objections(double h) {
   found.add(wheel_objections(data.wheel));
   if (data.section == "tube" && 2 * data.thickness > data.width)
     found.object(
-        "thickness",
+        "plant.parameters-contradict"_code, "thickness",
         fmt::format("a tube of {:g} mm has no wall of {:g} mm", data.width * 1000, data.thickness * 1000),
         fmt::format("at most {:g} mm", data.width * 500));
   const auto& marks = data.marks;
   if (marks.pitch > 0 && marks.pitch <= marks.width + 2 * marks.hysteresis + 6 * marks.scatter)
     found.object(
-        "marks.pitch",
+        "plant.parameters-contradict"_code, "marks.pitch",
         fmt::format("marks of {:g} mm at {:g} mm leave no gap", marks.width * 1000, marks.pitch * 1000),
         fmt::format("more than {:g} mm (width, twice the hysteresis, six times the scatter)",
                     (marks.width + 2 * marks.hysteresis + 6 * marks.scatter) * 1000));
   if (marks.pitch > 0 && data.drive.speed * h > marks.width)
-    found.object("marks.width",
+    found.object("plant.step-too-long"_code, "marks.width",
                  fmt::format("at {:g} m/min a mark of {:g} mm is past the photocell within a step of {:g} us",
                              data.drive.speed * units::metres_a_minute, marks.width * 1000, h * 1e6),
                  step_remedy(marks.width / data.drive.speed));

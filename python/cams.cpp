@@ -24,7 +24,7 @@ py::dict cam(const std::filesystem::path& file, const std::string& device, const
   py::list findings;
   for (const auto& finding : study.findings)
     findings.append(py::make_tuple(grades[static_cast<int>(finding.grade)], finding.number, finding.where,
-                                   finding.text, finding.remedy.text));
+                                   finding.text, finding.remedy.text, std::string(finding.kind.text())));
   const auto& points = study.points;
   using Point = sim::cams::CamPoint;
   return py::dict(

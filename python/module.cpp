@@ -39,7 +39,7 @@ void translate(std::exception_ptr thrown) {
   } catch (const BadInput& fault) {
     py::list problems;
     for (const auto& p : fault.problems)
-      problems.append(py::make_tuple(p.file, p.line, p.column, p.what, p.remedy));
+      problems.append(py::make_tuple(p.file, p.line, p.column, p.what, p.remedy, std::string(p.code.text())));
     const auto error = py::reinterpret_borrow<py::object>(bad_input)(fault.what(), problems);
     PyErr_SetObject(bad_input, error.ptr());
   } catch (const Diverged& fault) {

@@ -55,7 +55,7 @@ py::dict run(const std::filesystem::path& file, const Settings& set,
       result.outcome = simulation->run([](sim::Time) { listen(); });
     }
   }
-  auto notes = simulation->notes();
+  auto notes = sim::record::texts_of(simulation->notes());
   if (!left.left_out.empty()) notes.push_back("left out: " + left.left_out);
   py::dict columns;
   py::dict units;
@@ -100,15 +100,15 @@ py::dict bode(const std::filesystem::path& file, const Settings& set,
   using Point = sim::studies::BodePoint;
   constexpr const char* loops[] = {"closed", "open", "restless", "runaway", "unstable"};
   const auto& margins = result->margins;
-  return py::dict("wire"_a = result->wire, "loop"_a = loops[static_cast<int>(result->sweep.loop)],
-                  "frequency"_a = numbers(column(points, [](const Point& p) { return p.frequency; })),
-                  "open_loop"_a = numbers(column(points, [](const Point& p) { return p.open_loop; })),
-                  "error"_a = numbers(column(points, [](const Point& p) { return p.error; })),
-                  "phase_margin"_a = at_frequency(margins.phase),
-                  "gain_margin"_a = at_frequency(margins.gain),
-                  "gain_margin_down"_a = at_frequency(margins.gain_down),
-                  "peak_sensitivity"_a = at_frequency(margins.sensitivity),
-                  "bandwidth"_a = margins.closed_bandwidth, "doubts"_a = sim::studies::loop_doubts(*result));
+  return py::dict(
+      "wire"_a = result->wire, "loop"_a = loops[static_cast<int>(result->sweep.loop)],
+      "frequency"_a = numbers(column(points, [](const Point& p) { return p.frequency; })),
+      "open_loop"_a = numbers(column(points, [](const Point& p) { return p.open_loop; })),
+      "error"_a = numbers(column(points, [](const Point& p) { return p.error; })),
+      "phase_margin"_a = at_frequency(margins.phase), "gain_margin"_a = at_frequency(margins.gain),
+      "gain_margin_down"_a = at_frequency(margins.gain_down),
+      "peak_sensitivity"_a = at_frequency(margins.sensitivity), "bandwidth"_a = margins.closed_bandwidth,
+      "doubts"_a = sim::record::texts_of(sim::studies::loop_doubts(*result)));
 }
 
 }  // namespace

@@ -66,8 +66,9 @@ class Teller {
 
 void check_jobs(int jobs, Problems& problems) {
   if (jobs < 1 || jobs > most_jobs)
-    problems.push_back(
-        {"jobs", 1, 1, std::to_string(jobs) + " runs at the same time", "1 to " + std::to_string(most_jobs)});
+    problems.push_back({"study.out-of-range"_code, "jobs", 1, 1,
+                        std::to_string(jobs) + " runs at the same time",
+                        "1 to " + std::to_string(most_jobs)});
 }
 
 bool is_number(const std::string& text) {
@@ -87,7 +88,8 @@ void check_names(const studies::PointQuestion& question, const studies::SweepAxe
   }
   for (const auto& figure : question.figures)
     if (figure.name.empty() || !taken.insert(figure.name).second)
-      problems.push_back({"figures", 1, 1, "'" + figure.name + "' cannot be the name of a figure",
+      problems.push_back({"study.argument"_code, "figures", 1, 1,
+                          "'" + figure.name + "' cannot be the name of a figure",
                           figure.name.empty() ? "give it one" : "a column has this name, give another"});
 }
 
@@ -166,10 +168,10 @@ class Asked {
  private:
   void check_size(std::optional<std::size_t> sample, Problems& problems) const {
     if (sample && (*sample < 1 || *sample > studies::most_points))
-      problems.push_back({"sample", 1, 1, std::to_string(*sample) + " points",
+      problems.push_back({"study.out-of-range"_code, "sample", 1, 1, std::to_string(*sample) + " points",
                           "1 to " + std::to_string(studies::most_points)});
     if (sample && axes.size() > studies::sobol_axes)
-      problems.push_back({"sample", 1, 1, std::to_string(axes.size()) + " axes",
+      problems.push_back({"study.out-of-range"_code, "sample", 1, 1, std::to_string(axes.size()) + " axes",
                           "a Sobol sequence is over " + std::to_string(studies::sobol_axes) + " at most"});
   }
 };
@@ -238,15 +240,16 @@ void check_counts(const studies::TuneRequest& request, Problems& problems) {
   check_jobs(request.jobs, problems);
   const auto check = [&](const char* name, int value, int most) {
     if (value < 1 || value > most)
-      problems.push_back({name, 1, 1, std::to_string(value) + " runs", "1 to " + std::to_string(most)});
+      problems.push_back({"study.out-of-range"_code, name, 1, 1, std::to_string(value) + " runs",
+                          "1 to " + std::to_string(most)});
   };
   check("budget", request.budget, 100'000);
   check("spread_runs", request.spread_runs, 10'000);
   if (request.scenarios.empty())
-    problems.push_back({"files", 1, 1, "there are none", "give a scenario at least"});
+    problems.push_back({"option.missing"_code, "files", 1, 1, "there are none", "give a scenario at least"});
   if (request.vary.empty())
-    problems.push_back(
-        {"vary", 1, 1, "it is empty", "give a range, such as {\"...AxisX.pgain\": \"1..100\"}"});
+    problems.push_back({"study.argument"_code, "vary", 1, 1, "it is empty",
+                        "give a range, such as {\"...AxisX.pgain\": \"1..100\"}"});
 }
 
 py::dict tune(const studies::TuneRequest& request, const Settings& set, const std::filesystem::path& out,

@@ -1,4 +1,6 @@
 #pragma once
+#include <drycut/problem.hpp>
+
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -41,7 +43,7 @@ struct MapCurve {
 /// outermost points. Points are in rows of y, each with a point for each x.
 struct MapPlot {
   std::string name;  ///< file name without extension
-  std::string title;
+  Prose title;
   MapAxis x;
   MapAxis y;
   std::vector<MapRegion> regions;

@@ -15,6 +15,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/problem.hpp"
+#include "base/text.hpp"
 #include "renders/geometry.hpp"
 #include "renders/mesh.hpp"
 #include "renders/process.hpp"
@@ -50,16 +52,18 @@ const MeshKind* kind_of(const std::filesystem::path& file) {
 std::optional<MeshProblem> refused_file(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
-    return MeshProblem{"there is no such file", "name a mesh file relative to the scenario"};
+    return MeshProblem{"there is no such file", "name a mesh file relative to the scenario",
+                       "mesh.no-file"_code};
   if (kind_of(file) == nullptr)
     return MeshProblem{fmt::format("'{}' is not a kind of mesh that is known", file.extension().string()),
-                       "export STL, OBJ, PLY, OFF, glTF, GLB or DAE from the CAD program"};
+                       "export STL, OBJ, PLY, OFF, glTF, GLB or DAE from the CAD program",
+                       "mesh.unknown-kind"_code};
   const auto size = std::filesystem::file_size(file, error);
   if (error) return MeshProblem{"its size cannot be found out", "name a file that can be read"};
-  if (size == 0) return MeshProblem{"the file is empty", "export the part again"};
+  if (size == 0) return MeshProblem{"the file is empty"};
   if (size > mesh_bytes_max)
     return MeshProblem{fmt::format("the file has {} MB, more than {}", size >> 20U, mesh_bytes_max >> 20U),
-                       "export it with a coarser tolerance"};
+                       "export it with a coarser tolerance", "mesh.too-large"_code};
   return std::nullopt;
 }
 
@@ -78,7 +82,7 @@ MeshProblem broken(const Assimp::Importer& importer) {
 }
 
 MeshProblem nowhere(std::size_t corner) {
-  return {fmt::format("corner {} is not at a finite place", corner + 1), "export the part again"};
+  return {fmt::format("corner {} is not at a finite place", corner + 1)};
 }
 
 std::uint64_t triangles_in(const aiMesh& mesh) {
@@ -117,7 +121,7 @@ std::optional<MeshProblem> refused_scene(const aiScene& scene) {
   if (triangles == 0) return empty;
   if (triangles > mesh_triangles_max)
     return MeshProblem{fmt::format("the mesh has {} triangles, more than {}", triangles, mesh_triangles_max),
-                       "export it with a coarser tolerance"};
+                       "export it with a coarser tolerance", "mesh.too-large"_code};
   return std::nullopt;
 }
 
@@ -175,8 +179,7 @@ Loaded corners_of(Assimp::Importer& importer, const aiScene* scene, double unit,
                                        aiProcess_GenSmoothNormals | aiProcess_ForceGenNormals);
   if (scene == nullptr) return broken(importer);
   Mesh mesh = placed(*scene, unit, placing);
-  if (mesh.corners.empty())
-    return MeshProblem{"all triangles of the mesh are without area", "export the part again"};
+  if (mesh.corners.empty()) return MeshProblem{"all triangles of the mesh are without area"};
   return mesh;
 }
 
@@ -194,12 +197,13 @@ Loaded judged(Loaded loaded, double unit) {
     return MeshProblem{
         fmt::format("its longest side is {:.4g} mm; parts have {} to {} mm", longest / millimetre,
                     mesh_smallest / millimetre, mesh_largest / millimetre),
-        unit == 1 ? "the file is taken in metres; set scale" : "the file is taken in millimetres; set scale"};
+        unit == 1 ? "the file is taken in metres; set scale" : "the file is taken in millimetres; set scale",
+        "mesh.scale"_code};
   return loaded;
 }
 
-// A file's mesh on its way from the process that reads it: 'm' and the corners, or 'p' and the problem's two
-// texts with a 0 between.
+// A file's mesh on its way from the process that reads it: 'm' and the corners, or 'p' and the problem's
+// code and two texts with a 0 between.
 
 constexpr std::size_t triangle_bytes = 3 * sizeof(Mesh::Corner);
 static_assert(std::is_trivially_copyable_v<Mesh::Corner>);
@@ -210,7 +214,7 @@ constexpr WorkLimits reading_limits = {std::chrono::seconds(20), std::chrono::mi
 
 std::string packed(const Loaded& loaded) {
   if (const auto* problem = std::get_if<MeshProblem>(&loaded))
-    return 'p' + problem->what + '\0' + problem->remedy;
+    return fmt::format("p{0}{3}{1}{3}{2}", problem->code.text(), problem->what, problem->remedy, '\0');
   const auto& corners = std::get<Mesh>(loaded).corners;
   std::string bytes = "m";
   return bytes.append(reinterpret_cast<const char*>(corners.data()), corners.size() * sizeof(Mesh::Corner));
@@ -218,8 +222,13 @@ std::string packed(const Loaded& loaded) {
 
 Loaded unpacked(std::string_view bytes) {
   const auto rest = bytes.substr(std::min<std::size_t>(1, bytes.size()));
-  if (const auto end = rest.find('\0'); bytes.starts_with('p') && end != std::string_view::npos)
-    return MeshProblem{std::string(rest.substr(0, end)), std::string(rest.substr(end + 1))};
+  if (bytes.starts_with('p')) {
+    const auto first = std::min(rest.find('\0'), rest.size());
+    const auto second = std::min(rest.find('\0', first + 1), rest.size());
+    if (const auto code = CodeTable::named(rest.substr(0, first)); code && second < rest.size())
+      return MeshProblem{std::string(rest.substr(first + 1, second - first - 1)),
+                         std::string(rest.substr(second + 1)), *code};
+  }
   if (!bytes.starts_with('m') || rest.empty() || rest.size() % triangle_bytes != 0)
     throw WorkFailed("answered nonsense");
   Mesh mesh;

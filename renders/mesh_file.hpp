@@ -5,6 +5,7 @@
 #include <string_view>
 #include <variant>
 
+#include "base/problem.hpp"
 #include "renders/scene3d.hpp"
 
 namespace drycut::renders {
@@ -20,8 +21,9 @@ struct MeshPlacing {
 
 /// Why a mesh is refused and what would be right.
 struct MeshProblem {
-  std::string what;
-  std::string remedy;
+  Prose what;
+  Prose remedy = "export the part again";
+  Code code = "mesh.unreadable"_code;
 };
 
 constexpr std::uintmax_t mesh_bytes_max = 64ULL << 20U;

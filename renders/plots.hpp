@@ -1,4 +1,6 @@
 #pragma once
+#include <drycut/problem.hpp>
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -60,7 +62,7 @@ struct NamedPoint {
 
 /// One pair of axes.
 struct Panel {
-  std::string title;
+  Prose title;
   std::string y_label;  ///< with unit: "following error [counts]"
   std::vector<Curve> curves;
   std::vector<Band> bands;
@@ -73,7 +75,7 @@ struct Panel {
 /// Panels above each other that share the x axis: one PNG.
 struct Plot {
   std::string name;  ///< file name without extension
-  std::string title;
+  Prose title;
   std::string x_label;  ///< with unit: "time [s]"
   std::vector<Panel> panels;
   int width = 1200;              ///< pixels

@@ -338,7 +338,7 @@ void write_scenario(ReportPage& page, const std::string& expanded) {
 }  // namespace
 
 std::string rows_text(const ReportTable& table, std::size_t width) {
-  std::vector<std::vector<std::string>> rows = {table.headings};
+  std::vector<std::vector<std::string>> rows = {{table.headings.begin(), table.headings.end()}};
   for (const ReportRow& row : table.rows) rows.push_back(row.cells);
   return in_columns(rows, width);
 }

@@ -1,4 +1,6 @@
 #pragma once
+#include <drycut/problem.hpp>
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,7 +23,7 @@ struct ReportCheck {
 
 /// A figure that says much of a run in little room; they stand on top.
 struct ReportKey {
-  std::string label;                ///< "length of cut"
+  Prose label;                      ///< "length of cut"
   std::string value;                ///< "800.003 ± 0.012 mm"
   std::vector<std::string> notes;   ///< "worst 800.031 mm: no. 7 at 7.204 s"
   std::optional<double> used = {};  ///< share of what it may be, drawn as a bar
@@ -31,8 +33,8 @@ struct ReportRow {
   std::vector<std::string> cells;
 };
 struct ReportTable {
-  std::string title;
-  std::vector<std::string> headings;
+  Prose title;
+  std::vector<Prose> headings;
   std::vector<ReportRow> rows;
   bool folded = false;  ///< shown closed, to be opened by a click
   /// Cells that begin with PASS or FAIL show the word as a badge; what follows a line end is shown small.
@@ -44,13 +46,13 @@ std::string rows_text(const ReportTable& table, std::size_t width);
 
 struct ReportFigure {
   std::filesystem::path png;
-  std::string caption;     ///< below it; "" = none
-  std::string words = {};  ///< what it shows, for who cannot see it
+  Prose caption;     ///< below it; "" = none
+  Prose words = {};  ///< what it shows, for who cannot see it
 };
 
 /// A part of the page about one thing: what to know, plots, tables; what is folded stays with it.
 struct ReportSection {
-  std::string title;
+  Prose title;
   std::vector<std::string> notes;
   std::vector<ReportFigure> plots;
   std::vector<ReportTable> tables;
@@ -58,17 +60,17 @@ struct ReportSection {
 
 /// A text to copy as it stands.
 struct ReportText {
-  std::string title;
+  Prose title;
   std::string text;
 };
 
 /// What a customer gets to read.
 struct Report {
-  std::string title;
+  Prose title;
   std::string scenario;  ///< file name
   bool passed = false;
-  std::string word;     ///< in place of PASS or FAIL where nothing was judged: "SAME", "DIFFERENT"
-  std::string verdict;  ///< "all 5 checks passed", "2 of 5 checks failed", "the simulation stopped: ..."
+  std::string word;  ///< in place of PASS or FAIL where nothing was judged: "SAME", "DIFFERENT"
+  Prose verdict;     ///< "all 5 checks passed", "2 of 5 checks failed", "the simulation stopped: ..."
   std::vector<ReportKey> keys = {};
   std::vector<ReportRow> facts;  ///< label, value: duration, step, seed, versions
   std::vector<ReportCheck> checks;

@@ -37,7 +37,8 @@ std::optional<std::string> from_utf16(std::string text) {
 /// A text as an editor saved it, as the readers want it: without its mark. A problem if it is no plain text.
 std::optional<std::string> plain(std::string text, const fs::path& file, Problems& problems) {
   const auto refuse = [&](int line, int column, const std::string& what) {
-    problems.push_back({file.string(), line, column, what, "save it as plain text in UTF-8"});
+    problems.push_back(
+        {"file.not-text"_code, file.string(), line, column, what, "save it as plain text in UTF-8"});
     return std::nullopt;
   };
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
@@ -137,28 +138,31 @@ std::string instead_of(const fs::path& file, bool names_itself) {
 }  // namespace
 
 std::optional<std::string> read_file(const fs::path& file, Problems& problems, std::uintmax_t largest) {
-  return read_file(file, problems, {file.string(), 1, 1, "", ""}, largest);
+  return read_file(file, problems, {file.string(), 1, 1}, largest);
 }
 
-std::optional<std::string> read_file(const fs::path& file, Problems& problems, const Problem& where,
+std::optional<std::string> read_file(const fs::path& file, Problems& problems, const NamedAt& where,
                                      std::uintmax_t largest) {
-  const auto problem = [&](const std::string& what, const std::string& remedy) {
-    problems.push_back({where.file, where.line, where.column, what, remedy});
+  const auto problem = [&](Code code, const std::string& what, const std::string& remedy) {
+    problems.push_back({code, where.file, where.line, where.column, what, remedy});
     return std::nullopt;
   };
   auto found = fetch(file, largest);
   switch (found.state) {
     case FileSet::State::missing:
-      return problem(fmt::format("there is no file {}", file.string()),
+      return problem("file.missing"_code, fmt::format("there is no file {}", file.string()),
                      instead_of(file, where.file == file.string()));
     case FileSet::State::folder:
     case FileSet::State::irregular:
-      return problem(fmt::format("{} is not a regular file", file.string()), "name a text file");
+      return problem("file.not-regular"_code, fmt::format("{} is not a regular file", file.string()),
+                     "name a text file");
     case FileSet::State::large:
-      return problem(fmt::format("{} is larger than {} MiB", file.string(), largest >> 20U),
+      return problem("file.too-large"_code,
+                     fmt::format("{} is larger than {} MiB", file.string(), largest >> 20U),
                      "name a text file of a program or scenario");
     case FileSet::State::unreadable:
-      return problem(fmt::format("{} cannot be read", file.string()), "check its permissions");
+      return problem("file.unreadable"_code, fmt::format("{} cannot be read", file.string()),
+                     "check its permissions");
     case FileSet::State::present:
       break;
   }

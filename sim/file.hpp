@@ -66,7 +66,7 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
 /// If it cannot be read, that is a problem at the place that names it: `where` gives file, line and column.
 /// What is no UTF-8, or a control character, is a problem at its own place in the file.
 std::optional<std::string> read_file(const std::filesystem::path& file, Problems& problems,
-                                     const Problem& where, std::uintmax_t largest = largest_input);
+                                     const NamedAt& where, std::uintmax_t largest = largest_input);
 /// The same for a file that the command line names: the place is the file's own beginning.
 std::optional<std::string> read_file(const std::filesystem::path& file, Problems& problems,
                                      std::uintmax_t largest = largest_input);

@@ -89,30 +89,32 @@ std::error_code last_error() { return {errno, std::generic_category()}; }
 OutputFolder::OutputFolder(fs::path folder, const std::string& kind, const std::vector<std::string>& names,
                            Problems& problems)
     : folder_(std::move(folder)), manifest_(folder_ / (".drycut-" + kind)), kind_(kind) {
-  const auto refuse = [&](const std::string& what, const std::string& remedy) {
-    problems.push_back({"--out", 1, 1, what, remedy});
+  const auto refuse = [&](Code code, const std::string& what, const std::string& remedy) {
+    problems.push_back({code, "--out", 1, 1, what, remedy});
   };
   std::error_code error;
   made_ = make_folder(folder_, error);
   if (folder_.empty() || error || !fs::is_directory(folder_)) {
-    refuse(fmt::format("the directory {} cannot be made{}{}", folder_.string(), error ? ": " : "",
+    refuse("file.not-writable"_code,
+           fmt::format("the directory {} cannot be made{}{}", folder_.string(), error ? ": " : "",
                        error ? error.message() : ""),
            "name one that can be written");
     return;
   }
   if (const auto why = hindrance_in(folder_); !why.empty()) {
-    refuse(fmt::format("nothing can be written into {}: {}", folder_.string(), why),
+    refuse("file.not-writable"_code, fmt::format("nothing can be written into {}: {}", folder_.string(), why),
            "name one that can be written");
     return;
   }
   if (lock_folder(folder_, lock_) == Locked::by_another) {
-    refuse(fmt::format("another drycut is writing into {}", folder_.string()),
+    refuse("file.in-use"_code, fmt::format("another drycut is writing into {}", folder_.string()),
            "let it end first, or name another folder");
     return;
   }
   listed_ = read_manifest(manifest_);
   if (const auto found = strangers(names); !found.empty()) {
-    refuse(fmt::format("in {} stands what no earlier {} wrote: {}", folder_.string(), kind_, some_of(found)),
+    refuse("file.not-ours"_code,
+           fmt::format("in {} stands what no earlier {} wrote: {}", folder_.string(), kind_, some_of(found)),
            "name another folder, or move it away");
   }
 }

@@ -201,7 +201,7 @@ class AnaloguePositioner : public TableDevice<table> {
   }
 
   void tell_quota_lost(std::string_view cause) {
-    report({Diagnostic::Kind::note, std::string(cause),
+    report({Diagnostic::Kind::warning, std::string(cause),
             "the running movement cannot reach its quota any more and stops"});
   }
 
@@ -227,7 +227,7 @@ class AnaloguePositioner : public TableDevice<table> {
     if (drive == Drive::frozen)
       dac_turn_.release(*dac_);
     else if (dac_turn_.put(*dac_, axis_.output().word))
-      report({Diagnostic::Kind::note, std::string(dac_name_), std::string(shared_dac_text)});
+      report({Diagnostic::Kind::warning, std::string(dac_name_), std::string(shared_dac_text)});
     return drive;
   }
 

@@ -24,7 +24,7 @@ inline Diagnostic without_maxvel(std::int32_t maxvel) {
 
 /// A parameter that came too late for the running movement.
 inline Diagnostic kept_for_the_next(std::string_view name) {
-  return {Diagnostic::Kind::note, std::string(name),
+  return {Diagnostic::Kind::warning, std::string(name),
           "kept for the next movement, the running one cannot take it any more"};
 }
 
@@ -41,7 +41,7 @@ inline std::int32_t held(std::int32_t quota, std::int32_t minpos, std::int32_t m
 
 /// What START says of a setpos that it does not go to.
 inline Diagnostic outside_limits(std::int32_t setpos, std::int32_t target) {
-  return {Diagnostic::Kind::note, "START",
+  return {Diagnostic::Kind::warning, "START",
           fmt::format("setpos {} is outside minpos..maxpos, the axis goes to {}", setpos, target)};
 }
 
@@ -52,7 +52,7 @@ inline bool at_limit(bool backward, std::int32_t posit, std::int32_t limit) {
 
 /// What it says of that.
 inline Diagnostic no_way_left(bool backward, std::int32_t posit, std::int32_t limit) {
-  return {Diagnostic::Kind::note, backward ? "MANBW" : "MANFW",
+  return {Diagnostic::Kind::warning, backward ? "MANBW" : "MANFW",
           fmt::format("posit {} is already at {} {}", posit, backward ? "minpos" : "maxpos", limit)};
 }
 

@@ -189,7 +189,8 @@ void Camming4::step_cam() {
   if (std::exchange(slip_due_, false)) slip_ += axis_.settle_by_bits();
   if (cam.running) return;
   if (recovery_.moving() || recovery_due_ != 0)
-    report({Diagnostic::Kind::note, "st_camex", "the cam ended before the recovery of sector 180 was done"});
+    report(
+        {Diagnostic::Kind::warning, "st_camex", "the cam ended before the recovery of sector 180 was done"});
   leave_cam();
 }
 

@@ -126,7 +126,7 @@ void Camming4::fail(int code, int row) {
   set_state("st_error", true);
   value("errcode") = code;
   value("errvalue") = row;
-  report({Diagnostic::Kind::note, "st_error",
+  report({Diagnostic::Kind::warning, "st_error",
           fmt::format("error {} in row {}: {}", code, row, error_text(code))});
   emergency();
 }
@@ -139,7 +139,7 @@ void Camming4::warn(int code, int row) {
   set_state("st_warning", true);
   value("wrncode") = code;
   value("wrnvalue") = row;
-  report({Diagnostic::Kind::note, "st_warning",
+  report({Diagnostic::Kind::warning, "st_warning",
           fmt::format("warning {} in row {}: {}", code, row, warning_text(code))});
 }
 

@@ -114,8 +114,8 @@ void Camming4::run_function(int function, const Capture& capture, std::string_vi
       master_quota_.count(master_ago, master_resolution_);
       break;
     default:
-      report(
-          {Diagnostic::Kind::note, std::string(subject), fmt::format("function {} does nothing", function)});
+      report({Diagnostic::Kind::warning, std::string(subject),
+              fmt::format("function {} does nothing", function)});
   }
   if (state("st_camex") && (function == 11 || function == 12)) inhibit_stop_ms_ = stop_inhibited_ms;
 }

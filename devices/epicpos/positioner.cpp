@@ -37,7 +37,7 @@ void Positioner::initialise() {
   counter_part_ = 0;
   in_tolerance_ms_ = 0;
   if (axis_.settings.simulated && counter_->movers > 1)
-    report({Diagnostic::Kind::note, "ICont", "another device moves the same simulated counter"});
+    report({Diagnostic::Kind::warning, "ICont", "another device moves the same simulated counter"});
 }
 
 bool Positioner::may_write(Symbol symbol, std::int32_t new_value) {

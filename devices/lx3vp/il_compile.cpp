@@ -30,8 +30,8 @@ class IlCompiler : private Complaints {
   }
 
   IlProgram compile() {
-    const auto tell = [this](Place place, std::string what, std::string remedy) {
-      problem_at(place, std::move(what), std::move(remedy));
+    const auto tell = [this](Code code, Place place, std::string what, std::string remedy) {
+      problem_at(code, place, std::move(what), std::move(remedy));
       refused_ = true;
     };
     for (const auto& words : statements_of(text_, tell)) {
@@ -44,22 +44,24 @@ class IlCompiler : private Complaints {
   }
 
  private:
-  void problem(int column, std::string what, std::string remedy) {
-    problem_at({std::max(line_, 1), column}, std::move(what), std::move(remedy));
+  void problem(Code code, int column, std::string what, std::string remedy) {
+    problem_at(code, {std::max(line_, 1), column}, std::move(what), std::move(remedy));
   }
-  void problem_at(Place place, std::string what, std::string remedy) {
+  void problem_at(Code code, Place place, std::string what, std::string remedy) {
     if (full_) return;
-    complain(place, std::move(what), std::move(remedy));
+    complain(code, place, std::move(what), std::move(remedy));
     if (told() < most_problems) return;
     full_ = true;
-    complain(place, "too many problems: the rest is not told", "is this an instruction list?");
+    complain("text.too-many-problems"_code, place, "too many problems: the rest is not told",
+             "is this an instruction list?");
   }
 
   // Statements.
 
   void read_statement(const Statement& words) {
     if (ended_) {
-      problem(words.front().place.column, "stands behind END", "END is the last instruction");
+      problem("il.syntax"_code, words.front().place.column, "stands behind END",
+              "END is the last instruction");
       full_ = true;
       return;
     }
@@ -91,16 +93,18 @@ class IlCompiler : private Complaints {
     ValueFault fault;
     auto operand = read_operand(text, fault);
     if (!operand) {
-      problem(words.front().place.column, std::move(fault.what), std::move(fault.remedy));
+      problem(fault.code, words.front().place.column, std::move(fault.what), std::move(fault.remedy));
       refused_ = true;
       return;
     }
     if (words.size() > 1)
-      problem(words[1].place.column, fmt::format("{} stands behind a label", in_quotes(words[1].text)),
+      problem("il.jump"_code, words[1].place.column,
+              fmt::format("{} stands behind a label", in_quotes(words[1].text)),
               "give a label a line of its own");
     const auto [first, fresh] = labels_.emplace(operand->number, Label{line_, program_.steps.size()});
     if (!fresh) {
-      problem(words.front().place.column, fmt::format("label {} is there twice", to_string(*operand)),
+      problem("il.jump"_code, words.front().place.column,
+              fmt::format("label {} is there twice", to_string(*operand)),
               fmt::format("it was first given in line {}", first->second.line));
       return;
     }
@@ -115,14 +119,15 @@ class IlCompiler : private Complaints {
     refused_ = true;
     rungs_.lose();
     if (is_not_simulated(word.text)) {
-      problem(word.place.column, fmt::format("{} is not simulated", word.text),
+      problem("il.not-simulated"_code, word.place.column, fmt::format("{} is not simulated", word.text),
               "`drycut devices LX3VP` lists what is");
       return;
     }
     std::vector<std::string> names;
     for (const auto& spelling : spellings()) names.push_back(spelling.text);
     const auto near = nearest(word.text.substr(0, 24), names);
-    problem(word.place.column, fmt::format("there is no instruction {}", in_quotes(word.text)),
+    problem("il.unknown-instruction"_code, word.place.column,
+            fmt::format("there is no instruction {}", in_quotes(word.text)),
             near.empty() ? "one instruction a line: LD X0" : fmt::format("did you mean {}?", near));
   }
 
@@ -142,7 +147,8 @@ class IlCompiler : private Complaints {
       auto operand = read_operand(words[i].text, unread);
       if (!operand) {
         if (const auto number = decimal_comma(words, i); !number.empty())
-          unread = {fmt::format("{},{} has a decimal comma", words[i - 1].text, words[i].text),
+          unread = {"il.operand"_code,
+                    fmt::format("{},{} has a decimal comma", words[i - 1].text, words[i].text),
                     fmt::format("write {}", number)};
         refuse(words[i], std::move(unread));
         continue;
@@ -165,13 +171,14 @@ class IlCompiler : private Complaints {
     }
     if (words.size() - 1 != kinds.size())
       refuse(words.size() - 1 > kinds.size() ? words[kinds.size() + 1] : words.back(),
-             {fmt::format("{} has {} operand{}, not {}", step.spelling->text, kinds.size(),
+             {"il.syntax"_code,
+              fmt::format("{} has {} operand{}, not {}", step.spelling->text, kinds.size(),
                           kinds.size() == 1 ? "" : "s", words.size() - 1),
               operands_text(kinds)});
     if (!fault) fault = misfit_together(step);
     if (!fault) return;
     const auto& last = step.operands.empty() || at != &words.front() ? *at : words.back();
-    problem_at(last.place, std::move(fault->what), std::move(fault->remedy));
+    problem_at(fault->code, last.place, std::move(fault->what), std::move(fault->remedy));
   }
 
   /// "E1.5" of the words that E1,5 falls apart into, the second at `i`; "" of others.
@@ -207,14 +214,16 @@ class IlCompiler : private Complaints {
         wide ? "give a set value K or the first D of a pair" : "give a set value K1 to K32767 or a D";
     const bool is_number = operand.kind == OperandType::constant;
     if (coil.index != Operand::no_index || operand.index != Operand::no_index)
-      return ValueFault{fmt::format("OUT {} {} has an index register", to_string(coil), to_string(operand)),
+      return ValueFault{"il.index-register"_code,
+                        fmt::format("OUT {} {} has an index register", to_string(coil), to_string(operand)),
                         "timers, counters and their set values take none"};
     if (!is_number && operand.kind != OperandType::D)
-      return ValueFault{fmt::format("{} is no set value", to_string(operand)), remedy};
+      return ValueFault{"il.operand"_code, fmt::format("{} is no set value", to_string(operand)), remedy};
     if (is_number && !wide && (operand.value < 1 || operand.value > most))
-      return ValueFault{fmt::format("set value {} is out of range", to_string(operand)), remedy};
+      return ValueFault{"il.operand"_code, fmt::format("set value {} is out of range", to_string(operand)),
+                        remedy};
     if (!is_number && wide && operand.number + 1 >= data_words)
-      return ValueFault{fmt::format("{} is no pair of words", to_string(operand)), remedy};
+      return ValueFault{"il.operand"_code, fmt::format("{} is no pair of words", to_string(operand)), remedy};
     return {};
   }
 
@@ -225,19 +234,21 @@ class IlCompiler : private Complaints {
     if (op == Op::zrst) {
       const auto pair = fmt::format("ZRST from {} to {}", to_string(operands[0]), to_string(operands[1]));
       if (operands[0].kind != operands[1].kind)
-        return ValueFault{pair, "name two devices of the same letter"};
+        return ValueFault{"il.operand"_code, pair, "name two devices of the same letter"};
       if (!step.indexed && operands[0].number > operands[1].number)
-        return ValueFault{pair, "name the lower one first"};
+        return ValueFault{"il.operand"_code, pair, "name the lower one first"};
     }
     if (op == Op::rotate) {
       const int width = step.wide() ? 32 : 16;
       const auto& count = operands[1];
       if (operands[0].kind == OperandType::bits && 4 * operands[0].count != width)
-        return ValueFault{fmt::format("{} turns {} bits, not those of {}", step.spelling->text, width,
+        return ValueFault{"il.operand"_code,
+                          fmt::format("{} turns {} bits, not those of {}", step.spelling->text, width,
                                       to_string(operands[0])),
                           fmt::format("group K{}", width / 4)};
       if (count.kind == OperandType::constant && !step.indexed && (count.value < 1 || count.value > width))
-        return ValueFault{fmt::format("{} turns by {} bits", step.spelling->text, to_string(count)),
+        return ValueFault{"il.operand"_code,
+                          fmt::format("{} turns by {} bits", step.spelling->text, to_string(count)),
                           fmt::format("write K1 to K{}", width)};
     }
     if (op == Op::shift) return misfit_of_shift(step);
@@ -246,7 +257,7 @@ class IlCompiler : private Complaints {
     const auto& direction = operands.back();
     const auto& output = operands[operands.size() - 2];
     if (output.kind == direction.kind && output.number == direction.number)
-      return ValueFault{fmt::format("{} is the pulse output itself", to_string(direction)),
+      return ValueFault{"il.operand"_code, fmt::format("{} is the pulse output itself", to_string(direction)),
                         "name another Y for the direction"};
     return {};
   }
@@ -257,7 +268,8 @@ class IlCompiler : private Complaints {
     const auto& by = step.operands[3];
     if (length.kind != OperandType::constant || by.kind != OperandType::constant || step.indexed) return {};
     if (by.value >= 1 && by.value <= length.value && length.value <= most) return {};
-    return ValueFault{fmt::format("{} shifts {} bits by {}", step.spelling->text, length.value, by.value),
+    return ValueFault{"il.operand"_code,
+                      fmt::format("{} shifts {} bits by {}", step.spelling->text, length.value, by.value),
                       fmt::format("n1 is up to K{}, n2 K1 up to n1", most)};
   }
 
@@ -282,7 +294,7 @@ class IlCompiler : private Complaints {
 
   void finish() {
     if (!ended_ && !refused_)
-      problem(1, program_.steps.empty() ? "there is no program" : "END is missing",
+      problem("il.syntax"_code, 1, program_.steps.empty() ? "there is no program" : "END is missing",
               "end the program with END");
     // What an instruction that was refused would have begun or ended is not known.
     if (refused_)
@@ -297,8 +309,8 @@ class IlCompiler : private Complaints {
   IlProgram program_;
   int line_ = 0;
   bool ended_ = false;
-  const TellLine tell_ = [this](Place place, std::string what, std::string remedy) {
-    problem_at(place, std::move(what), std::move(remedy));
+  const TellLine tell_ = [this](Code code, Place place, std::string what, std::string remedy) {
+    problem_at(code, place, std::move(what), std::move(remedy));
   };
   Rungs rungs_{tell_};
   Labels labels_;

@@ -25,7 +25,8 @@ void take_brackets(Statement& words, const TellLine& tell) {
   const bool closes = words.back().text.ends_with(']');
   if (!opens && !closes) return;
   if (opens != closes) {
-    tell(first.place, opens ? "'[' is not closed" : "']' was not opened", "write [MOV K5 D0]");
+    tell("il.syntax"_code, first.place, opens ? "'[' is not closed" : "']' was not opened",
+         "write [MOV K5 D0]");
     words.clear();
     return;
   }
@@ -33,7 +34,8 @@ void take_brackets(Statement& words, const TellLine& tell) {
   words.front().text.erase(0, 1);
   ++words.front().place.column;
   std::erase_if(words, [](const Word& word) { return word.text.empty(); });
-  if (words.empty()) tell(first.place, "there is nothing between the brackets", "write [MOV K5 D0]");
+  if (words.empty())
+    tell("il.syntax"_code, first.place, "there is nothing between the brackets", "write [MOV K5 D0]");
 }
 
 Statement statement_of(std::string_view line, int number, const TellLine& tell) {
@@ -131,8 +133,8 @@ std::vector<Statement> rows_of(const std::vector<std::string_view>& lines, const
     else if (!statements.empty())
       statements.back().insert(statements.back().end(), words.begin(), words.end());
     else
-      tell({line, words.front().place.column}, "an operand stands before the first instruction",
-           "name the instruction in its column");
+      tell("il.syntax"_code, {line, words.front().place.column},
+           "an operand stands before the first instruction", "name the instruction in its column");
   }
   return statements;
 }

@@ -14,7 +14,7 @@ namespace drycut::devices::lx3vp::il {
 using Statement = Words;
 
 /// Tells what is wrong at a place, and what would be right.
-using TellLine = std::function<void(Place place, std::string what, std::string remedy)>;
+using TellLine = std::function<void(Code code, Place place, std::string what, std::string remedy)>;
 
 /// Takes a text apart, as it is written by hand or as editors export it:
 /// - lines `LD X0`, words by blanks, tabs or commas, comments behind ; or //; before them a step number
@@ -43,7 +43,7 @@ class Rungs {
   void need_contact(const Step& step);
   void need_one_block(const Step& step);
   void end_rung(const Step& step);
-  void tell(const Step& step, std::string what, std::string remedy);
+  void tell(Code code, const Step& step, std::string what, std::string remedy);
 
   TellLine tell_;
   int blocks_ = 0;    ///< begun and not joined, in this rung

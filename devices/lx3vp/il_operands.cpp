@@ -129,7 +129,9 @@ class OperandReader {
     // Behind the operand: D10Z0; Z alone is Z0.
     const auto digits = std::string_view(text_).substr(at + 1);
     const bool exists = digits.empty() || (digits.size() == 1 && digits[0] >= '0' && digits[0] <= '7');
-    if (!exists) return refuse("has no such index register", "there are V0 to V7 and Z0 to Z7: D10Z0");
+    if (!exists)
+      return refuse("il.index-register"_code, "has no such index register",
+                    "there are V0 to V7 and Z0 to Z7: D10Z0");
     const int number = (digits.empty() ? 0 : digits[0] - '0') + (text_[at] == 'Z' ? Operand::first_z : 0);
     const auto whole = text_;
     text_.resize(at);
@@ -139,7 +141,8 @@ class OperandReader {
     if (operand->kind == OperandType::V || operand->kind == OperandType::Z ||
         operand->kind == OperandType::real || operand->kind == OperandType::word_bit ||
         operand->kind == OperandType::label || operand->kind == OperandType::nesting)
-      return refuse("takes no index register", "index a device, bits or a number: D10Z0, K4M0Z0, K5V1");
+      return refuse("il.index-register"_code, "takes no index register",
+                    "index a device, bits or a number: D10Z0, K4M0Z0, K5V1");
     operand->index = number;
     return operand;
   }
@@ -154,12 +157,12 @@ class OperandReader {
     const auto* family = family_of(letter);
     if ((letter == 'V' || letter == 'Z') && rest.empty()) return read_device(*family, "0");
     if (family == nullptr || rest.empty() || rest.front() < '0' || rest.front() > '9')
-      return refuse("is no operand", "write a device (X0, D100), K10, H1F or E1.5");
+      return refuse("il.operand"_code, "is no operand", "write a device (X0, D100), K10, H1F or E1.5");
     return read_device(*family, rest);
   }
 
-  std::nullopt_t refuse(std::string_view what, std::string remedy) {
-    fault_ = {fmt::format("'{}' {}", shown(text_), what), std::move(remedy)};
+  std::nullopt_t refuse(Code code, std::string_view what, std::string remedy) {
+    fault_ = {code, fmt::format("'{}' {}", shown(text_), what), std::move(remedy)};
     return std::nullopt;
   }
 
@@ -169,7 +172,7 @@ class OperandReader {
         return read_bits(digits.substr(0, i), digits[i], digits.substr(i + 1));
     Operand operand;
     if (!number_from(digits, operand.value))
-      return refuse("is no 32-bit number", "write K-2147483648 to K2147483647");
+      return refuse("il.width"_code, "is no 32-bit number", "write K-2147483648 to K2147483647");
     return operand;
   }
 
@@ -179,18 +182,21 @@ class OperandReader {
     const auto& family = *family_of(letter);
     operand.of = static_cast<OperandType>(letter);
     if (std::string_view("XYMS").find(letter) == std::string_view::npos)
-      return refuse("groups no bits", "bits are grouped of X, Y, M or S: K4M0");
+      return refuse("il.out-of-range"_code, "groups no bits", "bits are grouped of X, Y, M or S: K4M0");
     if (!number_from(groups, operand.count) || operand.count < 1 || operand.count > 8)
-      return refuse("has no such groups of bits", "group K1 (4 bits) to K8 (32 bits)");
+      return refuse("il.out-of-range"_code, "has no such groups of bits",
+                    "group K1 (4 bits) to K8 (32 bits)");
     if (!read_number(family, digits, operand.number)) return std::nullopt;
     if (!exists(family, operand.number, 4 * operand.count))
-      return refuse("goes beyond the devices", fmt::format("there are {}", range_text(family)));
+      return refuse("il.out-of-range"_code, "goes beyond the devices",
+                    fmt::format("there are {}", range_text(family)));
     return operand;
   }
 
   std::optional<Operand> read_hexadecimal(std::string_view digits) {
     std::uint32_t value = 0;
-    if (!number_from(digits, value, 16)) return refuse("is no 32-bit number", "write H0 to HFFFFFFFF");
+    if (!number_from(digits, value, 16))
+      return refuse("il.width"_code, "is no 32-bit number", "write H0 to HFFFFFFFF");
     Operand operand;
     operand.value = static_cast<std::int32_t>(value);
     operand.hexadecimal = true;
@@ -201,7 +207,7 @@ class OperandReader {
     Operand operand;
     operand.kind = OperandType::real;
     if (!number_from(digits, operand.real) || !std::isfinite(operand.real))
-      return refuse("is no 32-bit floating-point number", "write E1.5 or E-3.2E4");
+      return refuse("il.width"_code, "is no 32-bit floating-point number", "write E1.5 or E-3.2E4");
     return operand;
   }
 
@@ -212,7 +218,7 @@ class OperandReader {
     if (operand.kind == OperandType::D && dot != std::string_view::npos) {
       operand.kind = OperandType::word_bit;
       if (!number_from(digits.substr(dot + 1), operand.count, 16) || operand.count < 0 || operand.count > 15)
-        return refuse("has no such bit", "a word has the bits 0 to F: D10.F");
+        return refuse("il.out-of-range"_code, "has no such bit", "a word has the bits 0 to F: D10.F");
       digits = digits.substr(0, dot);
     }
     if (!read_number(family, digits, operand.number)) return std::nullopt;
@@ -222,7 +228,7 @@ class OperandReader {
   bool read_number(const OperandFamily& family, std::string_view digits, int& number) {
     if (number_from(digits, number, family.octal ? 8 : 10) && exists(family, number)) return true;
     const bool decimal = family.octal && digits.find_first_of("89") != std::string_view::npos;
-    refuse(decimal ? "is not octal" : "does not exist",
+    refuse("il.out-of-range"_code, decimal ? "is not octal" : "does not exist",
            decimal ? fmt::format("{0} count {0}0 to {0}7, {0}10 to {0}17 and on", family.letter)
                    : fmt::format("there are {}", range_text(family)));
     return false;
@@ -244,14 +250,17 @@ bool is_word(char kind) { return kind == 'n' || kind == 'w' || kind == 'u'; }
 /// V and Z, as devices and as indexes.
 std::optional<ValueFault> misfit_of_index(const Operand& operand, char kind, const Spelling& spelling) {
   if (operand.kind == OperandType::V && spelling.wide)
-    return ValueFault{fmt::format("{} is the upper half of a 32-bit index", to_string(operand)),
+    return ValueFault{"il.index-register"_code,
+                      fmt::format("{} is the upper half of a 32-bit index", to_string(operand)),
                       fmt::format("use Z{0}: a 32-bit instruction takes V{0} with it", operand.number)};
   if (operand.index == Operand::no_index) return {};
   if (!operand_kind(kind).indexed)
-    return ValueFault{fmt::format("{} does not take an index register here", spelling.text),
+    return ValueFault{"il.index-register"_code,
+                      fmt::format("{} does not take an index register here", spelling.text),
                       fmt::format("write the number itself, not {}", to_string(operand))};
   if (spelling.wide && operand.index < Operand::first_z)
-    return ValueFault{fmt::format("{} is indexed by V in a 32-bit instruction", to_string(operand)),
+    return ValueFault{"il.index-register"_code,
+                      fmt::format("{} is indexed by V in a 32-bit instruction", to_string(operand)),
                       "use Z: a 32-bit instruction takes V with it"};
   return {};
 }
@@ -259,7 +268,7 @@ std::optional<ValueFault> misfit_of_index(const Operand& operand, char kind, con
 std::optional<ValueFault> misfit_of_constant(const Operand& operand, char kind, const Spelling& spelling) {
   if (kind == 'm') {
     if (operand.value >= 1) return {};
-    return ValueFault{fmt::format("{} is no time axis", to_string(operand)),
+    return ValueFault{"il.operand"_code, fmt::format("{} is no time axis", to_string(operand)),
                       "K1 counts every 100 us, K10 every ms"};
   }
   const bool narrow = (is_word(kind) && !spelling.wide) || kind == 'k';
@@ -268,7 +277,7 @@ std::optional<ValueFault> misfit_of_constant(const Operand& operand, char kind, 
                                               operand.value <= std::numeric_limits<std::int16_t>::max();
   if (!narrow || fits) return {};
   return ValueFault{
-      fmt::format("{} is wider than 16 bits", to_string(operand)),
+      "il.width"_code, fmt::format("{} is wider than 16 bits", to_string(operand)),
       spelling.mnemonic->has(form::w) ? "use the 32-bit instruction" : "write K-32768 to K32767"};
 }
 
@@ -294,41 +303,47 @@ std::optional<ValueFault> unserved(const Operand& operand) {
   const int count = grouped ? 4 * operand.count : 1;
   for (int number = operand.number; number < operand.number + count; ++number)
     if (!is_served(letter_of(kind), number))
-      return ValueFault{fmt::format("{}{} is not simulated", letter_of(kind), number),
+      return ValueFault{"il.not-simulated"_code,
+                        fmt::format("{}{} is not simulated", letter_of(kind), number),
                         fmt::format("there are {}", served_specials(letter_of(kind)))};
   return {};
 }
 
 std::optional<ValueFault> misfit(const Operand& operand, char kind, const Spelling& spelling) {
   if (!takes(kind, operand))
-    return ValueFault{fmt::format("{} does not take {} here", spelling.text, to_string(operand)),
+    return ValueFault{"il.operand"_code,
+                      fmt::format("{} does not take {} here", spelling.text, to_string(operand)),
                       fmt::format("it takes {}", operand_text(kind))};
   if (auto fault = misfit_of_index(operand, kind, spelling)) return fault;
   if (operand.kind == OperandType::V || operand.kind == OperandType::Z) return {};
   if (operand.kind == OperandType::constant) return misfit_of_constant(operand, kind, spelling);
   if (operand.kind == OperandType::bits) {
     if (!exists(*family_of(operand.of), operand.number, 4 * operand.count))
-      return ValueFault{fmt::format("{} goes beyond the devices", to_string(operand)),
+      return ValueFault{"il.out-of-range"_code, fmt::format("{} goes beyond the devices", to_string(operand)),
                         fmt::format("there are {}", range_text(*family_of(operand.of)))};
     if (spelling.wide || operand.count <= 4) return {};
-    return ValueFault{fmt::format("{} is wider than 16 bits", to_string(operand)),
+    return ValueFault{"il.width"_code, fmt::format("{} is wider than 16 bits", to_string(operand)),
                       "group K1 to K4, or use the 32-bit instruction"};
   }
   const auto* family = family_of(operand.kind);
   if (family == nullptr) return {};
   if (operand.kind == OperandType::C && operand.number >= first_wide_counter && is_word(kind)) {
     if (spelling.wide) return {};
-    return ValueFault{fmt::format("{} is 32 bits wide", to_string(operand)), "use the 32-bit instruction"};
+    return ValueFault{"il.width"_code, fmt::format("{} is 32 bits wide", to_string(operand)),
+                      "use the 32-bit instruction"};
   }
   const int count = spelling.wide ? operand_kind(kind).wide_extent : operand_kind(kind).extent;
   if (operand.kind == OperandType::C && is_word(kind) && operand.number + count > first_wide_counter)
-    return ValueFault{fmt::format("{} takes {} words from {} on", spelling.text, count, to_string(operand)),
+    return ValueFault{"il.out-of-range"_code,
+                      fmt::format("{} takes {} words from {} on", spelling.text, count, to_string(operand)),
                       "the 16-bit counters end at C199"};
   if ((kind == 'a' || kind == 'd') && operand.number + count > first_special)
-    return ValueFault{fmt::format("{} takes {} words from {} on", spelling.text, count, to_string(operand)),
+    return ValueFault{"il.out-of-range"_code,
+                      fmt::format("{} takes {} words from {} on", spelling.text, count, to_string(operand)),
                       "the block has to end at D7999"};
   if (exists(*family, operand.number, count)) return {};
-  return ValueFault{fmt::format("{} takes {} devices from {} on", spelling.text, count, to_string(operand)),
+  return ValueFault{"il.out-of-range"_code,
+                    fmt::format("{} takes {} devices from {} on", spelling.text, count, to_string(operand)),
                     fmt::format("there are {}", range_text(*family))};
 }
 

@@ -33,7 +33,7 @@ DecamOperands decam_operands(const Step& step) {
 /// Looks for coils that two instructions drive. Steps of a sequence and what jumps lead to take turns.
 class CoilUses {
  public:
-  explicit CoilUses(std::vector<std::string>& notes) : notes_(notes) {}
+  explicit CoilUses(std::vector<Finding>& notes) : notes_(notes) {}
 
   void add(const IlProgram& program, const Step& step) {
     if (step.op() == Op::label) ++part_;
@@ -51,10 +51,12 @@ class CoilUses {
     const bool mixed = !fresh && step.op() != before.op;
     if ((!again && !mixed) || before.told) return;
     before.told = true;
-    notes_.push_back(fmt::format(
-        "{}:{}:{}: {} has {} here and {} in line {}: {}", program.file, step.line, coil.column,
-        to_string(coil), step.spelling->text, before.op == Op::out ? "OUT" : "SET", before.line,
-        mixed ? "OUT writes it in every scan, whatever SET has left" : "the last in a scan decides alone"));
+    notes_.emplace_back(
+        "il.coil-twice"_code,
+        fmt::format("{}:{}:{}: {} has {} here and {} in line {}: {}", program.file, step.line, coil.column,
+                    to_string(coil), step.spelling->text, before.op == Op::out ? "OUT" : "SET", before.line,
+                    mixed ? "OUT writes it in every scan, whatever SET has left"
+                          : "the last in a scan decides alone"));
   }
 
  private:
@@ -65,7 +67,7 @@ class CoilUses {
     bool in_sequence;
     bool told = false;
   };
-  std::vector<std::string>& notes_;
+  std::vector<Finding>& notes_;
   std::map<std::tuple<OperandType, int, int>, Use> uses_;
   int part_ = 0;  ///< between labels
   bool in_sequence_ = false;
@@ -73,9 +75,9 @@ class CoilUses {
 
 }  // namespace
 
-std::vector<std::string> doubts(const IlProgram& program) {
+std::vector<Finding> doubts(const IlProgram& program) {
   constexpr std::array types = {0, 1, 100, 101};
-  std::vector<std::string> notes;
+  std::vector<Finding> notes;
   CoilUses coils(notes);
   for (const auto& step : program.steps) {
     coils.add(program, step);
@@ -83,8 +85,9 @@ std::vector<std::string> doubts(const IlProgram& program) {
     const auto& type = step.operands[1];
     if (type.kind == OperandType::constant &&
         std::find(types.begin(), types.end(), type.value) == types.end())
-      notes.push_back(fmt::format("{}:{}:{}: ECAMTBX has no type {}; write K0, K1, K100 or K101",
-                                  program.file, step.line, type.column, to_string(type)));
+      notes.emplace_back("il.no-such-cam-type"_code,
+                         fmt::format("{}:{}:{}: ECAMTBX has no type {}; write K0, K1, K100 or K101",
+                                     program.file, step.line, type.column, to_string(type)));
   }
   return notes;
 }

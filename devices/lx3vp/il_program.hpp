@@ -213,7 +213,7 @@ std::string to_string(const Operand& operand);
 
 /// What is no fault in a program and hardly meant, "file:line:column: ..." each: a coil with two
 /// OUT, or with OUT and SET; a type of cam that ECAMTBX does not know.
-std::vector<std::string> doubts(const IlProgram& program);
+std::vector<Finding> doubts(const IlProgram& program);
 /// A DECAM on another block than any ECAMTBX makes, where one makes a block that no DECAM runs; "" = none.
 std::string strange_block(const IlProgram& program);
 

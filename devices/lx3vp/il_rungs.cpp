@@ -59,7 +59,7 @@ void Rungs::add(Step& step) {
       break;
     case RungPlace::joins:
       if (blocks_ < 2)
-        tell(step, fmt::format("{} has no two blocks to join", step.spelling->text),
+        tell("il.rung"_code, step, fmt::format("{} has no two blocks to join", step.spelling->text),
              "begin each block with LD");
       else
         --blocks_;
@@ -90,8 +90,8 @@ void Rungs::lose() {
   blocks_ = std::max(blocks_, 1);
 }
 
-void Rungs::tell(const Step& step, std::string what, std::string remedy) {
-  if (!lost_) tell_({step.line, step.column}, std::move(what), std::move(remedy));
+void Rungs::tell(Code code, const Step& step, std::string what, std::string remedy) {
+  if (!lost_) tell_(code, {step.line, step.column}, std::move(what), std::move(remedy));
 }
 
 void Rungs::open(Step& step) {
@@ -102,10 +102,11 @@ void Rungs::open(Step& step) {
   } else {
     step.opens_block = true;
     if (++blocks_ > most_blocks)
-      tell(step, fmt::format("more than {} blocks wait for ANB or ORB", most_blocks),
+      tell("il.rung"_code, step, fmt::format("more than {} blocks wait for ANB or ORB", most_blocks),
            "join blocks as you go");
     if (after_output_)
-      tell(step, "a branch goes on behind a coil with LD", "take it up with MRD or MPP before");
+      tell("il.rung"_code, step, "a branch goes on behind a coil with LD",
+           "take it up with MRD or MPP before");
   }
   after_output_ = false;
 }
@@ -115,9 +116,10 @@ void Rungs::branch(const Step& step) {
   need_one_block(step);
   if (step.op() == Op::mps) {
     if (++branches_ > most_branches)
-      tell(step, fmt::format("more than {} branches wait for MPP", most_branches), "end branches with MPP");
+      tell("il.rung"_code, step, fmt::format("more than {} branches wait for MPP", most_branches),
+           "end branches with MPP");
   } else if (branches_ == 0) {
-    tell(step, fmt::format("{} has no branch to take up", step.spelling->text),
+    tell("il.rung"_code, step, fmt::format("{} has no branch to take up", step.spelling->text),
          "keep the result with MPS before");
   } else if (step.op() == Op::mpp) {
     --branches_;
@@ -127,22 +129,24 @@ void Rungs::branch(const Step& step) {
 
 void Rungs::need_contact(const Step& step) {
   if (blocks_ > 0) return;
-  tell(step, fmt::format("{} has no contact before it", step.spelling->text),
+  tell("il.rung"_code, step, fmt::format("{} has no contact before it", step.spelling->text),
        "begin with LD; LD M8000 is always ON");
   blocks_ = 1;
 }
 
 void Rungs::need_one_block(const Step& step) {
   if (blocks_ <= 1) return;
-  tell(step, fmt::format("{} blocks are not joined at {}", blocks_, step.spelling->text),
+  tell("il.rung"_code, step, fmt::format("{} blocks are not joined at {}", blocks_, step.spelling->text),
        "join them with ANB or ORB");
   blocks_ = 1;
 }
 
 void Rungs::end_rung(const Step& step) {
   if (blocks_ > 0 && !after_output_)
-    tell(step, "the contacts before it lead to no coil", "end them with OUT or another instruction");
-  if (branches_ > 0) tell(step, "a branch is not ended", "take it up for the last time with MPP");
+    tell("il.rung"_code, step, "the contacts before it lead to no coil",
+         "end them with OUT or another instruction");
+  if (branches_ > 0)
+    tell("il.rung"_code, step, "a branch is not ended", "take it up for the last time with MPP");
   lost_ = false;
   blocks_ = branches_ = 0;
   after_output_ = false;

@@ -30,7 +30,7 @@ bool find_label(Step& step, const Labels& labels, int end_place, const TellLine&
     step.target = end_place;
     return true;
   }
-  tell({name.line, name.column}, fmt::format("there is no label {}", to_string(name)),
+  tell("il.jump"_code, {name.line, name.column}, fmt::format("there is no label {}", to_string(name)),
        "give it a line of its own");
   return false;
 }
@@ -69,8 +69,8 @@ class Structure {
     const Step* step = nullptr;
   };
 
-  void tell(const Step& step, std::string what, std::string remedy) {
-    tell_({step.line, step.column}, std::move(what), std::move(remedy));
+  void tell(Code code, const Step& step, std::string what, std::string remedy) {
+    tell_(code, {step.line, step.column}, std::move(what), std::move(remedy));
   }
 
   void visit(Step& step) {
@@ -79,7 +79,7 @@ class Structure {
     switch (step.op()) {
       case Op::for_:
         if (loops_.size() == most_loops)
-          tell(step, fmt::format("FOR stands inside {} others", most_loops),
+          tell("il.structure"_code, step, fmt::format("FOR stands inside {} others", most_loops),
                fmt::format("no more than {} FORs in each other", most_loops));
         loops_.push_back(place_);
         break;
@@ -97,11 +97,13 @@ class Structure {
         break;
       case Op::ret:
         refuse_in_loop(step);
-        if (state_ == none) tell(step, "RET has no STL before it", "begin a step of a sequence with STL");
+        if (state_ == none)
+          tell("il.structure"_code, step, "RET has no STL before it", "begin a step of a sequence with STL");
         end_state(place_);
         break;
       case Op::sret:
-        if (parts_.empty()) tell(step, "SRET stands in the main program", "put subroutines behind FEND");
+        if (parts_.empty())
+          tell("il.structure"_code, step, "SRET stands in the main program", "put subroutines behind FEND");
         end_part(step, true);
         break;
       case Op::fend:
@@ -116,14 +118,15 @@ class Structure {
   // Loops.
 
   void end_loop(Step& step) {
-    if (loops_.empty()) return tell(step, "NEXT has no FOR", "begin what is repeated with FOR");
+    if (loops_.empty())
+      return tell("il.structure"_code, step, "NEXT has no FOR", "begin what is repeated with FOR");
     steps_[loops_.back()].target = static_cast<int>(place_);
     loops_.pop_back();
   }
 
   void refuse_in_loop(const Step& step) {
     if (loops_.empty()) return;
-    tell(step,
+    tell("il.structure"_code, step,
          fmt::format("{} stands between FOR in line {} and its NEXT", step.spelling->text,
                      steps_[loops_.back()].line),
          "loops hold no master contacts and no steps of sequences");
@@ -133,7 +136,8 @@ class Structure {
 
   void refuse_in_state(const Step& step) {
     if (state_ != none)
-      tell(step, fmt::format("{} stands inside the step {}", step.spelling->text, state_name()),
+      tell("il.structure"_code, step,
+           fmt::format("{} stands inside the step {}", step.spelling->text, state_name()),
            "end the sequence with RET before");
   }
 
@@ -144,7 +148,7 @@ class Structure {
     if (step.operands.empty()) return;
     const auto& nesting = step.operands[0];
     if (!masters_.empty() && nesting.number <= masters_.back().nesting)
-      tell(step,
+      tell("il.structure"_code, step,
            fmt::format("MC {} stands inside N{} of line {}", to_string(nesting), masters_.back().nesting,
                        masters_.back().step->line),
            "inner master contacts have the higher number");
@@ -159,7 +163,8 @@ class Structure {
     const auto opens = std::find_if(masters_.begin(), masters_.end(),
                                     [&](const Master& master) { return master.nesting == nesting.number; });
     if (opens == masters_.end())
-      return tell(step, fmt::format("MCR {0} has no MC {0}", to_string(nesting)), "begin it with MC");
+      return tell("il.structure"_code, step, fmt::format("MCR {0} has no MC {0}", to_string(nesting)),
+                  "begin it with MC");
     masters_.erase(opens, masters_.end());
   }
 
@@ -170,13 +175,14 @@ class Structure {
   void begin_state(Step& step) {
     refuse_in_loop(step);
     if (!masters_.empty())
-      tell(step, fmt::format("STL stands inside MC of line {}", masters_.back().step->line),
+      tell("il.structure"_code, step,
+           fmt::format("STL stands inside MC of line {}", masters_.back().step->line),
            "end the master contact with MCR before");
     note_main_only();
     if (step.operands.empty()) return;
     const auto state = static_cast<std::size_t>(step.operands[0].number);
     if ((*states_)[state])
-      tell(step, fmt::format("there is an STL {} already", to_string(step.operands[0])),
+      tell("il.structure"_code, step, fmt::format("there is an STL {} already", to_string(step.operands[0])),
            "give each step of a sequence one STL");
     (*states_)[state] = true;
     const bool joins = state_ != none && place_ > 0 && steps_[place_ - 1].op() == Op::stl;
@@ -187,7 +193,8 @@ class Structure {
     }
     auto& first = steps_[state_];
     if (first.operands.size() == most_joined)
-      tell(step, fmt::format("more than {} STL in a row", most_joined), "join fewer steps of a sequence");
+      tell("il.structure"_code, step, fmt::format("more than {} STL in a row", most_joined),
+           "join fewer steps of a sequence");
     first.operands.push_back(step.operands[0]);
     step.memory = -1;  // the first does the work
   }
@@ -201,12 +208,15 @@ class Structure {
 
   void close_all(std::string_view where) {
     for (const auto loop : loops_)
-      tell(steps_[loop], fmt::format("FOR has no NEXT before {}", where), "end what is repeated with NEXT");
+      tell("il.structure"_code, steps_[loop], fmt::format("FOR has no NEXT before {}", where),
+           "end what is repeated with NEXT");
     for (const auto& master : masters_)
-      tell(*master.step, fmt::format("MC N{0} has no MCR N{0} before {1}", master.nesting, where),
+      tell("il.structure"_code, *master.step,
+           fmt::format("MC N{0} has no MCR N{0} before {1}", master.nesting, where),
            fmt::format("end it with MCR N{}", master.nesting));
     if (state_ != none)
-      tell(steps_[state_], fmt::format("the sequence with {} has no RET before {}", state_name(), where),
+      tell("il.structure"_code, steps_[state_],
+           fmt::format("the sequence with {} has no RET before {}", state_name(), where),
            "end the last step of a sequence with RET");
     end_state(place_);
     loops_.clear();
@@ -219,7 +229,8 @@ class Structure {
 
   void end_part(const Step& step, bool subroutine) {
     if (subroutine && main_only_ != none)
-      tell(steps_[main_only_], fmt::format("{} stands in a subroutine", steps_[main_only_].spelling->text),
+      tell("il.structure"_code, steps_[main_only_],
+           fmt::format("{} stands in a subroutine", steps_[main_only_].spelling->text),
            "put master contacts and sequences into the main program");
     main_only_ = none;
     close_all(fmt::format("{} in line {}", step.spelling->text, step.line));
@@ -238,30 +249,35 @@ class Structure {
     const auto& name = step.operands[0];
     const auto found = labels_.find(name.number);
     if (found == labels_.end()) return;  // P63
-    const auto refuse = [&](std::string what, std::string remedy) {
-      tell_({name.line, name.column}, std::move(what), std::move(remedy));
+    const auto refuse = [&](Code code, std::string what, std::string remedy) {
+      tell_(code, {name.line, name.column}, std::move(what), std::move(remedy));
     };
     const Place& from = places_[place_];
     const Place& to = places_[found->second.place];
     if (calls) {
       if (!is_subroutine(to.part))
-        refuse(fmt::format("{} in line {} is no subroutine: it has no SRET", to_string(name),
+        refuse("il.jump"_code,
+               fmt::format("{} in line {} is no subroutine: it has no SRET", to_string(name),
                            found->second.line),
                "put it behind FEND and end it with SRET");
       else if (to.loop != none)
-        refuse(fmt::format("{} stands between FOR in line {} and its NEXT", to_string(name),
+        refuse("il.jump"_code,
+               fmt::format("{} stands between FOR in line {} and its NEXT", to_string(name),
                            steps_[to.loop].line),
                "call a subroutine at its beginning");
       return;
     }
     if (is_subroutine(from.part) != is_subroutine(to.part))
-      refuse(fmt::format("CJ jumps {} a subroutine", is_subroutine(to.part) ? "into" : "out of"),
+      refuse("il.jump"_code,
+             fmt::format("CJ jumps {} a subroutine", is_subroutine(to.part) ? "into" : "out of"),
              is_subroutine(to.part) ? "use CALL" : "leave it by SRET");
     else if (!is_around(to.loop, place_))
-      refuse(fmt::format("CJ jumps between FOR in line {} and its NEXT", steps_[to.loop].line),
+      refuse("il.jump"_code,
+             fmt::format("CJ jumps between FOR in line {} and its NEXT", steps_[to.loop].line),
              "begin the loop at its FOR");
     else if (from.state != to.state)
-      refuse(fmt::format("CJ jumps {} a step of a sequence", to.state == none ? "out of" : "into"),
+      refuse("il.jump"_code,
+             fmt::format("CJ jumps {} a step of a sequence", to.state == none ? "out of" : "into"),
              "go on to another step with SET");
   }
 

@@ -66,7 +66,8 @@ bool Lx3vpController::offer(const Address& address) {
 std::variant<Address, TerminalFault> Lx3vpController::terminal(const std::string& text) {
   const auto address = parse_base_terminal(text);
   if (address && offer(*address)) return *address;
-  return TerminalFault{fmt::format("'{}' is not a terminal of the controller", text),
+  return TerminalFault{"wiring.no-terminal"_code,
+                       fmt::format("'{}' is not a terminal of the controller", text),
                        "write X0 to X377, Y0 to Y377 (octal), or C200 to C255 for a high-speed counter"};
 }
 

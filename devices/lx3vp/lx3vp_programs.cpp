@@ -80,7 +80,7 @@ ProgramPositions Lx3vpController::positions(std::int64_t) const {
 std::vector<Controller::ProgramDoubt> Lx3vpController::doubts() const {
   auto block = il::strange_block(program_);
   if (block.empty()) return {};
-  return {{std::move(block)}};
+  return {{"program.block-elsewhere"_code, std::move(block)}};
 }
 
 }  // namespace drycut::devices::lx3vp

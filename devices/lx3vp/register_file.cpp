@@ -53,18 +53,22 @@ class RowReader {
     const bool first = std::exchange(first_, false);
     const std::size_t at = content.find(separator_);
     if (at == std::string_view::npos)
-      return complain(content, fmt::format("no '{}' in '{}'", separator_, shown(content)), row_text());
+      return complain("registers.value"_code, content,
+                      fmt::format("no '{}' in '{}'", separator_, shown(content)), row_text());
     const auto name_text = trimmed(content.substr(0, at));
     const auto value_text = trimmed(content.substr(at + 1));
     const auto name = parse_register(name_text);
     if (!name && first && value_text == "value") return;
-    if (!name) complain(name_text, fmt::format("'{}' is no register", shown(name_text)), register_text);
+    if (!name)
+      complain("registers.unknown-register"_code, name_text,
+               fmt::format("'{}' is no register", shown(name_text)), register_text);
     if (name && !is_served(*name))
-      complain(name_text, fmt::format("{} is not simulated", to_string(*name)),
+      complain("registers.unknown-register"_code, name_text,
+               fmt::format("{} is not simulated", to_string(*name)),
                "there are " + served_specials(letter_of(*name)));
     const auto value = read_number(value_text);
     if (!value)
-      complain(value_text, fmt::format("'{}' is no number", shown(value_text)),
+      complain("registers.value"_code, value_text, fmt::format("'{}' is no number", shown(value_text)),
                "write 5, -5, K5, H1F or 1.5");
     if (name && value) take(name_text, *name, value_text, *value);
   }
@@ -78,18 +82,20 @@ class RowReader {
     return fmt::format("write register{0}value: D10{0}5", separator_);
   }
 
-  void complain(std::string_view at, std::string what, std::string_view remedy) {
-    problems_.push_back({file_, number_, static_cast<int>(at.data() - line_.data()) + 1, std::move(what),
-                         std::string(remedy)});
+  void complain(Code code, std::string_view at, std::string what, std::string_view remedy) {
+    problems_.push_back({code, file_, number_, static_cast<int>(at.data() - line_.data()) + 1,
+                         std::move(what), std::string(remedy)});
   }
 
   void take(std::string_view name_text, const RegisterName& name, std::string_view value_text, double value) {
     if (name.kind == Kind::x)
-      return complain(name_text, fmt::format("{} is an input", to_string(name)),
+      return complain("registers.value"_code, name_text, fmt::format("{} is an input", to_string(name)),
                       "wire it to a plug of a plant");
-    if (const auto fault = misfit(name, value)) return complain(value_text, fault->what, fault->remedy);
+    if (const auto fault = misfit(name, value))
+      return complain(fault->code, value_text, fault->what, fault->remedy);
     if (const int line = given(name); line > 0)
-      return complain(name_text, fmt::format("{} is given in line {} already", to_string(name), line),
+      return complain("registers.twice"_code, name_text,
+                      fmt::format("{} is given in line {} already", to_string(name), line),
                       "keep one of them");
     values_.push_back({name, value, number_});
   }

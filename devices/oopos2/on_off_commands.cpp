@@ -50,7 +50,7 @@ void OnOffPositioner::execute(int command) {
 std::int64_t OnOffPositioner::clamped(std::int64_t tenths, std::string_view subject, std::int32_t quota) {
   const std::int64_t held = within_limits(tenths);
   if (held != tenths)
-    report({Diagnostic::Kind::note, std::string(subject),
+    report({Diagnostic::Kind::warning, std::string(subject),
             fmt::format("setpos {} plus tool is outside minpos..maxpos, the axis goes to {}", quota,
                         held / 10)});
   return held;

@@ -57,7 +57,7 @@ void OnOffPositioner::retarget() {
   const std::int64_t tenths = clamped(std::int64_t{value("setpos")} * 10 + tool_, "setpos", value("setpos"));
   const Legs legs = legs_to(tenths, movement_.leg().backward, movement_.overshooting());
   if (!movement_.retarget(position(), legs.overshoot, legs.last)) {
-    report({Diagnostic::Kind::note, "setpos",
+    report({Diagnostic::Kind::warning, "setpos",
             "kept for the next START: the running placement is in its slow range or would have to turn"});
     return;
   }

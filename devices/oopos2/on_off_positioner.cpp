@@ -98,7 +98,7 @@ void OnOffPositioner::movement_ended() {
     recalculate_inertia(hit);
     set_state("st_toll", hit);
     if (!movement_.driven() && !hit)
-      report({Diagnostic::Kind::note, search_ == Search::none ? "setpos" : "prspos",
+      report({Diagnostic::Kind::warning, search_ == Search::none ? "setpos" : "prspos",
               fmt::format("no output was switched on, the quota {} is within the inertia range",
                           static_cast<double>(target_) / 10)});
   }
@@ -136,7 +136,7 @@ void OnOffPositioner::note_held_inertia(VariableRow variable, std::int64_t coast
   bool& noted = inertia_noted_.at(static_cast<std::size_t>(variable - VariableRow("iner01")));
   if (coasted <= largest_inertia || noted) return;
   noted = true;
-  report({Diagnostic::Kind::note, std::string(name_of(variable)),
+  report({Diagnostic::Kind::warning, std::string(name_of(variable)),
           fmt::format("the way coasted would be {} Um/10, held at {}", coasted, largest_inertia)});
 }
 
@@ -168,7 +168,7 @@ void OnOffPositioner::put(FieldRow field, bool level) {
   }
   output.level = output.terminal->level = level;
   if (output.turn.take(output.terminal->driver))
-    report({Diagnostic::Kind::note, std::string(table::fields[field].name),
+    report({Diagnostic::Kind::warning, std::string(table::fields[field].name),
             "another device drives the same output; of devices that share one, all but one need REGOFF"});
 }
 

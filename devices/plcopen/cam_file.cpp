@@ -72,12 +72,14 @@ class CamReader {
         separator = line.find(';') != std::string_view::npos ? ';' : ',';
         cam_.table.type = type_of(split(line, number, separator));
         if (cam_.table.type == 0)
-          return reader_.fault(whole.place, fmt::format("unknown header '{}'", whole.text), columns);
+          return reader_.fault("cam.unknown-key"_code, whole.place,
+                               fmt::format("unknown header '{}'", whole.text), columns);
       } else {
         reader_.row(cam_.table, split(line, number, separator), separator == ';');
       }
     }
-    if (!header) reader_.fault({std::max(number, 1), 1}, "there is no header", columns);
+    if (!header)
+      reader_.fault("cam.unknown-key"_code, {std::max(number, 1), 1}, "there is no header", columns);
   }
 
   /// The table's type by its header; 0 if it is none.
@@ -113,7 +115,7 @@ class CamReader {
       return;
     }
     if (const auto [first, is_new] = seen_.try_emplace(name, line); !is_new)
-      return reader_.fault(key.place, fmt::format("a second {}", name),
+      return reader_.fault("cam.twice"_code, key.place, fmt::format("a second {}", name),
                            fmt::format("the first is in line {}", first->second));
     take(name, value);
   }
@@ -122,7 +124,7 @@ class CamReader {
     const std::string guess = nearest(lower(key.text), known);
     std::string all;
     for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
-    reader_.fault(key.place, fmt::format("unknown key '{}'", key.text),
+    reader_.fault("cam.unknown-key"_code, key.place, fmt::format("unknown key '{}'", key.text),
                   (guess.empty() ? "known are " + all : fmt::format("did you mean {}?", guess)) +
                       "; a remark begins with ##");
   }
@@ -159,7 +161,8 @@ class CamReader {
   void take_interpolation(const Word& value) {
     const std::optional<Interpolation> type = parse_interpolation(value.text);
     if (!type || *type == Interpolation::table_defined)
-      reader_.fault(value.place, fmt::format("'{}' is no interpolation (error 42006)", value.text),
+      reader_.fault("cam.interpolation"_code, value.place,
+                    fmt::format("'{}' is no interpolation (error 42006)", value.text),
                     "write STEP_DIRECT, LINEAR, POLYNOM_3, POLYNOM_3_KOEFF, LINE_POLY5 or POLY5_LINE");
     cam_.interpolation = type.value_or(Interpolation::linear);
   }
@@ -171,7 +174,8 @@ class CamReader {
     std::string all;
     for (std::size_t i = 0; i < choice.size(); ++i)
       all += (i == 0 ? "" : i + 1 == choice.size() ? " or " : ", ") + choice[i];
-    reader_.fault(value.place, fmt::format("{} cannot be '{}'", name, value.text), "write " + all);
+    reader_.fault("cam.value"_code, value.place, fmt::format("{} cannot be '{}'", name, value.text),
+                  "write " + all);
     return choice.front();
   }
 
@@ -291,7 +295,8 @@ std::optional<CamFile> parse_cam_csv(std::string_view text, const std::string& f
     if (fits) break;
   }
   for (const CamRefusal& refusal : refused)
-    problems.push_back({file, refusal.row == 0 ? cam->header : cam->lines[refusal.row - 1], 1,
+    problems.push_back({"cam.refused-by-device"_code, file,
+                        refusal.row == 0 ? cam->header : cam->lines[refusal.row - 1], 1,
                         fmt::format("error {}{}: {}", static_cast<unsigned>(refusal.error), behind,
                                     meaning_of(refusal.error)),
                         refusal.remedy});

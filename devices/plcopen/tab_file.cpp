@@ -24,28 +24,30 @@ void header_line(TableReader& reader, McCamTable& table, std::map<std::string, i
                                   [&](const std::string& candidate) { return lower(candidate) == name; });
   if (known == tab_keys().end()) {
     const std::string guess = nearest(key.text, tab_keys());
-    return reader.fault(key.place, fmt::format("unknown key '{}'", key.text),
+    return reader.fault("cam.unknown-key"_code, key.place, fmt::format("unknown key '{}'", key.text),
                         guess.empty() ? "known are Tablename, Tabletype, Table-ID, Functiontype, Lines"
                                       : fmt::format("did you mean {}?", guess));
   }
   if (sign == std::string_view::npos)
-    return reader.fault(key.place, fmt::format("'{}' without a value", key.text),
+    return reader.fault("cam.missing"_code, key.place, fmt::format("'{}' without a value", key.text),
                         fmt::format("write {} = ...", *known));
   if (const auto [first, is_new] = seen.try_emplace(name, number); !is_new)
-    return reader.fault(key.place, fmt::format("a second {}", *known),
+    return reader.fault("cam.twice"_code, key.place, fmt::format("a second {}", *known),
                         fmt::format("the first is in line {}", first->second));
   const Word value = word_at(line, number, sign + 1, line.size());
   if (name == "tablename") {
     table.name = value.text;
   } else if (name == "tabletype") {
     table.type = reader.whole(value, 1, 7).value_or(0);
-    if (table.type == 6) reader.fault(value.place, "type 6 is of the maker only", "use 1..5 or 7");
+    if (table.type == 6)
+      reader.fault("cam.table-form"_code, value.place, "type 6 is of the maker only", "use 1..5 or 7");
   } else if (name == "table-id") {
     table.id = static_cast<std::uint16_t>(reader.whole(value, 1, 65535).value_or(0));
   } else if (name == "functiontype") {
     const std::optional<Interpolation> type = parse_interpolation(value.text);
     if (!type || *type == Interpolation::table_defined)
-      reader.fault(value.place, fmt::format("'{}' is no interpolation (error 42006)", value.text),
+      reader.fault("cam.interpolation"_code, value.place,
+                   fmt::format("'{}' is no interpolation (error 42006)", value.text),
                    "write 0 STEP_DIRECT .. 5 POLY5_LINE");
     table.interpolation = type.value_or(Interpolation::table_defined);
   } else if (name == "lines") {
@@ -71,7 +73,7 @@ std::optional<McCamTable> parse_tab(std::string_view text, const std::string& fi
     if (words.empty()) continue;
     const std::string first = lower(words.front().text);
     if (part == Part::after) {
-      reader.fault(words.front().place, "text after EndTable", "take it away");
+      reader.fault("cam.table-form"_code, words.front().place, "text after EndTable", "take it away");
       break;
     }
     if (part == Part::rows && first == "endtable") {
@@ -83,18 +85,21 @@ std::optional<McCamTable> parse_tab(std::string_view text, const std::string& fi
       part = Part::rows;
       for (const char* key : {"tabletype", "table-id", "lines"})
         if (!seen.contains(key))
-          reader.fault(words.front().place, fmt::format("{} is missing above", key), "write it");
+          reader.fault("cam.missing"_code, words.front().place, fmt::format("{} is missing above", key),
+                       "write it");
     } else {
       header_line(reader, table, seen, count, line, number);
     }
   }
   if (part == Part::header)
-    reader.fault({std::max(number, 1), 1}, "Begintable is missing", "write it above the rows");
+    reader.fault("cam.missing"_code, {std::max(number, 1), 1}, "Begintable is missing",
+                 "write it above the rows");
   if (part == Part::rows)
-    reader.fault({std::max(number, 1), 1}, "EndTable is missing", "write it below the rows");
+    reader.fault("cam.missing"_code, {std::max(number, 1), 1}, "EndTable is missing",
+                 "write it below the rows");
   if (part != Part::header && count >= 0 && rows != count)
-    reader.fault({seen.at("lines"), 1}, fmt::format("Lines = {}, but there are {}", count, rows),
-                 fmt::format("write {}", rows));
+    reader.fault("cam.table-form"_code, {seen.at("lines"), 1},
+                 fmt::format("Lines = {}, but there are {}", count, rows), fmt::format("write {}", rows));
   if (!reader.sound()) return std::nullopt;
   if (lines != nullptr) *lines = reader.rows();
   return table;

@@ -24,7 +24,7 @@ class TableReader : private Complaints {
  public:
   using Complaints::Complaints;
 
-  void fault(Place place, std::string what, std::string remedy);
+  void fault(Code code, Place place, std::string what, std::string remedy);
   [[nodiscard]] bool sound() const { return faults_ == 0; }
   /// A line of numbers of the table's type.
   void row(McCamTable& table, const Words& words, bool decimal_comma);

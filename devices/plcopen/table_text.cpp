@@ -36,8 +36,8 @@ std::optional<double> number_of(std::string_view text, bool decimal_comma) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-void TableReader::fault(Place place, std::string what, std::string remedy) {
-  complain(place, std::move(what), std::move(remedy));
+void TableReader::fault(Code code, Place place, std::string what, std::string remedy) {
+  complain(code, place, std::move(what), std::move(remedy));
   ++faults_;
 }
 
@@ -45,7 +45,7 @@ void TableReader::row(McCamTable& table, const Words& words, bool decimal_comma)
   const TableType* type = table_type(table.type);
   if (type == nullptr || type->columns == 0) return;
   if (static_cast<int>(words.size()) != type->columns)
-    return fault(words.front().place, fmt::format("{} numbers", words.size()),
+    return fault("cam.value"_code, words.front().place, fmt::format("{} numbers", words.size()),
                  fmt::format("a line of type {} ({}) has {}{}", type->number, type->meaning, type->columns,
                              words.front().text.find(';') != std::string::npos ? ", with commas between them"
                              : type->columns > 1 && static_cast<int>(words.size()) == 2 * type->columns
@@ -55,10 +55,10 @@ void TableReader::row(McCamTable& table, const Words& words, bool decimal_comma)
   for (const Word& word : words) {
     const std::optional<double> value = number_of(word.text, decimal_comma);
     if (!value) {
-      fault(word.place, fmt::format("'{}' is no number", word.text), "write digits");
+      fault("cam.value"_code, word.place, fmt::format("'{}' is no number", word.text), "write digits");
     } else if (type->whole &&
                (*value != std::round(*value) || *value > type->limit || *value < -type->limit - 1)) {
-      fault(word.place, fmt::format("{} does not fit {}", word.text, type->meaning),
+      fault("cam.value"_code, word.place, fmt::format("{} does not fit {}", word.text, type->meaning),
             fmt::format("write a whole number, {} to {}", -type->limit - 1, type->limit));
     }
     table.values.push_back(value.value_or(0));
@@ -67,8 +67,9 @@ void TableReader::row(McCamTable& table, const Words& words, bool decimal_comma)
 
 void TableReader::out_of_range(const Word& word, std::string remedy) {
   if (word.text.find("${") == std::string::npos)
-    return fault(word.place, fmt::format("'{}' is out of range", word.text), std::move(remedy));
-  fault(word.place, fmt::format("'{}' has its value from a scenario", word.text),
+    return fault("cam.value"_code, word.place, fmt::format("'{}' is out of range", word.text),
+                 std::move(remedy));
+  fault("cam.table-form"_code, word.place, fmt::format("'{}' has its value from a scenario", word.text),
         "name it: drycut cam --scene SCENARIO.yaml");
 }
 

@@ -38,7 +38,7 @@ void QclCompiler::open_condition(Block::Kind kind) {
 void QclCompiler::else_block() {
   const Place place = take().place;
   if (!blocks_.empty() && blocks_.back().kind == Block::Kind::else_) {
-    complain(place, "a second ELSE in one IF",
+    complain("qcl.twice"_code, place, "a second ELSE in one IF",
              fmt::format("the IF of line {} has its ELSE in line {}", blocks_.back().place.line,
                          blocks_.back().here.line));
     return;
@@ -71,7 +71,7 @@ void QclCompiler::for_block() {
   const NamedThing* variable = nullptr;
   if (expect("(", form)) {
     if (peek().kind != QclToken::Kind::name)
-      syntax_error(peek(), "FOR begins with an assignment, found " + found(peek()), form);
+      syntax_error("qcl.syntax"_code, peek(), "FOR begins with an assignment, found " + found(peek()), form);
     else
       variable = assignment();
   }
@@ -101,7 +101,9 @@ void QclCompiler::for_step(const NamedThing* variable, const std::string& form) 
     return;
   }
   const bool counts = variable && variable->kind == NamedThing::Kind::scalar;
-  if (!counts) return syntax_error(peek(), "a step without assignment needs a plain variable to count", form);
+  if (!counts)
+    return syntax_error("qcl.syntax"_code, peek(),
+                        "a step without assignment needs a plain variable to count", form);
   const int begin = here();
   emit(QclOp::load, variable->index);
   const Type type = expression();
@@ -118,7 +120,7 @@ void QclCompiler::sub_block() {
   const QclToken* name = name_operand("SUB <name>");
   const bool nested = std::any_of(blocks_.begin(), blocks_.end(),
                                   [](const Block& block) { return block.kind == Block::Kind::sub; });
-  if (nested) complain(place, "SUB inside a SUB", "close the first with ENDSUB");
+  if (nested) complain("qcl.block"_code, place, "SUB inside a SUB", "close the first with ENDSUB");
   // Statements that come to a SUB pass it by; only CALL enters.
   blocks_.push_back({Block::Kind::sub, place, place, emit(QclOp::jump), 0});
   if (!name) return;
@@ -134,7 +136,7 @@ std::optional<QclCompiler::Block> QclCompiler::close(std::string_view closing, B
   });
   if (found == blocks_.rend()) {
     const std::string_view first = words_of(kind).opens;
-    complain(tokens_.front().place, fmt::format("{} without {}", closing, first),
+    complain("qcl.block"_code, tokens_.front().place, fmt::format("{} without {}", closing, first),
              fmt::format("no {} is open here; remove it or write the missing {}", first, first));
     return std::nullopt;
   }
@@ -149,7 +151,7 @@ std::optional<QclCompiler::Block> QclCompiler::close(std::string_view closing, B
 
 void QclCompiler::unclosed(const Block& block) {
   const auto& [opens, closes] = words_of(block.kind);
-  complain(block.place, fmt::format("{} without {}", opens, closes),
+  complain("qcl.block"_code, block.place, fmt::format("{} without {}", opens, closes),
            fmt::format("write {} at the end of its block", closes));
 }
 
@@ -164,7 +166,7 @@ void QclCompiler::define(Targets& targets, std::string_view what, const QclToken
   if (is_new)
     targets.names.emplace_back(name.text);
   else
-    complain(name.place, fmt::format("the {} {} stands twice", what, in_quotes(name.text)),
+    complain("qcl.twice"_code, name.place, fmt::format("the {} {} stands twice", what, in_quotes(name.text)),
              fmt::format("the first is in line {}; rename one", target->second.place.line));
 }
 
@@ -179,7 +181,7 @@ void QclCompiler::resolve(const Targets& targets, std::string_view what, std::st
   for (const Reference& use : targets.uses) {
     const auto found = targets.places.find(lower(use.name));
     if (found == targets.places.end())
-      complain(use.place, fmt::format("unknown {} {}", what, in_quotes(use.name)),
+      complain("qcl.unknown-name"_code, use.place, fmt::format("unknown {} {}", what, in_quotes(use.name)),
                suggestion(use.name, targets.names, fmt::format(fmt::runtime(remedy), use.name)));
     else
       program_.code[static_cast<std::size_t>(use.code)].a = found->second.code;

@@ -69,7 +69,8 @@ Configuration CnfParser::parse(std::string_view text) {
   }
   close_groups();
   if (section_ != Section::end)
-    complain(last_, "the configuration has no END", "write END on a line of its own after the last entry");
+    complain("cnf.syntax"_code, last_, "the configuration has no END",
+             "write END on a line of its own after the last entry");
   check_bus();
   sort();
   return std::move(configuration_);
@@ -83,7 +84,8 @@ bool CnfParser::keyword(const Words& words) {
   });
   if (found == keywords().end()) return false;
   if (words.size() > 1)
-    complain(words[1].place, fmt::format("unexpected {} after {}", in_quotes(words[1].text), found->word),
+    complain("cnf.syntax"_code, words[1].place,
+             fmt::format("unexpected {} after {}", in_quotes(words[1].text), found->word),
              fmt::format("{} stands alone on its line, entries below it", found->word));
   close_groups();
   section_ = found->section;
@@ -98,14 +100,14 @@ void CnfParser::entry(const Words& words) {
   if (section_ != Section::end && words.size() == 1 && !lone_name_is_entry && is_identifier(words[0].text) &&
       (section_ == Section::none || section_ == Section::unknown ||
        !nearest(words[0].text.substr(0, 40), section_names()).empty())) {
-    complain(words[0].place, "unknown section " + in_quotes(words[0].text),
+    complain("cnf.unknown-name"_code, words[0].place, "unknown section " + in_quotes(words[0].text),
              suggestion(words[0].text, section_names(), "sections are " + listed(section_names())));
     section_ = Section::unknown;
     return;
   }
   switch (section_) {
     case Section::none:
-      complain(words[0].place, in_quotes(words[0].text) + " stands before any section",
+      complain("cnf.syntax"_code, words[0].place, in_quotes(words[0].text) + " stands before any section",
                "begin with one of " + listed(section_names()) + ", or put ';' before a comment");
       section_ = Section::unknown;
       return;
@@ -135,7 +137,7 @@ void CnfParser::entry(const Words& words) {
       return device(words);
     case Section::end:
       if (!said_after_end_)
-        complain(words[0].place, in_quotes(words[0].text) + " stands after END",
+        complain("cnf.syntax"_code, words[0].place, in_quotes(words[0].text) + " stands after END",
                  "only comments may follow END; move END to the end of the file");
       said_after_end_ = true;
       return;
@@ -144,7 +146,8 @@ void CnfParser::entry(const Words& words) {
 
 void CnfParser::constant(const Words& words) {
   if (words.size() < 2) {
-    complain(words[0].place, in_quotes(words[0].text) + " has no value", "write: <name> <number>");
+    complain("cnf.syntax"_code, words[0].place, in_quotes(words[0].text) + " has no value",
+             "write: <name> <number>");
     return;
   }
   const bool extra = !no_more_than(words, 2, "<name> <number>");
@@ -156,7 +159,7 @@ void CnfParser::constant(const Words& words) {
   const std::string_view whole = number.substr(0, point);
   const std::string_view part = point == std::string_view::npos ? "0" : number.substr(point + 1);
   if (!digits(whole) || !digits(part)) {
-    complain(words[1].place, in_quotes(text) + " is not a number",
+    complain("cnf.syntax"_code, words[1].place, in_quotes(text) + " is not a number",
              "write a decimal number, such as 100 or -2.5");
     return;
   }
@@ -167,7 +170,7 @@ void CnfParser::constant(const Words& words) {
   const double lowest = constant.real ? -std::numeric_limits<float>::max() : -2147483648.0;
   const double highest = constant.real ? std::numeric_limits<float>::max() : 2147483647.0;
   if (constant.value < lowest || constant.value > highest) {
-    complain(words[1].place, in_quotes(text) + " is out of range",
+    complain("cnf.value"_code, words[1].place, in_quotes(text) + " is out of range",
              constant.real ? "a single goes to 3.4e38" : "a long goes from -2147483648 to 2147483647");
     return;
   }
@@ -176,7 +179,7 @@ void CnfParser::constant(const Words& words) {
 
 void CnfParser::scalar(const Words& words, bool retentive) {
   if (words.size() < 2) {
-    complain(words[0].place, in_quotes(words[0].text) + " has no type",
+    complain("cnf.syntax"_code, words[0].place, in_quotes(words[0].text) + " has no type",
              fmt::format("write: <name> <type>, the type is {}", sizes));
     return;
   }
@@ -189,7 +192,7 @@ void CnfParser::scalar(const Words& words, bool retentive) {
 
 void CnfParser::array(const Words& words, bool retentive) {
   if (words.size() < 3) {
-    complain(words[0].place,
+    complain("cnf.syntax"_code, words[0].place,
              fmt::format("{} has no {}", in_quotes(words[0].text), words.size() < 2 ? "type" : "length"),
              fmt::format("write: <name> <type> <length>, the type is {}", sizes));
     return;
@@ -211,14 +214,14 @@ void CnfParser::slot(const Words& words) {
   const std::optional<std::int64_t> number = digits(words[0].text);
   if (!number || *number < 1 || *number > max_slot) {
     bus_faulty_ = true;
-    complain(words[0].place, in_quotes(words[0].text) + " is not a slot number",
+    complain("cnf.value"_code, words[0].place, in_quotes(words[0].text) + " is not a slot number",
              fmt::format("write: <slot> <card> <firmware>, the slot from 1 to {}", max_slot));
     return;
   }
   const auto same = std::find_if(configuration_.slots.begin(), configuration_.slots.end(),
                                  [&](const Slot& other) { return other.number == *number; });
   if (same != configuration_.slots.end()) {
-    complain(words[0].place, fmt::format("slot {} is declared twice", *number),
+    complain("cnf.declared-twice"_code, words[0].place, fmt::format("slot {} is declared twice", *number),
              fmt::format("the first stands in line {}", same->place.line));
     return;
   }
@@ -228,7 +231,8 @@ void CnfParser::slot(const Words& words) {
   if (!empty) {
     slot.card = words[1].text;
     if (words.size() < 3)
-      complain(words[1].place, fmt::format("the card {} has no firmware number", in_quotes(words[1].text)),
+      complain("cnf.syntax"_code, words[1].place,
+               fmt::format("the card {} has no firmware number", in_quotes(words[1].text)),
                "write: <slot> <card> <firmware>, such as 1 1CPUB 02");
     else
       slot.firmware = words[2].text;
@@ -239,7 +243,7 @@ void CnfParser::slot(const Words& words) {
 void CnfParser::terminal(const Words& words, Kind kind) {
   const std::string form = fmt::format("<name> F <slot>.{}nn", kind == Kind::input ? "INP" : "OUT");
   if (words.size() < 3) {
-    complain(words[0].place,
+    complain("cnf.syntax"_code, words[0].place,
              fmt::format("{} has no {}", in_quotes(words[0].text), words.size() < 2 ? "type" : "address"),
              "write: " + form);
     return;
@@ -248,11 +252,12 @@ void CnfParser::terminal(const Words& words, Kind kind) {
   const bool named = declare(words[0]);
   const std::optional<Size> type = size(words[1]);
   if (type && *type != Size::F)
-    complain(words[1].place, fmt::format("a {} is one bit, not {}", name_of(kind), in_quotes(words[1].text)),
+    complain("cnf.value"_code, words[1].place,
+             fmt::format("a {} is one bit, not {}", name_of(kind), in_quotes(words[1].text)),
              "its type is F");
   const std::optional<Address> address = parse_address(words[2].text);
   if (!address || address->kind != kind) {
-    complain(words[2].place,
+    complain("cnf.value"_code, words[2].place,
              fmt::format("{} is not the address of a {}", in_quotes(words[2].text), name_of(kind)),
              "write: " + form);
     return;
@@ -266,7 +271,7 @@ void CnfParser::terminal(const Words& words, Kind kind) {
 
 bool CnfParser::no_more_than(const Words& words, std::size_t count, const std::string& form) {
   if (words.size() <= count) return true;
-  complain(words[count].place, "unexpected " + in_quotes(words[count].text),
+  complain("cnf.syntax"_code, words[count].place, "unexpected " + in_quotes(words[count].text),
            "write: " + form + "; one entry a line, comments after ';'");
   return false;
 }
@@ -274,17 +279,18 @@ bool CnfParser::no_more_than(const Words& words, std::size_t count, const std::s
 // Enters a name; false if it cannot be one or is taken, which is then said.
 bool CnfParser::declare(const Word& name) {
   if (!is_identifier(name.text)) {
-    complain(name.place, in_quotes(name.text) + " is not a name",
+    complain("cnf.syntax"_code, name.place, in_quotes(name.text) + " is not a name",
              "a name is letters, digits and _ and begins with a letter");
     return false;
   }
   if (is_reserved(name.text) || same_word(name.text, "QMOS")) {
-    complain(name.place, in_quotes(name.text) + " is a word of the language", "choose another name");
+    complain("cnf.syntax"_code, name.place, in_quotes(name.text) + " is a word of the language",
+             "choose another name");
     return false;
   }
   const auto [entry, is_new] = declared_.emplace(lower(name.text), name.place);
   if (!is_new)
-    complain(name.place, in_quotes(name.text) + " is declared twice",
+    complain("cnf.declared-twice"_code, name.place, in_quotes(name.text) + " is declared twice",
              fmt::format("the first stands in line {}; choose another name", entry->second.line));
   return is_new;
 }
@@ -293,14 +299,15 @@ std::optional<Size> CnfParser::size(const Word& word) {
   constexpr std::string_view letters = "FBWLS";
   if (word.text.size() == 1 && letters.find(upper(word.text)[0]) != std::string_view::npos)
     return static_cast<Size>(upper(word.text)[0]);
-  complain(word.place, "unknown type " + in_quotes(word.text), fmt::format("the type is {}", sizes));
+  complain("cnf.unknown-name"_code, word.place, "unknown type " + in_quotes(word.text),
+           fmt::format("the type is {}", sizes));
   return std::nullopt;
 }
 
 std::optional<int> CnfParser::count(const Word& word, std::string_view of_what) {
   const std::optional<std::int64_t> value = digits(word.text);
   if (!value || *value < 1 || *value > max_count) {
-    complain(word.place, fmt::format("{} cannot be {}", in_quotes(word.text), of_what),
+    complain("cnf.value"_code, word.place, fmt::format("{} cannot be {}", in_quotes(word.text), of_what),
              fmt::format("write a whole number from 1 to {}", max_count));
     return std::nullopt;
   }
@@ -311,7 +318,7 @@ std::optional<int> CnfParser::count(const Word& word, std::string_view of_what) 
 bool CnfParser::reserve(std::int64_t cells, const Word& word) {
   if (cells_ + cells > max_cells) {
     complain(
-        word.place,
+        "cnf.value"_code, word.place,
         fmt::format("{} does not fit: {} values are declared with it", in_quotes(word.text), cells_ + cells),
         fmt::format("a configuration holds at most {} values", max_cells));
     return false;

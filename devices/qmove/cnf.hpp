@@ -103,7 +103,7 @@ struct Configuration {
   std::vector<Terminal> inputs;
   std::vector<Terminal> outputs;
   std::vector<DeviceRecord> devices;
-  std::vector<std::string> notes;  ///< what a reader should know that is no fault: "file:line:column: ..."
+  std::vector<Finding> notes;  ///< what a reader should know that is no fault: "file:line:column: ..."
 };
 
 /// Reads a .CNF text. `file_name` is only for messages. Device types are those of `catalogue`, which the

@@ -46,7 +46,7 @@ int most_terminals(Kind kind) { return kind == Kind::counter || kind == Kind::an
 void CnfParser::device(const Words& words) {
   const bool named = declare(words[0]);
   if (words.size() < 2) {
-    complain(words[0].place, in_quotes(words[0].text) + " has no device type",
+    complain("cnf.syntax"_code, words[0].place, in_quotes(words[0].text) + " has no device type",
              "write: <name> <type> <fields>");
     return;
   }
@@ -64,7 +64,7 @@ void CnfParser::device(const Words& words) {
   if (fields.size() != type.fields.size()) {
     const bool missing = fields.size() < type.fields.size();
     const Word& at = missing ? words.back() : fields[type.fields.size()];
-    complain(at.place,
+    complain("cnf.syntax"_code, at.place,
              fmt::format("{} {} has {} fields after its name and type, found {}", type.name,
                          in_quotes(words[0].text), type.fields.size(), fields.size()),
              "write: " + form_of(type));
@@ -78,10 +78,11 @@ void CnfParser::device(const Words& words) {
       for (std::size_t j = 0; j < i; ++j)
         if (record.resources[j].address == found->address)
           // The manual's own start-up example does it (000 1.1.1.1).
-          configuration_.notes.push_back(fmt::format("{}:{}:{}: {} and {} of {} are the same counter, {}",
-                                                     file_, fields[i].place.line, fields[i].place.column,
-                                                     type.fields[j].name, type.fields[i].name, words[0].text,
-                                                     fields[i].text));
+          configuration_.notes.emplace_back(
+              "cnf.same-counter"_code,
+              fmt::format("{}:{}:{}: {} and {} of {} are the same counter, {}", file_, fields[i].place.line,
+                          fields[i].place.column, type.fields[j].name, type.fields[i].name, words[0].text,
+                          fields[i].text));
     record.resources.push_back(found.value_or(Resource{}));
   }
   // A record with a fault stays, so that modules that name the device are still checked.
@@ -95,7 +96,7 @@ std::optional<std::size_t> CnfParser::device_type(const Word& word) {
     if (same_word(catalogue_[i].type->name, word.text)) return i;
     names.emplace_back(catalogue_[i].type->name);
   }
-  complain(word.place, "unknown device type " + in_quotes(word.text),
+  complain("cnf.unknown-name"_code, word.place, "unknown device type " + in_quotes(word.text),
            suggestion(word.text, names, "known types are " + listed(names)));
   return std::nullopt;
 }
@@ -108,7 +109,7 @@ std::optional<Resource> CnfParser::resource(const Field& field, const Word& word
   const TerminalKind wanted = terminal_kind(field.kind);
   const std::optional<Address> address = parse_address(word.text);
   if (!address || address->kind != wanted.kind) {
-    complain(word.place,
+    complain("cnf.syntax"_code, word.place,
              fmt::format("{} of {}: {} is {}", field.name, type.name, in_quotes(word.text),
                          address ? article(name_of(address->kind)) : "no address"),
              fmt::format("write the address of {} such as {}, or X.X if unused",
@@ -124,7 +125,7 @@ std::optional<Resource> CnfParser::resource(const Field& field, const Word& word
 void CnfParser::sole_output(const Address& address, const Word& word) {
   const auto [first, fresh] = outputs_.emplace(address, word.place);
   if (!fresh)
-    complain(word.place, fmt::format("{} is taken already", in_quotes(word.text)),
+    complain("cnf.declared-twice"_code, word.place, fmt::format("{} is taken already", in_quotes(word.text)),
              fmt::format("the first stands in line {}; an output has one name or one device that works it",
                          first->second.line));
 }
@@ -136,7 +137,8 @@ std::optional<Resource> CnfParser::number_resource(const Field& field, const Wor
   const std::optional<int> value = parsed<int>(word.text);
   if (!value || *value < field.min || *value > field.max) {
     complain(
-        word.place, fmt::format("{} of {} cannot be {}", field.name, type.name, in_quotes(word.text)),
+        "cnf.value"_code, word.place,
+        fmt::format("{} of {} cannot be {}", field.name, type.name, in_quotes(word.text)),
         line ? fmt::format("write an interrupt line from {} to {}, or X if unused", field.min, field.max)
         : field.kind == Field::Kind::port
             ? fmt::format("write the number of a communication port, from {} to {}", field.min, field.max)
@@ -151,22 +153,25 @@ void CnfParser::check_bus() {
   if (!bus_seen_) return;
   const auto is_cpu = [](const Slot& slot) { return upper(slot.card).find("CPU") != std::string::npos; };
   if (!bus_faulty_ && std::none_of(configuration_.slots.begin(), configuration_.slots.end(), is_cpu))
-    complain(bus_place_, "BUS has no CPU card", "the CPU stands in slot 1: 1 1CPUB 02");
+    complain("cnf.value"_code, bus_place_, "BUS has no CPU card", "the CPU stands in slot 1: 1 1CPUB 02");
   for (const SlotUse& use : slot_uses_) {
     const auto address = parse_address(use.word.text);
     const int most = most_terminals(address->kind);
     if (address->number > most)
-      complain(use.word.place, fmt::format("{}: no card has so many", in_quotes(use.word.text)),
+      complain("cnf.value"_code, use.word.place,
+               fmt::format("{}: no card has so many", in_quotes(use.word.text)),
                fmt::format("{} of a card is {} to {}", article(name_of(address->kind)), 1, most));
   }
   for (const SlotUse& use : slot_uses_) {
     const auto found = std::find_if(configuration_.slots.begin(), configuration_.slots.end(),
                                     [&](const Slot& slot) { return slot.number == use.slot; });
     if (found == configuration_.slots.end())
-      complain(use.word.place, fmt::format("{}: BUS has no slot {}", in_quotes(use.word.text), use.slot),
+      complain("cnf.value"_code, use.word.place,
+               fmt::format("{}: BUS has no slot {}", in_quotes(use.word.text), use.slot),
                "use a slot that BUS gives a card, or add it to BUS");
     else if (found->card.empty())
-      complain(use.word.place, fmt::format("{}: slot {} is empty", in_quotes(use.word.text), use.slot),
+      complain("cnf.value"_code, use.word.place,
+               fmt::format("{}: slot {} is empty", in_quotes(use.word.text), use.slot),
                fmt::format("use a slot with a card, or put a card into line {}", found->place.line));
   }
 }

@@ -14,7 +14,7 @@ void CnfParser::group_line(const Words& words) {
   const bool is_steps = same_word(words[0].text, "STEP");
   if (group_part_ == GroupPart::name) {
     if (is_recipes || is_steps) {
-      complain(words[0].place, upper(words[0].text) + " before the name of a datagroup",
+      complain("cnf.syntax"_code, words[0].place, upper(words[0].text) + " before the name of a datagroup",
                "write the datagroup's name on the line before DATAPROGRAM");
       group_part_ = is_recipes ? GroupPart::recipes : GroupPart::steps;
       configuration_.groups.push_back({{}, 0, 0, {}, {}, words[0].place});
@@ -32,12 +32,13 @@ void CnfParser::group_line(const Words& words) {
     return group_count(words, 1, GroupPart::stepped);
   }
   if (is_recipes || is_steps) {
-    complain(words[0].place, upper(words[0].text) + " out of place",
+    complain("cnf.syntax"_code, words[0].place, upper(words[0].text) + " out of place",
              "a datagroup is: name, DATAPROGRAM <recipes>, variables, STEP <steps>, variables");
     return;
   }
   if (group_part_ == GroupPart::recipes) {
-    complain(words[0].place, fmt::format("{} instead of DATAPROGRAM", in_quotes(words[0].text)),
+    complain("cnf.syntax"_code, words[0].place,
+             fmt::format("{} instead of DATAPROGRAM", in_quotes(words[0].text)),
              "write DATAPROGRAM <recipes> after the datagroup's name");
     group_part_ = GroupPart::statics;
   }
@@ -73,7 +74,7 @@ void CnfParser::group_count(const Words& words, std::size_t first, GroupPart nex
 
 void CnfParser::group_variable(const Words& words) {
   if (words.size() < 2) {
-    complain(words[0].place, in_quotes(words[0].text) + " has no type",
+    complain("cnf.syntax"_code, words[0].place, in_quotes(words[0].text) + " has no type",
              "write: <name> <type>, the type is F, B, W, L or S");
     return;
   }
@@ -94,13 +95,13 @@ void CnfParser::close_groups() {
   if (configuration_.groups.empty()) return;
   DataGroup& group = configuration_.groups.back();
   if (group_part_ == GroupPart::recipes)
-    complain(group.place,
+    complain("cnf.syntax"_code, group.place,
              fmt::format("the datagroup {} has no DATAPROGRAM{}", in_quotes(group.name),
                          group.recipes == -1 ? " count" : ""),
              "write DATAPROGRAM <recipes> below its name");
   if (group_part_ == GroupPart::steps)
-    complain(group.place, fmt::format("the datagroup {} has no STEP count", in_quotes(group.name)),
-             "write STEP <steps>");
+    complain("cnf.syntax"_code, group.place,
+             fmt::format("the datagroup {} has no STEP count", in_quotes(group.name)), "write STEP <steps>");
   group.recipes = std::max(group.recipes, 0);
   group.steps = std::max(group.steps, 0);
   group_part_ = GroupPart::name;

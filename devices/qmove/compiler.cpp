@@ -62,7 +62,7 @@ QclProgram compile_module(std::string_view text, const std::string& file_name,
 }
 
 QclCompiler::QclCompiler(const std::string& file, const Configuration& configuration,
-                      std::span<const CatalogueEntry> catalogue, Problems& problems)
+                         std::span<const CatalogueEntry> catalogue, Problems& problems)
     : TokenReader(file, problems),
       configuration_(configuration),
       catalogue_(catalogue),
@@ -85,7 +85,8 @@ QclProgram QclCompiler::compile(std::string_view text) {
     if (here() > begin) mark(begin);
   }
   for (const Block& block : blocks_) unclosed(block);
-  if (!ended_) complain(last_, "the module has no END", "write END after its last statement");
+  if (!ended_)
+    complain("qcl.block"_code, last_, "the module has no END", "write END after its last statement");
   emit(QclOp::end);
   resolve(labels_, "label", "write {}: where it leads");
   resolve(subs_, "subroutine", "write SUB {} .. ENDSUB");
@@ -102,21 +103,25 @@ QclProgram QclCompiler::compile(std::string_view text) {
 
 bool QclCompiler::expect(std::string_view sign, const std::string& remedy) {
   if (accept(sign)) return true;
-  syntax_error(peek(), fmt::format("expected '{}', found {}", sign, found(peek())), remedy);
+  syntax_error("qcl.syntax"_code, peek(), fmt::format("expected '{}', found {}", sign, found(peek())),
+               remedy);
   return false;
 }
 
 void QclCompiler::end_of_statement() {
   if (peek().kind == QclToken::Kind::end) return;
   if (peek().is("="))
-    syntax_error(peek(), "unexpected '='", "EQ compares; an assignment stands alone on its line");
+    syntax_error("qcl.syntax"_code, peek(), "unexpected '='",
+                 "EQ compares; an assignment stands alone on its line");
   else
-    syntax_error(peek(), "unexpected " + found(peek()), "one statement a line, comments after ';'");
+    syntax_error("qcl.syntax"_code, peek(), "unexpected " + found(peek()),
+                 "one statement a line, comments after ';'");
 }
 
 // The rest of the line is given up: what follows a syntax fault would only be guessed at.
-void QclCompiler::syntax_error(const QclToken& at, std::string what, std::string remedy) {
-  if (!line_failed_ && at.kind != QclToken::Kind::bad) complain(at.place, std::move(what), std::move(remedy));
+void QclCompiler::syntax_error(Code code, const QclToken& at, std::string what, std::string remedy) {
+  if (!line_failed_ && at.kind != QclToken::Kind::bad)
+    complain(code, at.place, std::move(what), std::move(remedy));
   line_failed_ = true;
   at_ = stop_;
 }
@@ -128,7 +133,8 @@ std::string QclCompiler::found(const QclToken& token) {
 int QclCompiler::emit(QclOp op, int a, int b) {
   stack_ += stack_effect(op);
   if (stack_ > max_depth)
-    syntax_error(peek(), "the expression is nested too deep", "split it into several assignments");
+    syntax_error("qcl.syntax"_code, peek(), "the expression is nested too deep",
+                 "split it into several assignments");
   program_.code.push_back({op, a, b});
   program_.lines.push_back(last_.line);
   return here() - 1;

@@ -28,7 +28,7 @@ class QclCompiler : public TokenReader<QclToken> {
   // The present line (compiler.cpp).
   bool expect(std::string_view sign, const std::string& remedy);
   void end_of_statement();
-  void syntax_error(const QclToken& at, std::string what, std::string remedy);
+  void syntax_error(Code code, const QclToken& at, std::string what, std::string remedy);
   static std::string found(const QclToken& token);
 
   // Statements (statements.cpp).

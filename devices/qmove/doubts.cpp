@@ -20,7 +20,7 @@ struct Uses {
   std::set<int> written;
   Readers asked;
   std::set<int> started;
-  Readers read_by_index;        ///< the array's first cell: any of it
+  Readers read_by_index;       ///< the array's first cell: any of it
   std::set<int> set_by_index;  ///< the same
 };
 
@@ -67,7 +67,8 @@ void tell_twice_set(const ProgramText& program, std::vector<Controller::ProgramD
     const bool is_name = !target.empty() && target.find_first_of(" \t<>") == std::string::npos;
     const bool reads = is_name && lower(code.substr(at)).find(target) != std::string::npos;
     if (is_name && !reads && target == last)
-      found.push_back({fmt::format("{}:{}: {} was set just before: the first of the two does nothing",
+      found.push_back({"program.set-twice"_code,
+                       fmt::format("{}:{}: {} was set just before: the first of the two does nothing",
                                    program.file, number, trimmed(code.substr(0, at)))});
     last = is_name ? target : "";
   }
@@ -83,9 +84,10 @@ void tell_gaps(const NamedThing& array, const Uses& uses, std::vector<Controller
   if (static_cast<int>(gaps.size()) == cell_count(array)) return;  // the panel sets them all
   for (const int gap : gaps) {
     const auto name = fmt::format("{}[{}]", array.name, gap);
-    found.push_back({fmt::format("{}: {} is never set, other elements of {} are", reader->second, name,
-                                 array.name),
-                     name});
+    found.push_back(
+        {"program.never-set"_code,
+         fmt::format("{}: {} is never set, other elements of {} are", reader->second, name, array.name),
+         name});
   }
 }
 
@@ -101,7 +103,8 @@ std::vector<Controller::ProgramDoubt> QmoveController::doubts() const {
     const bool array = thing.kind == NamedThing::Kind::array;
     if (thing.kind == NamedThing::Kind::timer && uses.asked.contains(thing.index) &&
         !uses.started.contains(thing.index))
-      found.push_back({fmt::format("{}: the timer {} is asked, and no task starts it",
+      found.push_back({"program.never-started"_code,
+                       fmt::format("{}: the timer {} is asked, and no task starts it",
                                    uses.asked[thing.index], thing.name),
                        thing.name});
     if (thing.kind != NamedThing::Kind::scalar && !array) continue;
@@ -112,8 +115,9 @@ std::vector<Controller::ProgramDoubt> QmoveController::doubts() const {
     for (int cell = thing.index; cell < thing.index + cell_count(thing); ++cell) {
       if (!uses.read.contains(cell) || uses.written.contains(cell)) continue;
       const auto name = array ? fmt::format("{}[{}]", thing.name, cell - thing.index + 1) : thing.name;
-      found.push_back(
-          {fmt::format("{}: {} is read, and no task sets it: it stays 0", uses.read[cell], name), name});
+      found.push_back({"program.never-set"_code,
+                       fmt::format("{}: {} is read, and no task sets it: it stays 0", uses.read[cell], name),
+                       name});
     }
   }
   return found;

@@ -74,7 +74,8 @@ void QclCompiler::binary(std::size_t row, Type left, Type right, const QclToken&
   const QclOperator& found = operators[row];
   const bool any_real = left == Type::real || right == Type::real;
   if (found.operands == Operands::longs && any_real)
-    complain(op.place, fmt::format("{} works on whole numbers, one side is a single", found.spelling),
+    complain("qcl.type"_code, op.place,
+             fmt::format("{} works on whole numbers, one side is a single", found.spelling),
              "assign the single to a long first");
   if (found.operands == Operands::numbers && any_real) {
     if (left == Type::integer) emit(QclOp::to_real_below);
@@ -89,7 +90,8 @@ void QclCompiler::binary(std::size_t row, Type left, Type right, const QclToken&
 
 QclCompiler::Type QclCompiler::unary() {
   if (++nesting_ > max_depth)
-    syntax_error(peek(), "the expression is nested too deep", "split it into several assignments");
+    syntax_error("qcl.syntax"_code, peek(), "the expression is nested too deep",
+                 "split it into several assignments");
   Type type = Type::integer;
   if (accept("-")) {
     if (peek().kind == QclToken::Kind::number && !peek().is_real) {
@@ -106,7 +108,8 @@ QclCompiler::Type QclCompiler::unary() {
   } else if (peek().word("NOTB")) {
     const Place place = take().place;
     if (unary() == Type::real)
-      complain(place, "NOTB works on whole numbers, not on a single", "assign the single to a long first");
+      complain("qcl.type"_code, place, "NOTB works on whole numbers, not on a single",
+               "assign the single to a long first");
     emit(QclOp::bit_not);
   } else {
     type = primary();
@@ -120,7 +123,7 @@ QclCompiler::Type QclCompiler::primary() {
   switch (here.kind) {
     case QclToken::Kind::number:
       if (here.integer > std::numeric_limits<std::int32_t>::max())
-        complain(here.place, in_quotes(here.text) + " is out of range",
+        complain("qcl.out-of-range"_code, here.place, in_quotes(here.text) + " is out of range",
                  "a long goes from -2147483648 to 2147483647");
       emit(QclOp::push,
            here.is_real ? std::bit_cast<std::int32_t>(here.real) : static_cast<std::int32_t>(here.integer));
@@ -136,7 +139,7 @@ QclCompiler::Type QclCompiler::primary() {
       break;
   }
   const bool at_end = here.kind == QclToken::Kind::end;
-  syntax_error(here,
+  syntax_error("qcl.syntax"_code, here,
                at_end ? "missing operand at the end of the line" : "missing operand before " + found(here),
                "write a number, a name, Device:parameter or an expression in parentheses");
   return Type::integer;
@@ -155,7 +158,8 @@ QclCompiler::Type QclCompiler::name_value() {
   if (accept(":") || accept(".")) {
     const std::optional<int> device = find_device(name);
     if (peek().kind != QclToken::Kind::name) {
-      syntax_error(peek(), fmt::format("expected a parameter after {}:, found {}", name.text, found(peek())),
+      syntax_error("qcl.syntax"_code, peek(),
+                   fmt::format("expected a parameter after {}:, found {}", name.text, found(peek())),
                    "write Device:parameter");
       return Type::integer;
     }
@@ -197,7 +201,8 @@ QclCompiler::Type QclCompiler::name_value() {
       break;
     case NamedThing::Kind::device:
     case NamedThing::Kind::group:
-      complain(name.place, fmt::format("{} is {}, not a value", in_quotes(name.text), name_of(thing->kind)),
+      complain("qcl.type"_code, name.place,
+               fmt::format("{} is {}, not a value", in_quotes(name.text), name_of(thing->kind)),
                thing->kind == NamedThing::Kind::device ? fmt::format("write {}:parameter", name.text)
                                                        : "name one of its variables");
       emit(QclOp::push);
@@ -213,7 +218,8 @@ void QclCompiler::indexes(const NamedThing& thing, const QclToken& name) {
                            : thing.kind == NamedThing::Kind::group_static ? "[recipe]"
                                                                           : "[index]";
   if (!peek().is("[")) {
-    syntax_error(name, fmt::format("{} is {} and needs an index", in_quotes(name.text), name_of(thing.kind)),
+    syntax_error("qcl.type"_code, name,
+                 fmt::format("{} is {} and needs an index", in_quotes(name.text), name_of(thing.kind)),
                  fmt::format("write {}{}", name.text, form));
     return;
   }
@@ -230,7 +236,7 @@ void QclCompiler::indexes(const NamedThing& thing, const QclToken& name) {
   } while (peek().is(",") && !line_failed_);
   expect("]", "close the index");
   if (count != wanted && !thing.name.empty() && !line_failed_)
-    complain(open.place,
+    complain("qcl.type"_code, open.place,
              fmt::format("{} takes {} index{}, found {}", in_quotes(name.text), wanted,
                          wanted == 1 ? "" : "es", count),
              fmt::format("write {}{}", name.text, form));
@@ -253,7 +259,8 @@ void QclCompiler::check_index(const NamedThing& thing, std::size_t number, int b
   const std::int32_t index = program_.code.back().a;
   if (index >= 1 && index <= last) return;
   const std::string_view what = step ? "step" : thing.kind == NamedThing::Kind::array ? "index" : "recipe";
-  complain(place, fmt::format("{} {} is outside 1..{} of {}", what, index, last, in_quotes(thing.name)),
+  complain("qcl.out-of-range"_code, place,
+           fmt::format("{} {} is outside 1..{} of {}", what, index, last, in_quotes(thing.name)),
            fmt::format("take one of 1..{}, or declare more of it in {}", last, configuration_.file));
 }
 
@@ -266,7 +273,7 @@ void QclCompiler::condition() {
 const NamedThing* QclCompiler::find_name(const QclToken& name) {
   const NamedThing* thing = names_.find(name.text);
   if (!thing)
-    complain(name.place, "unknown name " + in_quotes(name.text),
+    complain("qcl.unknown-name"_code, name.place, "unknown name " + in_quotes(name.text),
              suggestion(name.text, names_.names(), "declare it in " + configuration_.file));
   return thing;
 }
@@ -279,7 +286,7 @@ bool QclCompiler::is_device(std::string_view name) const {
 std::optional<int> QclCompiler::find_device(const QclToken& name) {
   const NamedThing* thing = names_.find(name.text);
   if (thing && thing->kind == NamedThing::Kind::device) return thing->index;
-  complain(name.place,
+  complain("qcl.unknown-name"_code, name.place,
            thing ? fmt::format("{} is {}, not a device", in_quotes(name.text), name_of(thing->kind))
                  : "unknown device " + in_quotes(name.text),
            suggestion(name.text, device_names(),
@@ -296,17 +303,19 @@ std::optional<Symbol> QclCompiler::find_parameter(int device, const QclToken& na
   // Print loses underscores: `Axis:st init`.
   const std::string joined = fmt::format("{}_{}", name.text, peek().text);
   if (peek().kind == QclToken::Kind::name && find_symbol(type, joined)) {
-    complain(name.place, fmt::format("{} has no parameter or state {}", type.name, in_quotes(name.text)),
+    complain("qcl.unknown-name"_code, name.place,
+             fmt::format("{} has no parameter or state {}", type.name, in_quotes(name.text)),
              "did you mean " + in_quotes(joined) + "?");
     take();
     return std::nullopt;
   }
   if (const std::optional<int> command = find_command(type, name.text))
-    complain(name.place,
+    complain("qcl.not-writable"_code, name.place,
              fmt::format("{} is a command of {}, not a parameter", in_quotes(name.text), type.name),
              fmt::format("write {} {}", type.commands[static_cast<std::size_t>(*command)].name, device_name));
   else
-    complain(name.place, fmt::format("{} has no parameter or state {}", type.name, in_quotes(name.text)),
+    complain("qcl.unknown-name"_code, name.place,
+             fmt::format("{} has no parameter or state {}", type.name, in_quotes(name.text)),
              suggestion(name.text, symbol_names(type), fmt::format("see: drycut devices {}", type.name)));
   return std::nullopt;
 }

@@ -36,7 +36,7 @@ class LineLexer : public Lexer<QclToken> {
     QclToken& token = add(Kind::number, found.whole);
     token.is_real = found.real;
     if (found.whole != found.size)
-      complain(token, in_quotes(token.text) + " is neither a number nor a name",
+      complain("qcl.syntax"_code, token, in_quotes(token.text) + " is neither a number nor a name",
                "names begin with a letter, numbers are decimal");
     else if (found.real)
       read(token, token.text, token.real, "a single goes to 3.4e38");

@@ -146,11 +146,11 @@ struct QclProgram {
   std::string file;  ///< for messages
   std::string text;
   std::vector<Instruction> code;
-  std::vector<int> lines;          ///< line of each instruction
-  std::vector<bool> begins;        ///< whether a statement begins there, or another look at a WAIT or FOR
-  std::vector<Symbol> symbols;     ///< device symbols that instructions refer to
-  std::vector<NamedThing> steps;   ///< group variables that index_step refers to
-  std::vector<std::string> notes;  ///< what a reader should know that is no fault: "file:line:column: ..."
+  std::vector<int> lines;         ///< line of each instruction
+  std::vector<bool> begins;       ///< whether a statement begins there, or another look at a WAIT or FOR
+  std::vector<Symbol> symbols;    ///< device symbols that instructions refer to
+  std::vector<NamedThing> steps;  ///< group variables that index_step refers to
+  std::vector<Finding> notes;     ///< what a reader should know that is no fault: "file:line:column: ..."
 };
 
 /// Deepest nesting of an expression, and of the stack that evaluates it.

@@ -25,7 +25,9 @@ std::string_view event_of(const Diagnostic& diagnostic) {
     case Diagnostic::Kind::out_of_range:
       return "out_of_range";
     case Diagnostic::Kind::note:
-      return diagnostic.subject == "st_foller" ? "note" : "warning";  // what comes of it is told besides
+      return "note";
+    case Diagnostic::Kind::warning:
+      return "warning";
     case Diagnostic::Kind::contradiction:
       return "contradiction";
   }
@@ -273,7 +275,7 @@ std::variant<Address, TerminalFault> QmoveController::terminal(const std::string
   std::vector<std::string> lines;
   for (const auto& [line, level] : cards_.interrupt_lines) lines.push_back(fmt::format("INT{}", line));
   return TerminalFault{
-      fmt::format("no device of the configuration uses {}", to_string(*address)),
+      "wiring.no-terminal"_code, fmt::format("no device of the configuration uses {}", to_string(*address)),
       lines.empty() ? "it uses no interrupt line" : fmt::format("it uses {}", fmt::join(lines, ", "))};
 }
 

@@ -79,28 +79,34 @@ void QmoveController::read_kept(std::string_view line, int number, const std::st
   const std::string_view statement = line.substr(0, line.find(';'));
   const std::string_view content = trimmed(statement);
   if (content.empty()) return;
-  const auto complain = [&](std::string_view at, std::string what, std::string remedy) {
-    problems.push_back(
-        {file, number, static_cast<int>(at.data() - line.data()) + 1, std::move(what), std::move(remedy)});
+  const auto complain = [&](Code code, std::string_view at, std::string what, std::string remedy) {
+    problems.push_back({code, file, number, static_cast<int>(at.data() - line.data()) + 1, std::move(what),
+                        std::move(remedy)});
   };
   const std::size_t equals = content.find('=');
   if (equals == std::string_view::npos)
-    return complain(content, "no '=' in " + in_quotes(content), "write: name = value");
+    return complain("controller.retained-value"_code, content, "no '=' in " + in_quotes(content),
+                    "write: name = value");
   const std::string_view name = trimmed(content.substr(0, equals));
   const std::string_view value_text = trimmed(content.substr(equals + 1));
   if (name.empty() || value_text.empty())
-    return complain(content, "a name or value is missing", "write: name = value");
+    return complain("controller.retained-value"_code, content, "a name or value is missing",
+                    "write: name = value");
 
   std::optional<Location> location = locate(name);
   if (!location)
-    return complain(name, "unknown name " + in_quotes(name), suggestion(name, names(), "remove the line"));
+    return complain("controller.unknown-retained"_code, name, "unknown name " + in_quotes(name),
+                    suggestion(name, names(), "remove the line"));
   if (!is_retentive(*location))
-    return complain(name, in_quotes(name) + " is not retentive", "remove the line, it is set at each start");
+    return complain("controller.unknown-retained"_code, name, in_quotes(name) + " is not retentive",
+                    "remove the line, it is set at each start");
   if (!seen.insert(location->name).second)
-    return complain(name, in_quotes(name) + " is given twice", "remove one of the lines");
+    return complain("controller.retained-twice"_code, name, in_quotes(name) + " is given twice",
+                    "remove one of the lines");
   if (location->kind == Location::Kind::device &&
       machine_.devices[static_cast<std::size_t>(location->index)]->read({Symbol::Kind::state, 0, 0}) != 0)
-    return complain(name, "the device of " + in_quotes(name) + " is initialised already",
+    return complain("controller.retained-twice"_code, name,
+                    "the device of " + in_quotes(name) + " is initialised already",
                     "restore before the first run");
 
   const std::optional<double> value = parsed<double>(value_text);
@@ -110,7 +116,8 @@ void QmoveController::read_kept(std::string_view line, int number, const std::st
   const bool fits = odd || (value && *value >= range.low && *value <= range.high &&
                             (!range.whole || std::trunc(*value) == *value));
   if (!fits)
-    return complain(value_text, fmt::format("{} cannot be {}", in_quotes(name), in_quotes(value_text)),
+    return complain("controller.retained-value"_code, value_text,
+                    fmt::format("{} cannot be {}", in_quotes(name), in_quotes(value_text)),
                     fmt::format("write a{} number from {:.10g} to {:.10g}", range.whole ? " whole" : "",
                                 range.low, range.high));
   kept.push_back({*std::move(location), *value});

@@ -15,7 +15,7 @@ void QclCompiler::statement() {
   stack_ = 0;
   devices_read_.clear();
   if (peek().kind != QclToken::Kind::name)
-    syntax_error(peek(), found(peek()) + " does not begin a statement",
+    syntax_error("qcl.syntax"_code, peek(), found(peek()) + " does not begin a statement",
                  "write a statement, or ';' before a comment");
   else if (peek(1).is(":") && peek(2).kind == QclToken::Kind::end)
     label();
@@ -71,7 +71,7 @@ bool QclCompiler::other_closer() {
                                                   {"END_SUB", "ENDSUB", Block::Kind::sub}}};
   for (const auto& [word, meant, closes] : closers) {
     if (!peek().word(word)) continue;
-    complain(peek().place, "unknown statement " + in_quotes(peek().text),
+    complain("qcl.unknown-name"_code, peek().place, "unknown statement " + in_quotes(peek().text),
              fmt::format("did you mean {}?", in_quotes(meant)));
     close_block(closes);
     return true;
@@ -88,7 +88,7 @@ const NamedThing* QclCompiler::assignment() {
     const std::optional<int> device = find_device(name);
     const QclToken parameter = peek();
     if (parameter.kind != QclToken::Kind::name) {
-      syntax_error(parameter,
+      syntax_error("qcl.syntax"_code, parameter,
                    fmt::format("expected a parameter after {}:, found {}", name.text, found(parameter)),
                    "write Device:parameter = value");
       return nullptr;
@@ -113,7 +113,7 @@ const NamedThing* QclCompiler::assignment() {
   if (thing) check_assignable(*thing, name);
   if (indexed || (peek().is("[") && !thing)) indexes(indexed ? *thing : NamedThing{}, name);
   if (thing && !indexed && peek().is("["))
-    syntax_error(peek(),
+    syntax_error("qcl.type"_code, peek(),
                  fmt::format("{} is {} and takes no index", in_quotes(name.text), name_of(thing->kind)),
                  remedy);
   if (line_failed_ || !expect("=", remedy)) return thing;
@@ -133,9 +133,10 @@ void QclCompiler::note_wrapping(const NamedThing& thing, Type type, int begin, c
   const std::int32_t value = program_.code.back().a;
   const std::int32_t stored = wrap(thing.size, value);
   if (stored == value) return;
-  program_.notes.push_back(fmt::format("{}:{}:{}: {}: {} does not fit size {}, taken as {}", file_,
-                                       name.place.line, name.place.column, name.text, value,
-                                       static_cast<char>(thing.size), stored));
+  program_.notes.emplace_back(
+      "qcl.does-not-fit"_code,
+      fmt::format("{}:{}:{}: {}: {} does not fit size {}, taken as {}", file_, name.place.line,
+                  name.place.column, name.text, value, static_cast<char>(thing.size), stored));
 }
 
 // What takes whole numbers cuts a single's fraction off: toll = 0.03 is 0.
@@ -144,9 +145,10 @@ void QclCompiler::note_fraction(Type type, int begin, const QclToken& name) {
   if (!plain || type != Type::real) return;
   const auto value = std::bit_cast<float>(program_.code.back().a);
   if (value == std::trunc(value)) return;
-  program_.notes.push_back(fmt::format("{}:{}:{}: {} takes whole numbers: {} is taken as {}", file_,
-                                       name.place.line, name.place.column, name.text, value,
-                                       std::trunc(value)));
+  program_.notes.emplace_back(
+      "qcl.rounded"_code,
+      fmt::format("{}:{}:{}: {} takes whole numbers: {} is taken as {}", file_, name.place.line,
+                  name.place.column, name.text, value, std::trunc(value)));
 }
 
 // A device takes what lies outside of a parameter's range, and the run tells it: said here already.
@@ -157,9 +159,10 @@ void QclCompiler::note_range(const DeviceType& type, Symbol symbol, Type of_valu
   const DeviceVariable& variable = type.variables[static_cast<std::size_t>(symbol.index)];
   const std::int32_t value = program_.code.back().a;
   if (value >= variable.min && value <= variable.max) return;
-  program_.notes.push_back(fmt::format("{}:{}:{}: {} goes from {} to {}, and {} is outside", file_,
-                                       name.place.line, name.place.column, name.text, variable.min,
-                                       variable.max, value));
+  program_.notes.emplace_back(
+      "qcl.outside-range"_code,
+      fmt::format("{}:{}:{}: {} goes from {} to {}, and {} is outside", file_, name.place.line,
+                  name.place.column, name.text, variable.min, variable.max, value));
 }
 
 // Converts the value on the stack to what `thing` holds and stores it there.
@@ -190,7 +193,7 @@ void QclCompiler::check_assignable(const NamedThing& thing, const QclToken& name
   using Kind = NamedThing::Kind;
   if (thing.kind == Kind::constant || thing.kind == Kind::input || thing.kind == Kind::group ||
       thing.kind == Kind::device)
-    complain(name.place,
+    complain("qcl.not-writable"_code, name.place,
              fmt::format("{} is {} and cannot be assigned", in_quotes(name.text), name_of(thing.kind)),
              thing.kind == Kind::device  ? fmt::format("write {}:parameter = value", name.text)
              : thing.kind == Kind::group ? "assign one of its variables"
@@ -201,11 +204,12 @@ void QclCompiler::check_writable(int device, Symbol symbol, const QclToken& para
   const DeviceType& type = type_of(device);
   if (symbol.kind == Symbol::Kind::state)
     complain(
-        parameter.place,
+        "qcl.not-writable"_code, parameter.place,
         fmt::format("{} is a state of {}, only the device changes it", in_quotes(parameter.text), type.name),
         "give the command that changes it");
   else if (type.variables[static_cast<std::size_t>(symbol.index)].access == Access::read)
-    complain(parameter.place, fmt::format("{} of {} is read-only", in_quotes(parameter.text), type.name),
+    complain("qcl.not-writable"_code, parameter.place,
+             fmt::format("{} of {} is read-only", in_quotes(parameter.text), type.name),
              "assign a parameter that programs may write");
 }
 
@@ -213,7 +217,7 @@ void QclCompiler::label() {
   const QclToken name = take();
   take();
   if (is_reserved(name.text) || is_device(name.text)) {
-    complain(name.place, fmt::format("{} cannot be a label", in_quotes(name.text)),
+    complain("qcl.not-writable"_code, name.place, fmt::format("{} cannot be a label", in_quotes(name.text)),
              is_reserved(name.text) ? "it is a word of the language"
                                     : fmt::format("it is a device; write {}:parameter = value", name.text));
     return;
@@ -225,7 +229,7 @@ void QclCompiler::wait() {
   take();
   static constexpr std::array<std::string_view, 3> times = {"ms", "s", "min"};
   if (peek().kind == QclToken::Kind::number && is_one_of(times, peek(1).text))
-    return syntax_error(peek(1), "WAIT takes a condition, not a time",
+    return syntax_error("qcl.type"_code, peek(1), "WAIT takes a condition, not a time",
                         "start a TIMER and wait for it: tmPause = 100, then WAIT tmPause");
   emit(QclOp::yield);
   const int begin = here();
@@ -239,7 +243,7 @@ void QclCompiler::wait() {
 const QclToken* QclCompiler::name_operand(const std::string& form) {
   take();
   if (peek().kind != QclToken::Kind::name || is_reserved(peek().text)) {
-    syntax_error(peek(), "expected a name, found " + found(peek()), "write: " + form);
+    syntax_error("qcl.syntax"_code, peek(), "expected a name, found " + found(peek()), "write: " + form);
     return nullptr;
   }
   return &take();
@@ -257,7 +261,8 @@ void QclCompiler::set_output(bool on) {
   const NamedThing* thing = find_name(*name);
   if (!thing) return;
   if (thing->kind != NamedThing::Kind::output) {
-    complain(name->place, fmt::format("{} is {}, not an output", in_quotes(name->text), name_of(thing->kind)),
+    complain("qcl.type"_code, name->place,
+             fmt::format("{} is {}, not an output", in_quotes(name->text), name_of(thing->kind)),
              "name an output that is declared under OUTPUT");
     return;
   }
@@ -283,7 +288,8 @@ void QclCompiler::device_command() {
   }
   std::vector<std::string> own;
   for (const DeviceCommand& candidate : type.commands) own.emplace_back(candidate.name);
-  complain(word.place, fmt::format("{} has no command {}", type.name, in_quotes(word.text)),
+  complain("qcl.unknown-name"_code, word.place,
+           fmt::format("{} has no command {}", type.name, in_quotes(word.text)),
            suggestion(word.text, own, fmt::format("see: drycut devices {}", type.name)));
 }
 
@@ -295,20 +301,21 @@ void QclCompiler::unknown_statement() {
   const std::string usual = "write an assignment, a command such as INIT Device, or IF, WAIT, JUMP, ...";
   const NamedThing* thing = names_.find(peek().text);
   if (is_reserved(peek().text))
-    syntax_error(peek(), in_quotes(peek().text) + " does not begin a statement", usual);
+    syntax_error("qcl.syntax"_code, peek(), in_quotes(peek().text) + " does not begin a statement", usual);
   else if (thing)
-    syntax_error(
-        peek(1), fmt::format("expected '=' after {}, found {}", in_quotes(peek().text), found(peek(1))),
-        thing->kind == NamedThing::Kind::device ? fmt::format("write {}:parameter = value", peek().text)
-                                                : "write: name = value");
+    syntax_error("qcl.syntax"_code, peek(1),
+                 fmt::format("expected '=' after {}, found {}", in_quotes(peek().text), found(peek(1))),
+                 thing->kind == NamedThing::Kind::device
+                     ? fmt::format("write {}:parameter = value", peek().text)
+                     : "write: name = value");
   else if (is_one_of(commands, peek().text))
-    syntax_error(peek(), fmt::format("{} needs a device", in_quotes(peek().text)),
+    syntax_error("qcl.syntax"_code, peek(), fmt::format("{} needs a device", in_quotes(peek().text)),
                  fmt::format("write {} Device", peek().text));
   else if (peek().word("ELSEIF") || peek().word("ELSIF") || peek().word("ELIF"))
-    syntax_error(peek(), "QCL has no " + std::string(peek().text),
+    syntax_error("qcl.unknown-name"_code, peek(), "QCL has no " + std::string(peek().text),
                  "write ELSE, and an IF with an ENDIF of its own in it");
   else
-    syntax_error(peek(), "unknown statement " + in_quotes(peek().text),
+    syntax_error("qcl.unknown-name"_code, peek(), "unknown statement " + in_quotes(peek().text),
                  suggestion(peek().text, words, usual));
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <drycut/problem.hpp>
+
 #include <limits>
 #include <optional>
 #include <string>
@@ -32,22 +34,23 @@ struct Check {
   };
 
   std::string name;
-  std::string expectation;  ///< "each cut: abs(length - 800) <= 0.1, from 4.0 s"
+  Prose expectation;  ///< "each cut: abs(length - 800) <= 0.1, from 4.0 s"
   bool passed = false;
   std::optional<double> margin;          ///< how far the worst moment was from the limit; negative: beyond it
   std::string unit;                      ///< of the margin, "" if it is none or mixed
   std::optional<double> at;              ///< [s] the worst moment
-  std::string detail;                    ///< in words: "15 cuts, worst length = 800.047 mm at 7.204 s"
+  Prose detail;                          ///< in words: "15 cuts, worst length = 800.047 mm at 7.204 s"
   std::optional<double> failed_at = {};  ///< [s] first, where that can be said before the end
   std::optional<double> used = {};       ///< share of the limit at the worst moment, above 1: beyond it
   std::vector<Tolerance> tolerances = {};
-  bool idle = false;  ///< it failed for it found nothing to judge
+  std::vector<std::string> names = {};  ///< of what it looks at: "length", "AxisX.follerr"
+  bool idle = false;                    ///< it failed for it found nothing to judge
   /// Though it passed: "(gbStep == 2) was 0 at all 2601 instants: it judged nothing".
-  std::string doubt = {};
+  Prose doubt = {};
   std::optional<double> too_few = {};  ///< [s] of events that it counts there were too few, from then on
   bool deadline = false;               ///< its limit is a time by which something has come
   /// Where it held at none of its instants: what there was, "AxisX.st_error 0", "Axis.follerr -12 to 80".
-  std::string throughout = {};
+  Prose throughout = {};
 
 #if __cplusplus >= 202002L
   bool operator==(const Check&) const = default;
@@ -66,6 +69,7 @@ struct Check {
     archive("failed_at", self.failed_at);
     archive("used", self.used);
     archive("tolerances", self.tolerances);
+    archive("names", self.names);
     archive("idle", self.idle);
     archive("doubt", self.doubt);
     archive("too_few", self.too_few);

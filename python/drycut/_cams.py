@@ -18,6 +18,7 @@ class Finding(NamedTuple):
     where   "sector 4 (135 DZC)", "row 12"; "" = of the whole cam
     text    what was found
     remedy  what would be right
+    code    its kind, the same in every release: "cam.jump"; `drycut help CODE` tells more
     """
 
     grade: str
@@ -25,6 +26,7 @@ class Finding(NamedTuple):
     where: str
     text: str
     remedy: str
+    code: str
 
 
 @dataclass

@@ -24,6 +24,7 @@ class Problem(NamedTuple):
     column  from 1; of an argument in its text as the command line has it, PATH=VALUE
     what    what is wrong
     remedy  what would be right
+    code    its kind, the same in every release: "scenario.unknown-key"; `drycut help CODE` tells more
     """
 
     file: str
@@ -31,13 +32,14 @@ class Problem(NamedTuple):
     column: int
     what: str
     remedy: str
+    code: str
 
 
 class BadInput(ValueError):
     """What was given does not fit. `problems` has all of them, of files and arguments; it is empty where a single call
     to a Simulation was wrong."""
 
-    def __init__(self, message: str, problems: Sequence[tuple[str, int, int, str, str]] = ()):
+    def __init__(self, message: str, problems: Sequence[tuple[str, int, int, str, str, str]] = ()):
         super().__init__(message)
         self.problems = [Problem(*problem) for problem in problems]
 
@@ -49,14 +51,14 @@ class Diverged(RuntimeError):
 _core.set_exceptions(BadInput, Diverged)
 
 
-def refuse(argument: str, what: str, remedy: str) -> BadInput:
+def refuse(code: str, argument: str, what: str, remedy: str) -> BadInput:
     """The error to raise where an argument does not fit."""
-    return BadInput(f"{argument}:1:1: {what}; {remedy}", [(argument, 1, 1, what, remedy)])
+    return BadInput(f"{argument}:1:1: {what}; {remedy} [{code}]", [(argument, 1, 1, what, remedy, code)])
 
 
 def check_folder(out: Path | None) -> None:
     if out is not None and not os.fspath(out):
-        raise refuse("out", "it is empty", "name a folder")
+        raise refuse("option.missing", "out", "it is empty", "name a folder")
 
 
 def text(value: object) -> str:

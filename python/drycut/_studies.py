@@ -79,7 +79,7 @@ def _words(values: Sequence[object], path: str) -> str:
     words = [text(value) for value in values]
     for word in words:
         if "," in word or ".." in word:
-            raise refuse("over", f"'{word}' is no value of {path}", "one value an entry; a range is a text of its own")
+            raise refuse("study.argument", "over", f"'{word}' is no value of {path}", "one value an entry; a range is a text of its own")
     numbers, units = zip(*(word.partition(" ")[::2] for word in words)) if words else ((), ())
     if len(set(units)) == 1:  # of all of them, as the command has it
         return ",".join(numbers) + f" {units[0]}".rstrip()
@@ -126,7 +126,7 @@ def sweep(file: Path, over: Axes, *, set: Settings | None = None, figures: Mappi
     Other threads run meanwhile. Ctrl-C ends it behind the runs under way. Raises BadInput with all problems.
     """
     if not over:
-        raise refuse("over", "it is empty", 'give an axis, such as {"plants.web.speed": "20..120 m/min:11"}')
+        raise refuse("option.missing", "over", "it is empty", 'give an axis, such as {"plants.web.speed": "20..120 m/min:11"}')
     with _folder(out) as folder:
         got = _core.sweep(file, settings(set), _axes(over), list((figures or {}).items()), sample, jobs, folder,
                           out is not None, progress)
@@ -151,7 +151,7 @@ def envelope(file: Path, over: Axes, find_max: Mapping[str, str] | None = None, 
     largest, smallest = dict(find_max or {}), dict(find_min or {})
     least = bool(smallest) and not largest
     if len(largest) + len(smallest) != 1:
-        raise refuse("find_min" if least else "find_max", f"{len(largest) + len(smallest)} values are sought", "seek one")
+        raise refuse("option.together", "find_min" if least else "find_max", f"{len(largest) + len(smallest)} values are sought", "seek one")
     (path, span), = (smallest or largest).items()
     with _folder(out) as folder:
         got = _core.envelope(file, settings(set), _axes(over), f"{path}={span}", least, list((figures or {}).items()),

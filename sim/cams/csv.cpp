@@ -52,13 +52,13 @@ std::vector<Cell> split_cells(std::string_view line) {
   }
 }
 
-void TableProblems::add(int line, int column, std::string what, std::string remedy) {
+void TableProblems::add(Code code, int line, int column, std::string what, std::string remedy) {
   if (full_) return;
-  problems_.push_back({file_, line, column, std::move(what), std::move(remedy)});
+  problems_.push_back({code, file_, line, column, std::move(what), std::move(remedy)});
   if (problems_.size() - before_ < most_problems) return;
   full_ = true;
-  problems_.push_back(
-      {file_, line, column, "too many problems: the rest is not told", "is this a cam table?"});
+  problems_.push_back({"text.too-many-problems"_code, file_, line, column,
+                       "too many problems: the rest is not told", "is this a cam table?"});
 }
 
 std::string range_text(CamKeyRange range) { return fmt::format("{:.10g} to {:.10g}", range.low, range.high); }
@@ -72,13 +72,14 @@ std::optional<std::int64_t> whole_number(const Cell& cell, int line, std::string
   const bool whole = !digits.empty() && end == digits.data() + digits.size();
   const auto remedy = fmt::format("write a whole number from {:.0f} to {:.0f}", range.low, range.high);
   if (cell.text.empty()) {
-    problems.add(line, cell.column, fmt::format("{} has no value", name), remedy);
+    problems.add("cam.missing"_code, line, cell.column, fmt::format("{} has no value", name), remedy);
   } else if (!whole || error == std::errc::invalid_argument) {
-    problems.add(line, cell.column, fmt::format("{} {} is not a whole number", name, in_quotes(cell.text)),
-                 remedy);
+    problems.add("cam.value"_code, line, cell.column,
+                 fmt::format("{} {} is not a whole number", name, in_quotes(cell.text)), remedy);
   } else if (error != std::errc{} || static_cast<double>(number) < range.low ||
              static_cast<double>(number) > range.high) {
-    problems.add(line, cell.column, fmt::format("{} {} is out of range", name, in_quotes(cell.text)), remedy);
+    problems.add("cam.out-of-range"_code, line, cell.column,
+                 fmt::format("{} {} is out of range", name, in_quotes(cell.text)), remedy);
   } else {
     return number;
   }
@@ -97,11 +98,13 @@ std::optional<double> real_number(const Cell& cell, int line, std::string_view n
   const auto remedy =
       fmt::format("write a number or a fraction (5/3) from {:g} to {:g}", range.low, range.high);
   if (cell.text.empty()) {
-    problems.add(line, cell.column, fmt::format("{} has no value", name), remedy);
+    problems.add("cam.missing"_code, line, cell.column, fmt::format("{} has no value", name), remedy);
   } else if (!read || divisor == 0) {
-    problems.add(line, cell.column, fmt::format("{} {} is not a number", name, in_quotes(cell.text)), remedy);
+    problems.add("cam.value"_code, line, cell.column,
+                 fmt::format("{} {} is not a number", name, in_quotes(cell.text)), remedy);
   } else if (number /= divisor; !(number >= range.low && number <= range.high)) {
-    problems.add(line, cell.column, fmt::format("{} {} is out of range", name, in_quotes(cell.text)), remedy);
+    problems.add("cam.out-of-range"_code, line, cell.column,
+                 fmt::format("{} {} is out of range", name, in_quotes(cell.text)), remedy);
   } else {
     return number;
   }
@@ -121,7 +124,7 @@ void Settings::travel(const std::string& least, const std::string& most, CamKeyR
 
 void Settings::check_travel() const {
   if (travel_->least && travel_->most && *travel_->least > *travel_->most)
-    problems_.add(line_of(least_), 1, fmt::format("{} is above {}", least_, most_),
+    problems_.add("cam.out-of-range"_code, line_of(least_), 1, fmt::format("{} is above {}", least_, most_),
                   fmt::format("give the lower end of the travel as {}", least_));
 }
 
@@ -140,8 +143,8 @@ void Settings::read(const Cell& comment, int line, bool above) {
   if (found == settings_.end() && is_prose(value.text)) return;
   if (!above) {
     if (found != settings_.end())
-      problems_.add(line, key.column, fmt::format("{} stands below the header", key.text),
-                    "give settings above the header");
+      problems_.add("cam.table-form"_code, line, key.column,
+                    fmt::format("{} stands below the header", key.text), "give settings above the header");
     return;
   }
   if (found == settings_.end()) {
@@ -150,7 +153,7 @@ void Settings::read(const Cell& comment, int line, bool above) {
   }
   const auto [first, fresh] = given_.emplace(key.text, line);
   if (!fresh) {
-    problems_.add(line, key.column, fmt::format("{} is given twice", key.text),
+    problems_.add("cam.twice"_code, line, key.column, fmt::format("{} is given twice", key.text),
                   fmt::format("it was first given in line {}; keep one", first->second));
     return;
   }
@@ -169,7 +172,7 @@ void Settings::read_without_colon(const Cell& comment, int line) {
   const bool is_value = value.find_first_of("0123456789") != std::string_view::npos &&
                         value.find_first_of(" \t") == std::string_view::npos;
   if (!value.empty() && !equals && !is_value) return;
-  problems_.add(line, text.column, fmt::format("{} has no colon", key),
+  problems_.add("cam.table-form"_code, line, text.column, fmt::format("{} has no colon", key),
                 fmt::format("write # {}: {}; a remark begins with ##", key,
                             is_value ? std::string(value.substr(0, 40)) : "and its value"));
 }
@@ -183,7 +186,8 @@ void Settings::refuse(const Cell& key, int line) {
   std::vector<std::string> names;
   names.reserve(settings_.size());
   for (const auto& [name, take] : settings_) names.push_back(name);
-  problems_.add(line, key.column, fmt::format("there is no setting {}", in_quotes(key.text)),
+  problems_.add("cam.unknown-key"_code, line, key.column,
+                fmt::format("there is no setting {}", in_quotes(key.text)),
                 did_you_mean(key.text.substr(0, 40), names, "there are " + listed(names)) +
                     "; a remark begins with ##");
 }
@@ -201,7 +205,8 @@ bool Header::read(const std::vector<Cell>& cells, int line, TableProblems& probl
   const bool numbers =
       !first.text.empty() && (std::isdigit(static_cast<unsigned char>(first.text.front())) != 0);
   if (known == 0 && numbers) {
-    problems.add(line, first.column, "the header is missing", "begin with the line " + text());
+    problems.add("cam.missing"_code, line, first.column, "the header is missing",
+                 "begin with the line " + text());
     for (std::size_t i = 0; i < places_.size(); ++i) places_[i] = static_cast<int>(i);
     width_ = columns_.size();
     return false;
@@ -211,8 +216,8 @@ bool Header::read(const std::vector<Cell>& cells, int line, TableProblems& probl
     read_name(cells[i], static_cast<int>(i), line, problems);
   for (std::size_t needed = 0; needed < needed_; ++needed) {
     if (places_[needed] < 0)
-      problems.add(line, 1, fmt::format("the header has no column {}", columns_[needed]),
-                   "the header is " + text());
+      problems.add("cam.unknown-key"_code, line, 1,
+                   fmt::format("the header has no column {}", columns_[needed]), "the header is " + text());
   }
   return true;
 }
@@ -221,14 +226,16 @@ void Header::read_name(const Cell& cell, int place, int line, TableProblems& pro
   const auto found = std::find(columns_.begin(), columns_.end(), cell.text);
   if (found == columns_.end()) {
     const bool semicolons = cell.text.find(';') != std::string_view::npos;
-    problems.add(line, cell.column, fmt::format("there is no column {}", in_quotes(cell.text)),
+    problems.add("cam.unknown-key"_code, line, cell.column,
+                 fmt::format("there is no column {}", in_quotes(cell.text)),
                  semicolons ? "separate the columns with commas"
                             : did_you_mean(cell.text.substr(0, 40), columns_, "the columns are " + text()));
     return;
   }
   int& taken = places_[static_cast<std::size_t>(found - columns_.begin())];
   if (taken >= 0) {
-    problems.add(line, cell.column, fmt::format("column {} is there twice", *found), "keep one");
+    problems.add("cam.twice"_code, line, cell.column, fmt::format("column {} is there twice", *found),
+                 "keep one");
     return;
   }
   taken = place;
@@ -243,7 +250,7 @@ Cell Header::cell_of(const std::vector<Cell>& cells, std::size_t column) const {
 void Header::check_width(const std::vector<Cell>& cells, int line, TableProblems& problems) const {
   for (std::size_t i = width_; i < cells.size(); ++i) {
     if (cells[i].text.empty()) continue;
-    problems.add(line, cells[i].column,
+    problems.add("cam.unknown-key"_code, line, cells[i].column,
                  fmt::format("{} is in no column of the header", in_quotes(cells[i].text)),
                  fmt::format("the header has {} columns", width_));
     return;

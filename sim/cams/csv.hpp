@@ -31,7 +31,7 @@ class TableProblems {
  public:
   TableProblems(std::string file, Problems& problems)
       : file_(std::move(file)), problems_(problems), before_(problems.size()) {}
-  void add(int line, int column, std::string what, std::string remedy);
+  void add(Code code, int line, int column, std::string what, std::string remedy);
   [[nodiscard]] bool full() const { return full_; }
   [[nodiscard]] bool none() const { return problems_.size() == before_; }
 

@@ -8,8 +8,6 @@
 
 namespace drycut::sim::cams {
 
-namespace {
-
 std::string grade_text(const CamFinding& finding) {
   const auto numbered = [&](const char* grade) {
     return finding.number == 0 ? std::string(grade) : fmt::format("{} {}", grade, finding.number);
@@ -29,13 +27,15 @@ std::string grade_text(const CamFinding& finding) {
   return "";
 }
 
-}  // namespace
-
-std::string to_string(const CamFinding& finding) {
+std::string sentence(const CamFinding& finding) {
   auto text = finding.where.empty() ? "" : finding.where + ": ";
   text += grade_text(finding) + ": " + finding.text;
   if (!finding.remedy.text.empty()) text += "; " + finding.remedy.text;
   return text;
+}
+
+std::string to_string(const CamFinding& finding) {
+  return fmt::format("{} [{}]", sentence(finding), finding.kind.text());
 }
 
 bool is_unsound(const std::vector<CamFinding>& findings, bool strict) {

@@ -60,7 +60,7 @@ std::vector<CamFinding> passed_limits(const CamMotionWords& motion, devices::Cam
       const double share = std::pow(limit.value / value, 1.0 / static_cast<int>(order));
       return slower_master(instead, motion.master_speed * share, motion.speed_unit);
     };
-    passed.push_back({CamFinding::Grade::limit, 0, "",
+    passed.push_back({"cam.limit"_code, CamFinding::Grade::limit, 0, "",
                       fmt::format(fmt::runtime(limit.found), fmt::arg("is", number(value)),
                                   fmt::arg("unit", quantity.unit), fmt::arg("limit", number(limit.value))),
                       remedy ? remedy(limit.value) : slower()});

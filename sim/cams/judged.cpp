@@ -67,14 +67,15 @@ loop::CamJudgement cam_judgement(const std::vector<loop::PlayedCam>& played) {
       return is_unsound({finding}, false) &&
              std::any_of(at_slow_speed.findings.begin(), at_slow_speed.findings.end(),
                          [&](const CamFinding& other) {
-                           return other.grade == finding.grade && other.where == finding.where &&
-                                  other.text == finding.text;
+                           return other.kind == finding.kind && other.grade == finding.grade &&
+                                  other.number == finding.number && other.where == finding.where;
                          });
     };
     std::size_t told = 0;
     for (const auto& finding : cam.study.findings)
       if (finding.grade < CamFinding::Grade::caution && ++told <= most)
-        judgement.doubts.push_back({fmt::format("cam of {}, {}", one.axis, to_string(finding)), is_of_table(finding)});
+        judgement.doubts.push_back({{finding.kind, fmt::format("cam of {}, {}", one.axis, sentence(finding))},
+                                    is_of_table(finding)});
   }
   return judgement;
 }

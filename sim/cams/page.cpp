@@ -47,17 +47,12 @@ renders::ReportRow row_of(const CamPeak& peak, const std::string& master_unit) {
   return row;
 }
 
-std::string grade_of(const CamFinding& finding) {
-  const auto text = to_string({finding.grade, finding.number, "", "", ""});
-  return text.substr(0, text.find(':'));
-}
-
 renders::ReportTable feasibility(const CamStudy& study, const std::string& master_unit) {
   renders::ReportTable table{"Feasibility", {"what", "found", "limit or remedy", "verdict"}, {}, false, true};
   for (const auto& peak : study.peaks) table.rows.push_back(row_of(peak, master_unit));
   for (const auto& finding : study.findings) {
     const bool bad = is_unsound({finding}, false);
-    const auto grade = grade_of(finding);
+    const auto grade = grade_text(finding);
     table.rows.push_back({{finding.where.empty() ? "the cam" : finding.where, finding.text,
                            finding.remedy.text, bad ? "FAIL " + grade : grade}});
   }
@@ -138,11 +133,7 @@ class PageMaker {
       return;
     }
     auto& study = cam_.study;
-    for (std::size_t begin = 0; begin < study.text.heading.size();) {
-      const auto end = study.text.heading.find('\n', begin);
-      page_.notes.push_back(study.text.heading.substr(begin, end - begin));
-      begin = end == std::string::npos ? end : end + 1;
-    }
+    for (const auto line : split_lines(study.text.heading)) page_.notes.emplace_back(line);
     if (cam_.master_speed > 0)
       page_.notes.emplace_back("Judged at the fastest that the master was while the cam was played.");
     if (!study.plot.panels.empty()) page_.plots.push_back(std::move(study.plot));

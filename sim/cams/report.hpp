@@ -20,7 +20,7 @@ struct CamRemedy {
   CamRemedy(std::string words = "", std::vector<CamCure> numbers = {})
       : text(std::move(words)), cures(std::move(numbers)) {}
   CamRemedy(const char* words) : text(words) {}
-  std::string text;
+  Prose text;
   std::vector<CamCure> cures;
 };
 
@@ -33,14 +33,19 @@ struct CamFinding {
     caution,  ///< the device says nothing; good practice or the manual does
     remark    ///< about the validation
   };
+  Code kind = Code();
   Grade grade = Grade::remark;
   int number = 0;     ///< of the device's error or warning, 0 = it has none
   std::string where;  ///< "sector 4 (135 DZC)", "row 12"; "" = of the whole cam
-  std::string text;
+  Prose text;
   CamRemedy remedy;  ///< may be empty
 };
 
+/// "warning 7"
+std::string grade_text(const CamFinding& finding);
 /// "sector 4 (135 DZC): warning 7: ...; ...".
+std::string sentence(const CamFinding& finding);
+/// The same, with its code in brackets behind it.
 std::string to_string(const CamFinding& finding);
 
 /// True if one is an error or a limit, or with `strict` a warning or a caution.

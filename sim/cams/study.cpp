@@ -84,7 +84,8 @@ devices::CamTable read_no_kind(std::string_view text, const std::string& file, P
   const auto line = static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1;
   const auto column = static_cast<int>(before.size() - (before.rfind('\n') + 1)) + 1;
   problems.push_back(
-      {file, line, column, fmt::format("{} is the header of no cam table", in_quotes(trimmed({header}).text)),
+      {"cam.unknown-key"_code, file, line, column,
+       fmt::format("{} is the header of no cam table", in_quotes(trimmed({header}).text)),
        fmt::format(
            "CAMMING4's is {}; LX3VP's is master,slave, or parameter,value below a line "
            "# ecamtbx: K100 (K101, K0, K1); MC_CamIn's is slave, or a0,a1,a2,a3, or master,slave below a "
@@ -103,7 +104,8 @@ void check_positions(const std::vector<double>& at, const CamStudy& study, Probl
   const double last = first + study.course.master_total();
   for (const double position : at) {
     if (position >= first && position <= last) continue;
-    problems.push_back({"--at", 1, 1, fmt::format("the cam has no master position {}", position),
+    problems.push_back({"cam.out-of-range"_code, "--at", 1, 1,
+                        fmt::format("the cam has no master position {}", position),
                         fmt::format("give positions from {} to {} {}", first, last, study.master_unit)});
   }
 }

@@ -75,11 +75,12 @@ std::vector<Annotation> annotations_of(const std::vector<report::RunResult>& res
       if (checks[i].passed) continue;
       const auto margin = report::margin_text(checks[i]);
       add(Annotation::Kind::check, result.place_of(i), fmt::format("{}: {}", result.name, checks[i].name),
-          fmt::format("{}{}{} ({}){}{}", checks[i].detail, result.outcome.cause.empty() ? "" : ", ",
-                      result.outcome.cause, checks[i].expectation, margin.empty() ? "" : "; ", margin));
+          fmt::format("{}{}{} ({}){}{}", checks[i].detail, result.outcome.cause().empty() ? "" : ", ",
+                      result.outcome.cause(), checks[i].expectation, margin.empty() ? "" : "; ", margin));
     }
-    for (const auto& warning : result.outcome.warnings)
-      add(Annotation::Kind::warning, result.place_of(checks.size()), result.name + ": warning", warning);
+    for (const auto& warning : result.outcome.warnings())
+      add(Annotation::Kind::warning, result.place_of(checks.size()), result.name + ": warning",
+          to_string(warning));
     if (!result.outcome.failure.empty())
       add(Annotation::Kind::run, result.place_of(checks.size()), result.name + ": did not run to its end",
           result.outcome.failure);
@@ -123,7 +124,8 @@ std::string gitlab_text(const std::vector<Annotation>& annotations) {
 void check_annotate(const std::string& whom, Problems& problems) {
   if (whom != "gitlab") return;
   if (const auto why = hindrance(gitlab_file); !why.empty())
-    problems.push_back({"--annotate", 1, 1, fmt::format("{} cannot be written: {}", gitlab_file, why),
+    problems.push_back({"file.not-writable"_code, "--annotate", 1, 1,
+                        fmt::format("{} cannot be written: {}", gitlab_file, why),
                         "call drycut in a folder that can be written"});
 }
 

@@ -27,7 +27,12 @@ void add_out(CLI::App& command, fs::path& out, const std::string& help) {
 }
 
 void add_on(CLI::App& command, ClusterOptions& cluster) {
-  const CLI::Validator known([](std::string& text) { return cluster::engine_fault(text); }, "");
+  const CLI::Validator known(
+      [](std::string& text) {
+        const auto fault = cluster::engine_fault(text);
+        return fault ? fault->what + "; " + fault->remedy : "";
+      },
+      "");
   command
       .add_option(
           "--on", cluster.on,
@@ -42,8 +47,8 @@ cluster::Workers workers_of(const ClusterOptions& options, int jobs, const fs::p
                             Problems& problems) {
   if (options.on.empty()) {
     if (!options.stage.empty())
-      problems.push_back(
-          {"--stage", 1, 1, "nothing is staged for runs here", "add --on slurm, or leave it out"});
+      problems.push_back({"option.does-not-apply"_code, "--stage", 1, 1, "nothing is staged for runs here",
+                          "add --on slurm, or leave it out"});
     return jobs;
   }
   return {jobs, cluster::open_engine(options.on, out, options.stage, problems)};
@@ -67,7 +72,8 @@ std::vector<scenario::Override> overrides_of(const std::vector<std::string>& set
   for (const auto& text : set) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
-      problems.push_back({"--set", 1, 1, fmt::format("'{}' is not an assignment", text),
+      problems.push_back({"option.set-path"_code, "--set", 1, 1,
+                          fmt::format("'{}' is not an assignment", text),
                           "write path=value, such as \"plants.web.speed=80 m/min\""});
       continue;
     }
@@ -83,22 +89,25 @@ void add_force(CLI::App& command, bool& force) {
 void check_output(const char* option, const std::string& file, const InputFile& input,
                   const Replacing& replacing, Problems& problems) {
   std::error_code ignored;
-  const auto refuse = [&](std::string what, const char* remedy) {
-    problems.push_back({option, 1, 1, std::move(what), remedy});
+  const auto refuse = [&](Code code, std::string what, const char* remedy) {
+    problems.push_back({code, option, 1, 1, std::move(what), remedy});
   };
   const bool is_input = fs::equivalent(file, input.file, ignored);
-  if (is_input) refuse(fmt::format("{} is the {} itself", file, input.kind), "name another file");
+  if (is_input)
+    refuse("option.file-name"_code, fmt::format("{} is the {} itself", file, input.kind),
+           "name another file");
   if (fs::is_directory(file, ignored))
-    refuse(fmt::format("{} is a directory", file), "name a file");
+    refuse("file.not-writable"_code, fmt::format("{} is a directory", file), "name a file");
   else if (const auto why = hindrance(file); !why.empty())
-    refuse(fmt::format("{} cannot be written: {}", file, why), "name another file");
+    refuse("file.not-writable"_code, fmt::format("{} cannot be written: {}", file, why), "name another file");
   else if (!is_input && !replacing.force && fs::is_regular_file(file, ignored) &&
            !record::is_own_file(file, replacing.header))
-    refuse(fmt::format("{} is there already, and drycut did not write it", file),
+    refuse("file.not-ours"_code, fmt::format("{} is there already, and drycut did not write it", file),
            "name another file, or replace it with --force");
   const auto folder = fs::path(file).parent_path();
   if (!folder.empty() && !fs::is_directory(folder, ignored))
-    refuse(fmt::format("there is no directory {}", folder.string()), "make it first or name another");
+    refuse("file.not-writable"_code, fmt::format("there is no directory {}", folder.string()),
+           "make it first or name another");
 }
 
 void check_outputs(const std::string& csv, const std::string& png, const InputFile& input,
@@ -108,8 +117,11 @@ void check_outputs(const std::string& csv, const std::string& png, const InputFi
   check_output("--png", png, input, {replacing.force}, problems);
   const fs::path picture = png;
   if (picture.extension() != ".png" || picture.stem().empty())
-    problems.push_back({"--png", 1, 1, fmt::format("{} does not end in .png", png), "name it x.png"});
-  if (png == csv) problems.push_back({"--png", 1, 1, "it is the file of --csv", "name another file"});
+    problems.push_back({"option.file-name"_code, "--png", 1, 1, fmt::format("{} does not end in .png", png),
+                        "name it x.png"});
+  if (png == csv)
+    problems.push_back(
+        {"option.file-name"_code, "--png", 1, 1, "it is the file of --csv", "name another file"});
 }
 
 }  // namespace drycut::sim::cli

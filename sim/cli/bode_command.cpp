@@ -19,8 +19,8 @@ namespace {
 void check_limit(const char* option, const std::optional<double>& value, double most, const char* unit,
                  Problems& problems) {
   if (!value || (*value >= 0 && *value <= most)) return;  // not NaN either
-  problems.push_back(
-      {option, 1, 1, fmt::format("{} is out of range", *value), fmt::format("give 0 to {} {}", most, unit)});
+  problems.push_back({"option.out-of-range"_code, option, 1, 1, fmt::format("{} is out of range", *value),
+                      fmt::format("give 0 to {} {}", most, unit)});
 }
 
 void check_options(const BodeOptions& options, Problems& problems) {
@@ -55,10 +55,21 @@ KnownMargin known_gain(const studies::LoopResult& result, const studies::LimitCy
   return {result.least_gain(), "with " + result.play + " it is the least over all amplitudes"};
 }
 
-/// The limits of the options and what there is.
-std::vector<record::CheckResult> judged(const BodeOptions& options, const studies::LoopResult& result,
-                                        const studies::LimitCycle* cycle) {
+/// A limit of the options, and what there is.
+struct Judged {
+  record::CheckResult check;
+  double limit = 0;             ///< in the check's unit
+  std::optional<double> value;  ///< nothing: it is not known
+};
+std::vector<record::CheckResult> checks_of(const std::vector<Judged>& judged) {
   std::vector<record::CheckResult> checks;
+  for (const auto& one : judged) checks.push_back(one.check);
+  return checks;
+}
+
+std::vector<Judged> judged(const BodeOptions& options, const studies::LoopResult& result,
+                           const studies::LimitCycle* cycle) {
+  std::vector<Judged> all;
   const auto judge = [&](const char* name, const std::optional<double>& limit, const KnownMargin& known,
                          const char* unit) {
     if (!limit) return;
@@ -71,20 +82,20 @@ std::vector<record::CheckResult> judged(const BodeOptions& options, const studie
     } else {
       check.detail = "not known: " + known.why_not;
     }
-    checks.push_back(std::move(check));
+    all.push_back(
+        {std::move(check), *limit, known.margin ? std::optional(known.margin->value) : std::nullopt});
   };
   judge("phase margin", options.min_phase_margin, known_phase(result), "deg");
   judge("gain margin", options.min_gain_margin, known_gain(result, cycle), "dB");
-  return checks;
+  return all;
 }
 
-/// "FAIL: the gain margin of 7.10 dB is below 12 dB".
-std::string judged_text(const record::CheckResult& check) {
-  const auto limit = check.expectation.substr(check.expectation.rfind(">= ") + 3);
-  if (!check.margin) return fmt::format("FAIL: the {} is {}", check.name, check.detail);
-  return fmt::format("{}: the {} of {} is {} {}", check.passed ? "PASS" : "FAIL", check.name,
-                     check.detail.substr(0, check.detail.find(" at ")), check.passed ? "not below" : "below",
-                     limit);
+/// "the gain margin of 7.10 dB is below 12 dB".
+std::string judged_text(const Judged& judged) {
+  const auto& [check, limit, value] = judged;
+  if (!value) return fmt::format("the {} is {}", check.name, check.detail);
+  return fmt::format("the {} of {:.2f} {} is {} {:g} {}", check.name, *value, check.unit,
+                     check.passed ? "not below" : "below", limit, check.unit);
 }
 
 /// All that was asked for; `folder` may be null.
@@ -136,21 +147,25 @@ int measure_bode(const BodeOptions& options) {
     print_problems(problems);
     return bad_input;
   }
-  const auto doubts = studies::loop_doubts(*result);
-  const auto checks = judged(options, *result, cycle ? &*cycle : nullptr);
+  const auto limits = judged(options, *result, cycle ? &*cycle : nullptr);
   std::vector<std::string> faults;
   auto text = studies::bode_report(*result);
   if (cycle) text += '\n' + studies::limit_cycle_text(*cycle);
-  for (const auto& check : checks) {
-    text += judged_text(check) + '\n';
-    if (!check.passed) faults.push_back(judged_text(check).substr(std::string_view("FAIL: ").size()));
+  for (const auto& limit : limits) {
+    text += fmt::format("{}: {}\n", limit.check.passed ? "PASS" : "FAIL", judged_text(limit));
+    if (!limit.check.passed) faults.push_back(judged_text(limit));
   }
   // A response on standard output is for a program: it must find nothing else there.
   fmt::print(options.csv == "-" ? stderr : stdout, "{}", text);
   // Where play makes a limit cycle, small motions do not answer: that is what was looked for.
-  if (!cycle || !cycle->from()) faults.insert(faults.begin(), doubts.begin(), doubts.end());
-  if (cycle && !cycle->from()) faults.emplace_back("no gain margin was found at any amplitude");
+  std::vector<Finding> found;
+  if (!cycle || !cycle->from()) found = studies::loop_doubts(*result);
+  if (cycle && !cycle->from())
+    found.emplace_back("bode.no-margin"_code, "no gain margin was found at any amplitude");
+  for (const auto& finding : found) faults.push_back(finding.text);
+  const auto checks = checks_of(limits);
   auto verdict = studies::verdict_of(*result, faults, checks);
+  verdict.found(found);
   verdict.scenarios = {options.scenario.generic_string()};
   write(options, scenario, *result, cycle ? &*cycle : nullptr, verdict, checks, folder ? &*folder : nullptr);
   if (!options.out.empty())

@@ -19,8 +19,8 @@ namespace {
 void check_number(const char* option, const std::optional<double>& value, Problems& problems) {
   constexpr double most = 1e9;
   if (!value || (*value > 0 && *value <= most)) return;  // not NaN either
-  problems.push_back(
-      {option, 1, 1, fmt::format("{} is out of range", *value), "give a number above 0, at most 1000000000"});
+  problems.push_back({"option.out-of-range"_code, option, 1, 1, fmt::format("{} is out of range", *value),
+                      "give a number above 0, at most 1000000000"});
 }
 
 void check_options(const CamOptions& options, bool speed_known, Problems& problems) {
@@ -31,7 +31,8 @@ void check_options(const CamOptions& options, bool speed_known, Problems& proble
     for (const auto& [option, value] : {std::pair{"--max-velocity", options.duty.max_velocity},
                                         std::pair{"--max-acceleration", options.duty.max_acceleration}})
       if (value)
-        problems.push_back({option, 1, 1, "a limit in time means nothing without the master's speed",
+        problems.push_back({"option.does-not-apply"_code, option, 1, 1,
+                            "a limit in time means nothing without the master's speed",
                             "give --master-speed too"});
   }
   const InputFile input{options.table, "table"};
@@ -39,7 +40,8 @@ void check_options(const CamOptions& options, bool speed_known, Problems& proble
   if (options.rows.empty()) return;
   check_output("--table", options.rows, input, {options.force}, problems);
   if (options.rows == options.csv || options.rows == options.png)
-    problems.push_back({"--table", 1, 1, "it is the file of another option", "name another file"});
+    problems.push_back(
+        {"option.file-name"_code, "--table", 1, 1, "it is the file of another option", "name another file"});
 }
 
 void write(const CamOptions& options, const cams::CamStudy& study) {
@@ -72,7 +74,8 @@ int validate_cam(const CamOptions& options) {
     study = cams::study_cam(table, request, problems);
   }
   if (problems.empty() && !options.rows.empty() && study.rows_are_given)
-    problems.push_back({"--table", 1, 1, "the table's rows were given, not made", "leave it out"});
+    problems.push_back({"option.does-not-apply"_code, "--table", 1, 1,
+                        "the table's rows were given, not made", "leave it out"});
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;

@@ -64,7 +64,7 @@ class Checker {
         return;
       default:
         problems_.push_back(
-            {file.string(), 1, 1,
+            {"file.other-kind"_code, file.string(), 1, 1,
              fmt::format("'{}' is not a kind of file that is known", file.extension().string()),
              "give a scenario (.yaml), a configuration (.cnf), a QCL module (.mod, .qcl), an instruction "
              "list (.il), Structured Text (.st), a cam table (.csv, .tab) or registers (.csv)"});
@@ -73,9 +73,9 @@ class Checker {
 
   [[nodiscard]] const Problems& problems() const { return problems_; }
   /// What is no fault and worth knowing.
-  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  [[nodiscard]] const std::vector<Finding>& notes() const { return notes_; }
   /// What may be a slip.
-  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+  [[nodiscard]] const std::vector<Finding>& warnings() const { return warnings_; }
 
  private:
   void take_doubts(const devices::lx3vp::il::IlProgram& program) {
@@ -83,8 +83,11 @@ class Checker {
   }
 
   void take_notes(const std::string& of, const loop::Simulation& simulation) {
-    for (const auto& warning : simulation.warnings()) warnings_.push_back(fmt::format("{}: {}", of, warning));
-    for (const auto& note : simulation.notes_of_setup()) notes_.push_back(fmt::format("{}: {}", of, note));
+    const auto take = [&](const std::vector<Finding>& findings, std::vector<Finding>& kept) {
+      for (const auto& finding : findings) kept.emplace_back(finding).text = of + ": " + finding.text;
+    };
+    take(simulation.warnings(), warnings_);
+    take(simulation.notes_of_setup(), notes_);
   }
 
   /// A comparing scene: its members, then what it asks of them.
@@ -136,7 +139,8 @@ class Checker {
     // Modules are not judged by a configuration that is not sound.
     if (!configuration_ && configuration_given_) return;
     if (!configuration_) {
-      problems_.push_back({file.string(), 1, 1, "a QCL module needs a configuration to be checked against",
+      problems_.push_back({"qcl.no-configuration"_code, file.string(), 1, 1,
+                           "a QCL module needs a configuration to be checked against",
                            "name its .cnf file before it"});
       return;
     }
@@ -148,8 +152,8 @@ class Checker {
   }
 
   bool expand_;
-  std::vector<std::string> warnings_;
-  std::vector<std::string> notes_;
+  std::vector<Finding> warnings_;
+  std::vector<Finding> notes_;
   Problems problems_;
   std::vector<scenario::Override> overrides_;
   std::optional<qmove::Configuration> configuration_;
@@ -166,14 +170,14 @@ int check_files(const CheckOptions& options) {
   print_problems(problems);
   annotate(options.annotate, annotations_of(problems));
   if (!problems.empty()) {
-    for (const auto& note : checker.notes()) fmt::print(stderr, "note {}\n", note);
+    for (const auto& note : checker.notes()) fmt::print(stderr, "note {}\n", to_string(note));
     fmt::print(stderr, "{} in {}\n", counted(problems.size(), "problem"),
                counted(options.files.size(), "file"));
     return bad_input;
   }
   if (options.expand) return all_passed;
-  for (const auto& warning : checker.warnings()) fmt::print("warning {}\n", warning);
-  for (const auto& note : checker.notes()) fmt::print("note {}\n", note);
+  for (const auto& warning : checker.warnings()) fmt::print("warning {}\n", to_string(warning));
+  for (const auto& note : checker.notes()) fmt::print("note {}\n", to_string(note));
   fmt::print("{} checked, no problem\n", counted(options.files.size(), "file"));
   const bool told = !checker.warnings().empty() || !checker.notes().empty();
   return options.strict && told ? check_failed : all_passed;

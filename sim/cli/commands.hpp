@@ -53,5 +53,9 @@ int print_motor_template(const std::string& kind);
 
 /// Prints problems in order on standard error; says how many.
 void print_problems(const Problems& problems);
+/// Why a command could not go on; the status that says so.
+int print_failure(const std::string& why);
+/// What of the results could not be made; the rest is there.
+void print_left_out(const std::vector<std::string>& lost);
 
 }  // namespace drycut::sim::cli

@@ -29,15 +29,16 @@ std::optional<double> from_of(const CompareOptions& options, Problems& problems)
 
 std::vector<studies::ComparedRun> read_runs(const CompareOptions& options, Problems& problems) {
   if (options.runs.size() < 2) {
-    problems.push_back({options.runs.empty() ? "compare" : options.runs[0].string(), 1, 1,
-                        "one run alone is nothing to compare", "name two folders of runs or more"});
+    problems.push_back({"compare.runs"_code, options.runs.empty() ? "compare" : options.runs[0].string(), 1,
+                        1, "one run alone is nothing to compare", "name two folders of runs or more"});
   }
   const auto labels = studies::labels_of(options.runs, problems);
   std::vector<studies::ComparedRun> runs;
   for (std::size_t i = 0; i < options.runs.size(); ++i) {
     std::error_code ignored;
     if (fs::equivalent(options.out, options.runs[i], ignored))
-      problems.push_back({"--out", 1, 1, fmt::format("{} is one of the runs", options.out.string()),
+      problems.push_back({"compare.runs"_code, "--out", 1, 1,
+                          fmt::format("{} is one of the runs", options.out.string()),
                           "the comparison would replace its report; name another folder"});
     runs.push_back(studies::read_run(options.runs[i], problems));
     runs.back().label = labels[i];
@@ -99,8 +100,7 @@ int compare_runs(const CompareOptions& options) {
     folder->begin();
     status = studies::write_comparison(comparison, page, *folder, options.pictures);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", drycut::words_of(error));
-    return simulation_failed;
+    return print_failure(drycut::words_of(error));
   }
   fmt::print("{}: {}", page.title, studies::comparison_text(comparison, page.passed.has_value()));
   if (page.passed)

@@ -44,7 +44,7 @@ void check_files(const ConvertOptions& options, const std::vector<fs::path>& fil
   const auto header = is_own_trace ? record::trace_header : record::events_header;
   for (const auto& file : files) {
     if (options.out.empty() && fs::exists(file, ignored))
-      problems.push_back({file.string(), 1, 1, "there is such a file already",
+      problems.push_back({"file.not-ours"_code, file.string(), 1, 1, "there is such a file already",
                           "name the file with --out: one that drycut wrote is replaced then"});
     else
       check_output("--out", file.string(), {options.run, "record"},
@@ -58,11 +58,12 @@ int convert_run(const ConvertOptions& options) {
   Problems problems;
   const auto chosen = std::find(formats.begin(), formats.end(), options.to);
   if (chosen == formats.end())
-    problems.push_back({"--to", 1, 1, fmt::format("there is no format {}", in_quotes(options.to)),
+    problems.push_back({"option.unknown-choice"_code, "--to", 1, 1,
+                        fmt::format("there is no format {}", in_quotes(options.to)),
                         did_you_mean(options.to, formats)});
   std::error_code ignored;
   if (!fs::exists(options.run, ignored))
-    problems.push_back({options.run.string(), 1, 1, "there is no such run",
+    problems.push_back({"record.no-run"_code, options.run.string(), 1, 1, "there is no such run",
                         "name a folder that drycut run made of a scenario, or its trace.csv or trace.h5"});
   if (problems.empty()) {
     const auto format = static_cast<studies::RecordFormat>(chosen - formats.begin());
@@ -78,8 +79,7 @@ int convert_run(const ConvertOptions& options) {
       try {
         studies::write_record(record, format, out);
       } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", printable(drycut::words_of(error)));
-        return simulation_failed;
+        return print_failure(drycut::words_of(error));
       }
       std::string names;
       for (const auto& file : files) names += (names.empty() ? "" : ", ") + file.string();

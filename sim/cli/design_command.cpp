@@ -49,8 +49,8 @@ auto chosen(const char* option, const std::string& word, const Choices& choices,
     if (word == name) return value;
     words.emplace_back(name);
   }
-  problems.push_back(
-      {option, 1, 1, fmt::format("there is no {}", in_quotes(word)), did_you_mean(word, words)});
+  problems.push_back({"option.unknown-choice"_code, option, 1, 1,
+                      fmt::format("there is no {}", in_quotes(word)), did_you_mean(word, words)});
   return {};
 }
 
@@ -78,11 +78,11 @@ class JobReader {
   }
 
  private:
-  void problem(const char* option, std::string what, std::string remedy) {
-    problems_.push_back({option, 1, 1, std::move(what), std::move(remedy)});
+  void problem(Code code, const char* option, std::string what, std::string remedy) {
+    problems_.push_back({code, option, 1, 1, std::move(what), std::move(remedy)});
   }
   void missing(const char* option, const char* what) {
-    problem(option, "it is not given", fmt::format("give {}, such as 120 mm", what));
+    problem("option.missing"_code, option, "it is not given", fmt::format("give {}, such as 120 mm", what));
   }
 
   /// In SI, nothing if it was not given or has a problem; above 0 unless `least` says otherwise.
@@ -95,7 +95,7 @@ class JobReader {
     for (auto& found : findings.sorted()) problems_.push_back(std::move(found));
     constexpr double most = 1e9;
     if (!value || (*value >= least && *value <= most)) return value;
-    problem(option, fmt::format("{} is out of range", text),
+    problem("option.out-of-range"_code, option, fmt::format("{} is out of range", text),
             least > 0 ? "give more than 0, at most 1e9 in SI" : "give 0 or more, at most 1e9 in SI");
     return {};
   }
@@ -104,7 +104,7 @@ class JobReader {
     return quantity(option, text, "mm").value_or(1);
   }
   void refuse(const char* option, bool given, const char* why) {
-    if (given) problem(option, why, "leave it out");
+    if (given) problem("option.does-not-apply"_code, option, why, "leave it out");
   }
 
   void read_slave() {
@@ -165,7 +165,8 @@ class JobReader {
     job_.coulomb = load("--coulomb", options_.coulomb, "N", "N m");
     if (job_.goal == MoveGoal::energy) {
       if (!(job_.inertia > 0))
-        problem("--inertia", "energy depends on what is moved", "give it, such as 20 kg or 0.3 kg m2");
+        problem("option.missing"_code, "--inertia", "energy depends on what is moved",
+                "give it, such as 20 kg or 0.3 kg m2");
       return;
     }
     for (const auto& [option, text] : {std::pair{"--inertia", &options_.inertia},
@@ -179,18 +180,21 @@ class JobReader {
       for (const auto& [option, given] : {std::pair{"--max-velocity", job_.max_velocity.has_value()},
                                           {"--max-acceleration", job_.max_acceleration.has_value()},
                                           {"--minimise", job_.goal == MoveGoal::energy}})
-        if (given) problem(option, "it means nothing without the master's speed", "give --speed too");
+        if (given)
+          problem("option.does-not-apply"_code, option, "it means nothing without the master's speed",
+                  "give --speed too");
     if (options_.device.empty() && !options_.table.empty())
-      problem("--table", "whose table?", "give --device camming4, lx3vp or mc_camin");
+      problem("option.missing"_code, "--table", "whose table?", "give --device camming4, lx3vp or mc_camin");
     const auto ending = std::filesystem::path(options_.table).extension();
     const bool tab = options_.device == "mc_camin";
     if (!options_.table.empty() && ending != ".csv" && !(tab && ending == ".tab"))
-      problem("--table", fmt::format("{} does not end in .csv{}", options_.table, tab ? " or .tab" : ""),
+      problem("option.file-name"_code, "--table",
+              fmt::format("{} does not end in .csv{}", options_.table, tab ? " or .tab" : ""),
               tab ? "name it x.csv, or x.tab for the kernel's own kind" : "name it x.csv");
     if (options_.table.empty() && !options_.scene.empty())
-      problem("--scene", "there is nothing to run in it", "give --table too");
+      problem("option.missing"_code, "--scene", "there is nothing to run in it", "give --table too");
     if (options_.decpt && options_.device != "camming4")
-      problem("--decpt", "only CAMMING4 has it", "leave it out");
+      problem("option.does-not-apply"_code, "--decpt", "only CAMMING4 has it", "leave it out");
     if (!options_.table.empty())
       check_output("--table", options_.table, {"", "job"}, {options_.force}, problems_);
   }
@@ -205,7 +209,8 @@ std::optional<PulseWay> pulse_way(const char* option, const std::string& text, P
   if (text.empty()) return {};
   const auto slash = text.rfind('/');
   const auto refuse = [&] {
-    problems.push_back({option, 1, 1, fmt::format("{} is no way of a pulse", in_quotes(text)),
+    problems.push_back({"option.value"_code, option, 1, 1,
+                        fmt::format("{} is no way of a pulse", in_quotes(text)),
                         "give a length, or a length and the pulses on it: 0.01 mm, 500 mm/10000"});
     return PulseWay();
   };
@@ -248,7 +253,8 @@ std::optional<studies::DesignSheet> designed(const DesignOptions& options,
   if (!problems.empty()) return {};
   const auto cam = studies::design_cam(job);
   if (!cam) {
-    problems.push_back({"design", 1, 1, "no cam keeps these limits", "give them a little more room"});
+    problems.push_back({"design.impossible"_code, "design", 1, 1, "no cam keeps these limits",
+                        "give them a little more room"});
     return {};
   }
   studies::DesignSheet sheet{*cam, {}};
@@ -344,8 +350,7 @@ int design_cam(const DesignOptions& options) {
       fmt::print("  picture: {}\n", picture.string());
     }
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", drycut::words_of(error));
-    return simulation_failed;
+    return print_failure(drycut::words_of(error));
   }
   return status;
 }

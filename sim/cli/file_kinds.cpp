@@ -134,7 +134,7 @@ void refuse(const Taken& command, const std::vector<std::string>& files) {
   for (const auto& file : files) {
     const auto* found = row_of(kind_of(file));
     if (found == nullptr || std::ranges::find(command.kinds, found->kind) != command.kinds.end()) continue;
-    problems.push_back({file, 1, 1,
+    problems.push_back({"file.other-kind"_code, file, 1, 1,
                         fmt::format("this is {}, not {}", found->what, name_of(command.kinds.front())),
                         remedy_for(*found, file)});
   }

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "base/embedded.hpp"
+#include "base/problem.hpp"
 #include "base/text.hpp"
 #include "sim/cli/commands.hpp"
 #include "sim/cli/file_kinds.hpp"
@@ -122,7 +123,8 @@ int tell_topics() {
   for (const auto& name : topics()) fmt::print("{}", row(name, heading_of(embedded_file(name + ".md"))));
   fmt::print(
       "\nThe name of a command gives what its --help says, of a device or plant what drycut devices and\n"
-      "drycut plants say.\n");
+      "drycut plants say; a code such as scenario.unknown-key, which ends the line of a problem or finding,\n"
+      "gives its cause and cure.\n");
   return all_passed;
 }
 
@@ -146,9 +148,19 @@ int tell_topic(const CLI::App& program, const std::string& topic) {
     told = true;
   }
   if (told) return all_passed;
+  if (const auto* found = CodeTable::find(lower(topic))) {
+    fmt::print("{}\n  {}.\nCause:\n  {}\nCure:\n  {}\n", found->code, wrapped(found->text, 2, 2),
+               wrapped(found->cause, 2, 2), wrapped(found->cure, 2, 2));
+    return all_passed;
+  }
   if (is_there(device_pages())) return list_devices(topic, false);
   if (is_there(plant_pages())) return list_plants(topic, false);
-  fmt::print(stderr, "drycut help: there is no page '{}'; {}\n", topic, did_you_mean(topic, known));
+  if (topic.find('.') != std::string::npos) {
+    known.clear();
+    for (const auto& row : code_rows) known.emplace_back(row.code);
+  }
+  fmt::print(stderr, "drycut help: there is no page '{}'; {} [option.unknown-choice]\n", topic,
+             did_you_mean(topic, known, "drycut help lists them, docs/reference/codes.md the codes"));
   return bad_input;
 }
 

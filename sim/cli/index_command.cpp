@@ -17,14 +17,16 @@ namespace fs = std::filesystem;
 int index_folder(const fs::path& folder) {
   Problems problems;
   std::error_code ignored;
-  const auto refuse = [&](const char* what, const char* remedy) {
-    problems.push_back({folder.string(), 1, 1, what, remedy});
+  const auto refuse = [&](Code code, const char* what, const char* remedy) {
+    problems.push_back({code, folder.string(), 1, 1, what, remedy});
   };
   if (!fs::is_directory(folder, ignored))
-    refuse(fs::exists(folder, ignored) ? "it is not a folder" : "there is no such folder",
+    refuse("record.no-run"_code,
+           fs::exists(folder, ignored) ? "it is not a folder" : "there is no such folder",
            "name one that drycut wrote results into, such as out");
   else if (report::index_entries(folder).empty())
-    refuse("there are no results in it", "name a folder of runs, such as out, after drycut run --out out");
+    refuse("record.no-run"_code, "there are no results in it",
+           "name a folder of runs, such as out, after drycut run --out out");
   std::optional<OutputFolder> out;
   if (problems.empty())
     out.emplace(folder, report::index_kind, std::vector<std::string>{report::index_file}, problems);
@@ -39,8 +41,7 @@ int index_folder(const fs::path& folder) {
     fmt::print("{} {} of results, {}: {}\n", entries.size(), entries.size() == 1 ? "folder" : "folders",
                report::index_verdict(entries), (folder / report::index_file).string());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", drycut::words_of(error));
-    return simulation_failed;
+    return print_failure(drycut::words_of(error));
   }
   return all_passed;
 }

@@ -68,7 +68,7 @@ std::optional<double> read_pace(const std::string& text, Problems& problems) {
   if (read.ec == std::errc() && read.ptr == end && pace >= live::least_pace && pace <= live::most_pace)
     return pace;
   problems.push_back(
-      {"--pace", 1, 1, fmt::format("'{}' is no pace", text),
+      {"option.out-of-range"_code, "--pace", 1, 1, fmt::format("'{}' is no pace", text),
        fmt::format("machine seconds a second, from {} to {}, or max", live::least_pace, live::most_pace)});
   return {};
 }
@@ -115,13 +115,13 @@ live::Line::Options line_options(const LiveOptions& options, Problems& problems)
                              .running = !options.paused,
                              .record = options.record};
   if (options.from.empty() == options.scenario.empty())
-    problems.push_back({"drycut live", 1, 1,
+    problems.push_back({"option.missing"_code, "drycut live", 1, 1,
                         options.from.empty() ? "neither a scenario nor a session"
                                              : "both a scenario and a session, which has its own",
                         "drycut live SCENARIO, or drycut live --from DIR@12.5s"});
   if (options.from.empty()) return wanted;
   if (!options.set.empty())
-    problems.push_back({"--set", 1, 1, "a session has its own values",
+    problems.push_back({"option.does-not-apply"_code, "--set", 1, 1, "a session has its own values",
                         "drycut replay --to-scenario makes a scenario of it"});
   wanted.from = read_from(options.from, problems);
   return wanted;
@@ -134,9 +134,10 @@ void check_record(const std::filesystem::path& folder, Problems& problems) {
   auto there = std::filesystem::absolute(folder, ignored).lexically_normal();
   while (!std::filesystem::exists(there, ignored) && there.has_relative_path()) there = there.parent_path();
   if (!std::filesystem::is_directory(there, ignored))
-    problems.push_back({"--record", 1, 1, fmt::format("{} is a file", there.string()), "name a folder"});
+    problems.push_back({"file.not-writable"_code, "--record", 1, 1,
+                        fmt::format("{} is a file", there.string()), "name a folder"});
   else if (access(there.c_str(), W_OK | X_OK) != 0)
-    problems.push_back({"--record", 1, 1,
+    problems.push_back({"file.not-writable"_code, "--record", 1, 1,
                         fmt::format("nothing can be written in {}: {}", there.string(), std::strerror(errno)),
                         "name another folder"});
 }
@@ -191,15 +192,15 @@ int live_scenario(const LiveOptions& options) {
   if (problems.empty()) line.emplace(wanted, problems);
   if (problems.empty() && options.modbus) {
     if (const auto lacking = live::modbus::lacking(*line); !lacking.empty())
-      problems.push_back({"--modbus", 1, 1, "the controller has no Modbus", "it takes " + lacking});
+      problems.push_back(
+          {"live.no-modbus"_code, "--modbus", 1, 1, "the controller has no Modbus", "it takes " + lacking});
   }
   try {
     if (problems.empty()) return run_line(options, opcua, *line);
   } catch (const live::CannotListen& taken) {
     problems.push_back(taken.problem);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "drycut live: {}\n", printable(error.what()));
-    return simulation_failed;
+    return print_failure("drycut live: " + drycut::words_of(error));
   }
   print_problems(problems);
   return bad_input;
@@ -218,14 +219,14 @@ int replay_session(const ReplayOptions& options) {
   check_output("--to-scenario", options.to_scenario.string(), {session, "session"}, {options.force},
                problems);
   std::string text;
-  std::vector<std::string> notes;
+  std::vector<Finding> notes;
   if (problems.empty()) text = live::scenario_of_session(session, options.to_scenario, notes, problems);
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;
   }
   write_file(options.to_scenario, text);
-  for (const auto& note : notes) fmt::print("  note {}\n", printable(note));
+  for (const auto& note : notes) fmt::print("  note {}\n", printable(to_string(note)));
   fmt::print("scenario: {}\n", options.to_scenario.string());
   return all_passed;
 }

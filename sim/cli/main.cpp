@@ -39,13 +39,14 @@ int run(int argc, char** argv) {
     std::vector<std::string> names;
     for (const auto* command : commands)
       if (!command->get_group().empty()) names.push_back(command->get_name());
-    fmt::print(stderr, "drycut: there is no command '{}'; {}\n", argv[1], did_you_mean(argv[1], names));
+    fmt::print(stderr, "drycut: there is no command '{}'; {} [option.unknown-choice]\n", argv[1],
+               did_you_mean(argv[1], names));
     return bad_input;
   }
   for (int i = 1; i < argc; ++i) {
     const auto fault = text_fault(argv[i]);
     if (!fault) continue;
-    fmt::print(stderr, "drycut: in argument {} {}: {}\n", i, fault->what, printable(argv[i]));
+    fmt::print(stderr, "drycut: in argument {} {}: {} [option.value]\n", i, fault->what, printable(argv[i]));
     return bad_input;
   }
   try {
@@ -66,7 +67,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   // What cannot be told, because standard error takes nothing either, is still told by the status.
   const auto failed = [](const std::string& what) {
-    std::fputs(("drycut: " + what + "\n").c_str(), stderr);
+    std::fputs(("drycut: " + what + " [run.failed]\n").c_str(), stderr);
     return simulation_failed;
   };
   try {

@@ -102,7 +102,9 @@ int print_motor_template(const std::string& kind) {
   const auto& kinds = scenario::motor_kinds;
   const auto found = std::find(std::begin(kinds), std::end(kinds), kind.empty() ? kinds[0] : kind);
   if (found == std::end(kinds)) {
-    fmt::print(stderr, "drycut plants --motor-template: there is no kind of motor '{}'; {}\n", kind,
+    fmt::print(stderr,
+               "drycut plants --motor-template: there is no kind of motor '{}'; {} [option.unknown-choice]\n",
+               kind,
                did_you_mean(kind, {kinds[0].data(), kinds[1].data()},
                             fmt::format("there are: {}, {}", kinds[0], kinds[1])));
     return bad_input;

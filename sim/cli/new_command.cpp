@@ -124,43 +124,48 @@ const Start* chosen_of(const std::vector<Start>& all, const NewOptions& options,
   std::vector<std::string> machines;
   for (const auto& start : all)
     if (machines.empty() || machines.back() != start.machine) machines.push_back(start.machine);
-  const auto refuse = [&](const char* option, const std::string& what, const std::string& remedy) {
-    problems.push_back({option, 1, 1, what, remedy});
+  const auto refuse = [&](Code code, const char* option, const std::string& what, const std::string& remedy) {
+    problems.push_back({code, option, 1, 1, what, remedy});
     return nullptr;
   };
-  if (options.machine.empty()) return refuse("--from", "no machine is named", "there are: " + all_of_them());
+  if (options.machine.empty())
+    return refuse("option.missing"_code, "--from", "no machine is named", "there are: " + all_of_them());
   const auto of_machine = controllers_of(options.machine);
   if (of_machine.empty())
-    return refuse("--from", fmt::format("there is no line of {} to start from", in_quotes(options.machine)),
+    return refuse("option.unknown-choice"_code, "--from",
+                  fmt::format("there is no line of {} to start from", in_quotes(options.machine)),
                   did_you_mean(options.machine, machines, "there are: " + all_of_them()));
   if (options.controller.empty() && of_machine.size() > 1)
-    return refuse("--controller", "no controller is named",
+    return refuse("option.missing"_code, "--controller", "no controller is named",
                   fmt::format("{} is there under {}", options.machine, listed(of_machine)));
   const auto& controller = options.controller.empty() ? of_machine.front() : options.controller;
   for (const auto& start : all)
     if (start.machine == options.machine && start.controller == controller) return &start;
-  return refuse("--controller",
+  return refuse("option.unknown-choice"_code, "--controller",
                 fmt::format("there is no {} under {}", options.machine, in_quotes(controller)),
                 did_you_mean(controller, of_machine, fmt::format("there are: {}", all_of_them())));
 }
 
 void check_folder(const fs::path& folder, Problems& problems) {
   std::error_code error;
-  const auto refuse = [&](const std::string& what, const char* remedy) {
-    problems.push_back({folder.string(), 1, 1, what, remedy});
+  const auto refuse = [&](Code code, const std::string& what, const char* remedy) {
+    problems.push_back({code, folder.string(), 1, 1, what, remedy});
   };
   if (folder.empty())
-    return refuse("no folder is named", "drycut new FOLDER --from MACHINE --controller CONTROLLER");
+    return refuse("option.missing"_code, "no folder is named",
+                  "drycut new FOLDER --from MACHINE --controller CONTROLLER");
   auto above = fs::absolute(folder, error).parent_path();
   while (above.has_relative_path() && !fs::exists(above, error)) above = above.parent_path();
   if (const auto why = hindrance_in(above); !why.empty())
-    return refuse(fmt::format("nothing can be written into {}: {}", above.string(), why),
+    return refuse("file.not-writable"_code,
+                  fmt::format("nothing can be written into {}: {}", above.string(), why),
                   "name a folder elsewhere");
   if (!fs::exists(fs::symlink_status(folder, error))) return;
   if (!fs::is_directory(folder, error))
-    return refuse("there is a file of that name", "name a folder that is not there yet");
+    return refuse("file.not-ours"_code, "there is a file of that name",
+                  "name a folder that is not there yet");
   if (!fs::is_empty(folder, error) || error)
-    refuse("the folder is not empty", "name one that is empty or not there yet");
+    refuse("file.not-ours"_code, "the folder is not empty", "name one that is empty or not there yet");
 }
 
 /// All of them or none: they are written beside the folder, which then takes its name.
@@ -219,8 +224,7 @@ int make_line(const NewOptions& options) {
   try {
     write_all(files, folder);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "drycut new: {}\n", printable(drycut::words_of(error)));
-    return simulation_failed;
+    return print_failure("drycut new: " + drycut::words_of(error));
   }
   fmt::print("{}: {}\n", folder.string(), start->about);
   for (const auto& file : files) fmt::print("  {}\n", file.name);

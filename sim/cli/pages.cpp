@@ -37,7 +37,7 @@ int unknown(const PageKind& kind, const std::string& name, const std::vector<Pag
   std::vector<std::string> names;
   names.reserve(pages.size());
   for (const auto& page : pages) names.push_back(page.name);
-  fmt::print(stderr, "{}: there is no {} '{}'; {}\n", kind.command, kind.what, name,
+  fmt::print(stderr, "{}: there is no {} '{}'; {} [option.unknown-choice]\n", kind.command, kind.what, name,
              did_you_mean(name, names, "there are: " + listed(names)));
   return bad_input;
 }

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "base/problem.hpp"
 #include "base/text.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/commands.hpp"
@@ -149,6 +150,30 @@ std::string units() {
   return text;
 }
 
+std::string codes() {
+  std::string text =
+      "# Codes\n\nMade by `drycut reference`; `drycut help CODE` prints the same of one. Every problem, "
+      "warning, "
+      "note and finding has the code of its kind: in brackets at the end of its line, as `code` in JSON and "
+      "in "
+      "Python. A sentence may change from release to release; its code does not, and none is used again for "
+      "something else.\n";
+  std::string_view room;
+  Sheet rows("", "", {"code", "what", "cause", "cure"});
+  const auto close = [&] {
+    if (!room.empty()) text += fmt::format("\n## {}\n{}", room, rows.markdown());
+    rows = Sheet("", "", {"code", "what", "cause", "cure"});
+  };
+  for (const auto& [code, what, cause, cure] : code_rows) {
+    const auto own = code.substr(0, code.find('.'));
+    if (own != room) close();
+    room = own;
+    rows.add({fmt::format("`{}`", code), std::string(what), std::string(cause), std::string(cure)});
+  }
+  close();
+  return text;
+}
+
 std::string command_line(const CLI::App& program) {
   std::string text = "# Commands\n\nMade by `drycut reference` from the program's own options.\n";
   for (const auto* command : commands_of(program)) {
@@ -176,6 +201,7 @@ int write_reference(const CLI::App& program, const std::filesystem::path& folder
   put("plants.md", contents("Plants", "drycut plants NAME", plant_pages()));
   put("motors.md", motors());
   put("units.md", units());
+  put("codes.md", codes());
   put("cam_tables.md", markdown(cam_table_page()));
   for (const auto& pages : {device_pages(), plant_pages(), scenario_pages()})
     for (const auto& page : pages) put(page.name + ".md", markdown(page));

@@ -134,7 +134,7 @@ RunCache::RunCache(fs::path folder, Problems& problems, std::uintmax_t most)
   std::error_code error;
   fs::create_directories(folder_, error);
   if (!fs::is_directory(folder_))
-    problems.push_back({"--cache", 1, 1,
+    problems.push_back({"file.not-writable"_code, "--cache", 1, 1,
                         fmt::format("the directory {} cannot be made{}{}", folder_.string(),
                                     error ? ": " : "", error ? error.message() : ""),
                         "name one that can be written"});

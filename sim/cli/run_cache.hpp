@@ -28,7 +28,7 @@ std::string inputs_of_run(const scenario::Scenario& scenario, const FileSet& fil
 struct CachedRun {
   record::Outcome outcome;
   bool has_report = false;
-  std::vector<std::string> notes;
+  std::vector<Finding> notes;
   std::string scene;  ///< name of the glTF file, "" = none
 
   template <typename Archive, typename Self>

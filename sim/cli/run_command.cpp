@@ -92,7 +92,8 @@ void keep(Job& job, const RunCache& cache) {
                {job.result.outcome, job.result.has_report, job.simulation->notes(),
                 job.left.scene.filename().string()});
   } catch (const std::exception& error) {
-    job.notes.push_back(fmt::format("not kept in the cache: {}", drycut::words_of(error)));
+    job.notes.emplace_back("run.not-cached"_code,
+                           fmt::format("not kept in the cache: {}", drycut::words_of(error)));
   }
 }
 
@@ -127,6 +128,7 @@ void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options)
     };
     if (InterruptWatch::come() != 0) {
       job.trouble = "not run: interrupted before";
+      job.result.ran = false;
       return;
     }
     // What a run leaves in a retentive file is a result too, and the next one's input.
@@ -239,6 +241,15 @@ void print_problems(const Problems& problems) {
   for (const auto& problem : problems) fmt::print(stderr, "{}\n", printable(to_string(problem)));
 }
 
+int print_failure(const std::string& why) {
+  fmt::print(stderr, "{} [run.failed]\n", printable(why));
+  return simulation_failed;
+}
+
+void print_left_out(const std::vector<std::string>& lost) {
+  for (const auto& what : lost) fmt::print(stderr, "{} [run.left-out]\n", printable(what));
+}
+
 int run_scenarios(const RunOptions& options) {
   Problems problems;
   check_annotate(options.annotate, problems);
@@ -277,8 +288,7 @@ int run_scenarios(const RunOptions& options) {
           options.summary,
           summary_text(results, {options.out, links_from(options.summary, options.out, options.links)}));
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", drycut::words_of(error));
-    return simulation_failed;
+    return print_failure(drycut::words_of(error));
   }
   return InterruptWatch::come() == 0 ? status_of(work) : interrupted_status;
 }

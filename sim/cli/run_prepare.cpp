@@ -23,7 +23,8 @@ class Claims {
  public:
   void results(const std::string& name, const std::filesystem::path& file, Problems& problems) {
     if (name.empty() || name == "." || name == ".." || name == junit_file || name == report::index_file) {
-      problems.push_back({file.string(), 1, 1, fmt::format("its results cannot be called '{}'", name),
+      problems.push_back({"file.bad-name"_code, file.string(), 1, 1,
+                          fmt::format("its results cannot be called '{}'", name),
                           "give the scenario another file name"});
     }
     claim(name, file, "its results would overwrite those of {}",
@@ -40,8 +41,8 @@ class Claims {
              Problems& problems) {
     const auto [other, fresh] = names_.emplace(name, file);
     if (fresh) return;
-    problems.push_back(
-        {file.string(), 1, 1, fmt::format(fmt::runtime(what), other->second.string()), remedy});
+    problems.push_back({"file.bad-name"_code, file.string(), 1, 1,
+                        fmt::format(fmt::runtime(what), other->second.string()), remedy});
   }
   std::map<std::string, std::filesystem::path> names_;
 };
@@ -131,7 +132,8 @@ void prepare_scenario(const std::filesystem::path& file, const std::string& name
     return read_half(job, overrides, options, read, problems);
   }
   if (!options.set.empty())
-    problems.push_back({"--set", 1, 1, fmt::format("{} is a session, which has its own", file.string()),
+    problems.push_back({"option.does-not-apply"_code, "--set", 1, 1,
+                        fmt::format("{} is a session, which has its own", file.string()),
                         "drycut replay --to-scenario makes a scenario of it"});
   if (auto session = live::read_session(file, {}, job.notes, problems)) {
     job.scenario = std::move(session->scenario);
@@ -187,6 +189,7 @@ Work prepare(const RunOptions& options, Problems& problems) {
     refused.result.name = names[i];
     refused.result.scenario = file;
     refused.problems = std::move(own);
+    refused.result.ran = false;
     refused.result.outcome.failure = fmt::format(
         "not run: {}{}", to_string(refused.problems.front()),
         refused.problems.size() == 1 ? "" : fmt::format(", and {} more", refused.problems.size() - 1));

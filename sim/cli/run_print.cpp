@@ -4,6 +4,7 @@
 
 #include "base/plain_text.hpp"
 #include "base/sheet.hpp"
+#include "sim/cli/commands.hpp"
 #include "sim/cli/paint.hpp"
 #include "sim/cli/run_work.hpp"
 #include "sim/studies/half_step.hpp"
@@ -61,9 +62,11 @@ void print_result(const Job& job, Say say) {
   const auto word = !job.trouble.empty() || !result.outcome.failure.empty() ? "STOPPED"
                     : result.outcome.passed()                               ? "passed"
                                                                             : "FAILED";
-  fmt::print("{}: {}, {} ({} s simulated{})\n", printable(result.name), verdict(passed, word),
+  const auto cause = result.outcome.cause_code();
+  fmt::print("{}: {}, {} ({} s simulated{}){}\n", printable(result.name), verdict(passed, word),
              job.trouble.empty() ? report::verdict_text(result.outcome) : job.trouble,
-             record::seconds_text(result.outcome.end), job.kept_notes ? " earlier; unchanged" : "");
+             record::seconds_text(result.outcome.end), job.kept_notes ? " earlier; unchanged" : "",
+             cause.empty() ? "" : fmt::format(" [{}]", cause));
   print_checks(result.outcome.checks, say, !job.trouble.empty() || !result.outcome.failure.empty());
   if (say == Say::failures) return print_place(result);
   if (say == Say::more && !job.kept_notes)
@@ -75,11 +78,12 @@ void print_result(const Job& job, Say say) {
     if (!margins.rows.empty())
       fmt::print("\n  margins at half the step\n{}", renders::rows_text(margins, output_width()));
   }
-  for (const auto& warning : result.outcome.warnings) fmt::print("  warning {}\n", printable(warning));
-  for (const auto& note : job.notes) fmt::print("  note {}\n", printable(note));
+  for (const auto& warning : result.outcome.warnings())
+    fmt::print("  warning {}\n", printable(to_string(warning)));
+  for (const auto& note : job.notes) fmt::print("  note {}\n", printable(to_string(note)));
   for (const auto& note : job.kept_notes ? *job.kept_notes : job.simulation->notes())
-    fmt::print("  note {}\n", printable(note));
-  if (!job.left.left_out.empty()) fmt::print(stderr, "left out: {}\n", job.left.left_out);
+    fmt::print("  note {}\n", printable(to_string(note)));
+  if (!job.left.left_out.empty()) print_left_out({"left out: " + job.left.left_out});
   if (!job.left.scene.empty()) fmt::print("  3D scene: {}\n", job.left.scene.string());
   print_place(result);
 }

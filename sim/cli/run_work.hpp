@@ -29,11 +29,11 @@ struct Job {
   report::RunResult result;
   std::optional<report::RunFolder> folder;
   report::RunLeft left;
-  std::vector<std::string> notes;                      ///< of what was read
-  std::string inputs;                                  ///< all that determines its results, with --cache
-  std::optional<std::vector<std::string>> kept_notes;  ///< it was not run: its results are those of a cache
-  std::string trouble;                                 ///< a result could not be written
-  double took = 0;                                     ///< [s] of the clock, to the last picture
+  std::vector<Finding> notes;                      ///< of what was read
+  std::string inputs;                              ///< all that determines its results, with --cache
+  std::optional<std::vector<Finding>> kept_notes;  ///< it was not run: its results are those of a cache
+  std::string trouble;                             ///< a result could not be written
+  double took = 0;                                 ///< [s] of the clock, to the last picture
 };
 
 /// A scene that compares some of the jobs.

@@ -42,7 +42,7 @@ void check_cycle(const SizePlan& plan, const scenario::Scenario& scenario, Probl
       [&](const auto& event) { return event.source == drive.plant && event.name == plants::cut_event; });
   if (scenario.drives.cycle == 0 && !cuts)
     problems.push_back(
-        {"--drive", 1, 1,
+        {"option.missing"_code, "--drive", 1, 1,
          fmt::format("nothing says what {} must bear for ever: {} does not cut, and the scenario names "
                      "no machine cycle",
                      drive.full_name(), drive.plant),
@@ -76,7 +76,7 @@ SizePlan read_size(const SizeOptions& options, Problems& problems) {
   if (problems.empty()) plan.candidates = studies::candidates_of(plan.choices, question, scenario, problems);
   if (plan.candidates.size() > studies::most_points / std::max<std::size_t>(1, plan.corners.size()))
     problems.push_back(
-        {"--motors", 1, 1,
+        {"option.out-of-range"_code, "--motors", 1, 1,
          fmt::format("{} candidates at {} corners", plan.candidates.size(), plan.corners.size()),
          fmt::format("at most {} runs", studies::most_points)});
   studies::PointQuestion rated;
@@ -102,7 +102,7 @@ void print_words(const studies::SizeResult& result) {
     fmt::print("{:>3}. {}\n", rank + 1,
                printable(candidate_words(result.candidates[which], result.sized[which])));
   }
-  for (const auto& note : size_notes(result)) fmt::print("note: {}\n", printable(note));
+  for (const auto& note : size_notes(result)) fmt::print("note: {}\n", printable(to_string(note)));
 }
 
 }  // namespace
@@ -142,11 +142,10 @@ int size_drive(const SizeOptions& options) {
     fmt::print("{}: {}\nreport: {}\n{} simulated now\n", counted(std::ssize(sized), "candidate"),
                (options.out / size_file).string(), (options.out / "report.html").string(),
                counted(static_cast<std::int64_t>(store.simulated()), "run"));
-    for (const auto& lost : store.lost()) fmt::print(stderr, "{}\n", printable(lost));
+    print_left_out(store.lost());
     return status;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", options.out.string(), drycut::words_of(error));
-    return simulation_failed;
+    return print_failure(fmt::format("{}: {}", options.out.string(), drycut::words_of(error)));
   }
 }
 

@@ -26,13 +26,11 @@ std::string plain(const std::string& text) {
   return plain;
 }
 
-bool is_not_run(const report::RunResult& result) { return result.outcome.failure.starts_with("not run: "); }
-
 std::string verdict(const report::RunResult& result) {
-  if (is_not_run(result)) return "not run";
+  if (!result.ran) return "not run";
   if (!result.outcome.failure.empty()) return "stopped";
   if (!result.outcome.passed()) return "**FAILED**";
-  const auto warnings = static_cast<std::int64_t>(result.outcome.warnings.size());
+  const auto warnings = static_cast<std::int64_t>(result.outcome.warnings().size());
   return warnings == 0 ? "passed" : "passed, " + counted(warnings, "warning");
 }
 
@@ -75,8 +73,8 @@ class SummaryText {
   void warnings(const std::vector<report::RunResult>& results) {
     std::string lines;
     for (const auto& result : results)
-      for (const auto& warning : result.outcome.warnings)
-        lines += fmt::format("- {}: {}\n", plain(result.name), plain(warning));
+      for (const auto& warning : result.outcome.warnings())
+        lines += fmt::format("- {}: {}\n", plain(result.name), plain(to_string(warning)));
     if (!lines.empty()) text_ += "\nWarnings:\n\n" + lines;
   }
 
@@ -85,10 +83,11 @@ class SummaryText {
     text_ += fmt::format("\n### {}\n\n", plain(result.name));
     const auto& failure = result.outcome.failure;
     if (!failure.empty())
-      text_ += fmt::format("{}{}\n\n", is_not_run(result) ? "" : "The simulation stopped: ", plain(failure));
+      text_ += fmt::format("{}{}\n\n", !result.ran ? "" : "The simulation stopped: ", plain(failure));
     const auto& checks = result.outcome.checks;
     if (std::all_of(checks.begin(), checks.end(), [](const auto& c) { return c.passed; })) return;
-    if (!result.outcome.cause.empty()) text_ += fmt::format("It failed {}.\n\n", plain(result.outcome.cause));
+    if (!result.outcome.cause().empty())
+      text_ += fmt::format("It failed {}.\n\n", plain(result.outcome.cause()));
     text_ += "| failed check | expected | measured | beyond the limit | line |\n|---|---|---|---|---|\n";
     for (std::size_t i = 0; i < checks.size(); ++i) {
       if (checks[i].passed) continue;

@@ -42,11 +42,11 @@ void read_figures(const StudyOptions& options, studies::PointQuestion& question,
     const bool twice = std::any_of(question.figures.begin(), question.figures.end(),
                                    [&](const auto& figure) { return figure.name == name; });
     if (equals == std::string::npos || equals == 0 || name.find('(') != std::string::npos)
-      problems.push_back({"--figure", 1, 1, fmt::format("'{}' is no NAME=TERM", text),
+      problems.push_back({"study.argument"_code, "--figure", 1, 1, fmt::format("'{}' is no NAME=TERM", text),
                           "such as peak=max(abs(knife.motor.torque))"});
     else if (twice)
-      problems.push_back(
-          {"--figure", 1, 1, fmt::format("there are two figures named '{}'", name), "rename one"});
+      problems.push_back({"study.twice"_code, "--figure", 1, 1,
+                          fmt::format("there are two figures named '{}'", name), "rename one"});
     else
       question.figures.push_back({name, text.substr(equals + 1)});
   }
@@ -75,7 +75,7 @@ std::optional<std::size_t> read_sample(const std::string& text, Problems& proble
     const auto read = std::from_chars(text.data() + kind.size(), end, count);
     if (read.ec == std::errc() && read.ptr == end && count > 0 && count <= studies::most_points) return count;
   }
-  problems.push_back({"--sample", 1, 1, fmt::format("'{}' is no sample", text),
+  problems.push_back({"study.argument"_code, "--sample", 1, 1, fmt::format("'{}' is no sample", text),
                       fmt::format("sobol:N, N from 1 to {}", studies::most_points)});
   return {};
 }
@@ -120,9 +120,7 @@ void print_limits(const std::vector<studies::PointRow>& rows) {
 int bad(const Problems& problems) {
   Problems once;
   for (const auto& problem : problems)
-    if (std::none_of(once.begin(), once.end(),
-                     [&](const Problem& other) { return to_string(other) == to_string(problem); }))
-      once.push_back(problem);
+    if (std::ranges::find(once, problem) == once.end()) once.push_back(problem);
   print_problems(once);
   return bad_input;
 }
@@ -139,11 +137,10 @@ int in_folder(const StudyOptions& options, OutputFolder& folder, const Work& wor
     const int status = work(store);
     fmt::print("{} runs simulated now{}\n", store.simulated(),
                store.refused() > 0 ? fmt::format(", {} refused", store.refused()) : "");
-    for (const auto& lost : store.lost()) fmt::print(stderr, "{}\n", printable(lost));
+    print_left_out(store.lost());
     return status;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", options.out.string(), drycut::words_of(error));
-    return simulation_failed;
+    return print_failure(fmt::format("{}: {}", options.out.string(), drycut::words_of(error)));
   }
 }
 
@@ -174,7 +171,7 @@ int sweep_scenario(const SweepOptions& options) {
       axes.push_back(std::move(*axis));
   auto question = read_question(options, options.scenario, problems);
   if (sampled && axes.size() > studies::sobol_axes)
-    problems.push_back({"--sample", 1, 1, fmt::format("{} axes", axes.size()),
+    problems.push_back({"study.out-of-range"_code, "--sample", 1, 1, fmt::format("{} axes", axes.size()),
                         fmt::format("a Sobol sequence is over {} at most", studies::sobol_axes)});
   const auto points = studies::planned(axes, sampled, question, problems);
   std::optional<OutputFolder> folder;
@@ -224,7 +221,8 @@ void refuse_unknown_names(const std::vector<std::string>& options, const char* o
         name.empty() || std::any_of(scenes.begin(), scenes.end(),
                                     [&](const std::string& scene) { return scene.starts_with(name); });
     if (!known)
-      problems.push_back({option, 1, 1, fmt::format("no scenario's name begins with '{}'", name),
+      problems.push_back({"study.unknown-name"_code, option, 1, 1,
+                          fmt::format("no scenario's name begins with '{}'", name),
                           fmt::format("the scenarios are {}", fmt::join(scenes, ", "))});
   }
 }
@@ -260,7 +258,7 @@ std::optional<studies::BoundRequest> read_request(const EnvelopeOptions& options
   const bool least = largest.empty() && !smallest.empty();
   const auto* option = least ? smallest_option : largest_option;
   if (count != 1) {
-    problems.push_back({option, 1, 1,
+    problems.push_back({"study.unknown-name"_code, option, 1, 1,
                         count == 0 ? fmt::format("nothing says what to find of {}", scene)
                         : largest.size() == count || smallest.size() == count
                             ? fmt::format("there are {} of them for {}", count, scene)
@@ -306,7 +304,8 @@ std::vector<studies::Envelope> read_envelopes(const EnvelopeOptions& options, Pr
   for (const auto& file : options.scenarios) {
     auto name = file.stem().string();
     if (std::find(scenes.begin(), scenes.end(), name) != scenes.end())
-      problems.push_back({file.string(), 1, 1, fmt::format("there are two scenarios named {}", name),
+      problems.push_back({"study.twice"_code, file.string(), 1, 1,
+                          fmt::format("there are two scenarios named {}", name),
                           "give each once, with a name of its own"});
     scenes.push_back(std::move(name));
   }

@@ -66,7 +66,7 @@ TableText with_values(std::string text, const fs::path& table, const fs::path& s
       auto values = values_of(file.lexically_normal(), text, table);
       if (!values) continue;
       if (found && found->text != values->text) {
-        problems.push_back({table.string(), 1, 1,
+        problems.push_back({"cam.table-form"_code, table.string(), 1, 1,
                             fmt::format("it has values from a scenario; {} and {} give it different ones",
                                         found->scenario.string(), values->scenario.string()),
                             fmt::format("name one: drycut cam --scene '{}'", found->scenario.string())});

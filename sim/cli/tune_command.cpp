@@ -35,7 +35,7 @@ int tune(const TuneOptions& options, const studies::TunePlan& plan, OutputFolder
              (options.out / studies::evaluations_file).string());
   fmt::print("simulated runs: {}\n", studies::runs_text(tuned.found));
   if (tuned.has_report) fmt::print("report: {}\n", (options.out / "report.html").string());
-  for (const auto& text : tuned.lost()) fmt::print(stderr, "{}\n", printable(text));
+  print_left_out(tuned.lost());
   return tuned.exit;
 }
 
@@ -54,8 +54,7 @@ int tune_scenarios(const TuneOptions& options) {
   try {
     return tune(options, plan, *folder);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", drycut::words_of(error));
-    return simulation_failed;
+    return print_failure(drycut::words_of(error));
   }
 }
 

@@ -31,7 +31,7 @@ class Usage {
 
   void tell() {
     if (!is_command_ && left_.empty()) {
-      problem("no command is given", "known: " + listed(commands()));
+      problem("option.missing"_code, "no command is given", "known: " + listed(commands()));
       return;
     }
     const bool unknown = unknown_options();
@@ -44,8 +44,9 @@ class Usage {
   }
 
  private:
-  void problem(const std::string& what, const std::string& remedy) const {
-    fmt::print(stderr, "drycut{}: {}; {}\n", is_command_ ? ' ' + command_.get_name() : "", what, remedy);
+  void problem(Code code, const std::string& what, const std::string& remedy) const {
+    fmt::print(stderr, "drycut{}: {}; {} [{}]\n", is_command_ ? ' ' + command_.get_name() : "", what, remedy,
+               code.text());
   }
   [[nodiscard]] std::string help() const {
     return fmt::format("drycut{} --help says what it takes",
@@ -67,21 +68,24 @@ class Usage {
     for (const auto& word : left_) {
       if (word.size() < 2 || word[0] != '-' || is_digit(word[1])) continue;
       const auto option = word.substr(0, word.find('='));
-      problem(fmt::format("there is no option {}", option), did_you_mean(option, known));
+      problem("option.unknown"_code, fmt::format("there is no option {}", option),
+              did_you_mean(option, known));
       any = true;
     }
     return any;
   }
 
   void stray_words() const {
-    for (const auto& word : left_) problem(fmt::format("nothing takes {}", in_quotes(word)), help());
+    for (const auto& word : left_)
+      problem("option.unknown"_code, fmt::format("nothing takes {}", in_quotes(word)), help());
   }
 
   void missing_options() const {
     for (const auto* option : command_.get_options()) {
       const bool named = error_.what() == option->get_name() + " is required";
       if ((!option->get_required() && !named) || option->count() > 0) continue;
-      problem(fmt::format("{} {} missing", option->get_name(),
+      problem("option.missing"_code,
+              fmt::format("{} {} missing", option->get_name(),
                           option->get_expected_max() > 1 && option->get_positional() ? "are" : "is"),
               "give it: " + purpose_of(*option));
     }
@@ -94,26 +98,30 @@ class Usage {
     using std::regex;
     if (std::regex_match(text, part, regex("(--[^:]*): .* required .* missing"))) {
       const auto* option = command_.get_option_no_throw(part[1]);
-      problem(fmt::format("{} has no value", part[1].str()),
+      problem("option.missing"_code, fmt::format("{} has no value", part[1].str()),
               option == nullptr ? help() : "give one: " + purpose_of(*option));
     } else if (std::regex_match(text, part, regex("([^:]*): Value (.*) not in range (\\S+) to (\\S+)"))) {
-      problem(fmt::format("{}: {} is no number in its range", part[1].str(), in_quotes(part[2].str())),
+      problem("option.value"_code,
+              fmt::format("{}: {} is no number in its range", part[1].str(), in_quotes(part[2].str())),
               fmt::format("give {} to {}", part[3].str(), part[4].str()));
     } else if (std::regex_match(text, part, regex("([^:]*): (.*) not in \\{(.*)\\}"))) {
       std::vector<std::string> known;
       for (const auto& word : split_words(part[3].str(), {}, ",")) known.push_back(word.text);
-      problem(fmt::format("{}: there is no {}", part[1].str(), in_quotes(part[2].str())),
+      problem("option.unknown-choice"_code,
+              fmt::format("{}: there is no {}", part[1].str(), in_quotes(part[2].str())),
               did_you_mean(part[2].str(), known));
     } else if (std::regex_match(text, part, regex("Could not convert: (\\S+) = (.*)"))) {
-      problem(fmt::format("{}: {} is no number", part[1].str(), in_quotes(part[2].str())), "give one");
+      problem("option.value"_code,
+              fmt::format("{}: {} is no number", part[1].str(), in_quotes(part[2].str())), "give one");
     } else if (std::regex_match(text, part, regex("(.*) excludes (.*)"))) {
-      problem(fmt::format("{} and {} do not go together", part[1].str(), part[2].str()),
+      problem("option.together"_code,
+              fmt::format("{} and {} do not go together", part[1].str(), part[2].str()),
               "leave one of them out");
     } else if (text.find("; ") != std::string::npos) {  // one of our own
       const auto end = text.find("; ");
-      problem(text.substr(0, end), text.substr(end + 2));
+      problem("option.value"_code, text.substr(0, end), text.substr(end + 2));
     } else {
-      problem(text, help());
+      problem("option.value"_code, text, help());
     }
   }
 

@@ -34,7 +34,8 @@ int work(const std::filesystem::path& file) {
   std::ostringstream bytes;
   bytes << stream.rdbuf();
   if (!stream) {
-    fmt::print(stderr, "{}:1:1: there is no such file; `drycut sweep --on` makes it\n", file.string());
+    fmt::print(stderr, "{}:1:1: there is no such file; `drycut sweep --on` makes it [file.missing]\n",
+               file.string());
     return bad_input;
   }
   FileSet files;
@@ -69,8 +70,7 @@ void add_work(CLI::App& app, int& status) {
     try {
       status = work(*file);
     } catch (const std::exception& error) {
-      fmt::print(stderr, "{}: {}\n", file->string(), error.what());
-      status = simulation_failed;
+      status = print_failure(fmt::format("{}: {}", file->string(), error.what()));
     }
   });
 }

@@ -83,7 +83,7 @@ void visit_compute_time(scenario::Archive& archive, scenario::ControllerSection&
 std::optional<std::string> read_named(const scenario::Text& path, const scenario::Scenario& scenario,
                                       Problems& problems) {
   return read_file(scenario.file.parent_path() / path.text, problems,
-                   scenario::problem_at(scenario, path.place, "", ""));
+                   scenario::named_at(scenario, path.place));
 }
 
 std::optional<std::string> read_program(std::string_view key, const scenario::Text& path,
@@ -92,7 +92,7 @@ std::optional<std::string> read_program(std::string_view key, const scenario::Te
   for (const auto& [ending, what, home] : endings) {
     if (ending != of || home == key) continue;
     problems.push_back(scenario::problem_at(
-        scenario, path.place,
+        "controller.axis-value"_code, scenario, path.place,
         fmt::format("{} is {}, which controller.{} does not take", path.text, what, key),
         home.empty() ? "drycut run takes it" : fmt::format("controller.{} takes it", home)));
     return {};

@@ -31,7 +31,7 @@ struct QmoveSection final : scenario::ControllerSection {
   [[nodiscard]] std::vector<scenario::Text> files() const override;
   [[nodiscard]] std::string_view settable() const override;
   std::unique_ptr<devices::Controller> load(const scenario::Scenario& scenario, Problems& problems,
-                                            std::vector<std::string>* notes) const override;
+                                            std::vector<Finding>* notes) const override;
 };
 
 /// controller: lx3vp: ...
@@ -47,7 +47,7 @@ struct Lx3vpSection final : scenario::ControllerSection {
   [[nodiscard]] std::vector<scenario::Text> files() const override;
   [[nodiscard]] std::string_view settable() const override;
   std::unique_ptr<devices::Controller> load(const scenario::Scenario& scenario, Problems& problems,
-                                            std::vector<std::string>* notes) const override;
+                                            std::vector<Finding>* notes) const override;
 };
 
 /// controller: plcopen: ...
@@ -60,8 +60,8 @@ struct PlcopenSection final : scenario::ControllerSection {
     scenario::Text name;
     devices::plcopen::AxisConfiguration configuration = {};
     std::vector<std::pair<std::string, scenario::ScenePlace>> places =
-        {};                               ///< of the parameters that the file gives
-    std::vector<std::string> notes = {};  ///< numbers without a unit beside others that have one
+        {};                           ///< of the parameters that the file gives
+    std::vector<Finding> notes = {};  ///< numbers without a unit beside others that have one
   };
   std::vector<Axis> axes;
   struct Table {
@@ -100,10 +100,10 @@ struct PlcopenSection final : scenario::ControllerSection {
   [[nodiscard]] Period period() const override { return {"cycle", cycle}; }
   [[nodiscard]] std::vector<scenario::Text> files() const override;
   [[nodiscard]] std::string_view settable() const override;
-  [[nodiscard]] std::vector<std::string> contradictions(const scenario::Scenario& scenario,
-                                                        const ScaleOf& scale_of) const override;
+  [[nodiscard]] std::vector<Finding> contradictions(const scenario::Scenario& scenario,
+                                                    const ScaleOf& scale_of) const override;
   std::unique_ptr<devices::Controller> load(const scenario::Scenario& scenario, Problems& problems,
-                                            std::vector<std::string>* notes) const override;
+                                            std::vector<Finding>* notes) const override;
 
  private:
   void visit_modbus(scenario::Archive& archive);

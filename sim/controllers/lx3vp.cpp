@@ -45,7 +45,7 @@ struct GivenValue {
 
 /// Of values that the first scan replaces nothing is left when the machine begins.
 void note_overwritten(const lx3vp::il::IlProgram& program, Time scan, const std::vector<GivenValue>& given,
-                      std::vector<std::string>& notes) {
+                      std::vector<Finding>& notes) {
   lx3vp::Lx3vpController trial(program, scan);
   std::vector<double> before;
   for (const auto& [name, value, place] : given) {
@@ -58,8 +58,9 @@ void note_overwritten(const lx3vp::il::IlProgram& program, Time scan, const std:
     const auto& [name, value, place] = given[i];
     const double after = lx3vp::read(trial.registers(), name);
     if (after == before[i]) continue;
-    notes.push_back(fmt::format("{}: {} = {}, and the program's first scan makes it {}", place,
-                                lx3vp::to_string(name), value, after));
+    notes.emplace_back("controller.value-overwritten"_code,
+                       fmt::format("{}: {} = {}, and the program's first scan makes it {}", place,
+                                   lx3vp::to_string(name), value, after));
   }
 }
 
@@ -67,7 +68,7 @@ void note_overwritten(const lx3vp::il::IlProgram& program, Time scan, const std:
 
 std::unique_ptr<devices::Controller> Lx3vpSection::load(const scenario::Scenario& scenario,
                                                         Problems& problems,
-                                                        std::vector<std::string>* notes) const {
+                                                        std::vector<Finding>* notes) const {
   const auto before = problems.size();
   const auto path_of = [&](const scenario::Text& path) {
     return (scenario.file.parent_path() / path.text).string();
@@ -89,7 +90,7 @@ std::unique_ptr<devices::Controller> Lx3vpSection::load(const scenario::Scenario
     for (const auto& [name, value, line] : values)
       given.push_back({name, value, fmt::format("{}:{}:1", path_of(registers), line)});
     for (const auto& [name, value] : set) {
-      const auto place = scenario::problem_at(scenario, name.place, "", "");
+      const auto place = scenario::named_at(scenario, name.place);
       if (const auto found = lx3vp::parse_register(name.text); found && lx3vp::is_served(*found))
         given.push_back({*found, value, fmt::format("{}:{}:{}", place.file, place.line, place.column)});
     }

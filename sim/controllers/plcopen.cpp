@@ -21,7 +21,7 @@ namespace {
 void check_multiple(scenario::MapReader& reader, std::string_view key, Time time, Time cycle) {
   if (time % cycle == 0) return;
   reader.refuse(
-      key,
+      "scenario.time-grid"_code, key,
       fmt::format("{} {} is not a whole multiple of the cycle {}", reader.full(key),
                   scenario::format_time(time), scenario::format_time(cycle)),
       fmt::format("for example {}", scenario::format_time(std::max<Time>(1, time / cycle) * cycle)));
@@ -45,7 +45,8 @@ void visit_task(scenario::Archive& archive, PlcopenSection& section, std::size_t
         for (const auto& again : judged.programs)
           if (same_word(program.text, again.text))
             reader.findings().add(
-                again.place, fmt::format("{} runs in {} already", again.text, section.tasks[i].name.text),
+                "controller.twice"_code, again.place,
+                fmt::format("{} runs in {} already", again.text, section.tasks[i].name.text),
                 "a program has one task");
   });
 }
@@ -57,11 +58,12 @@ void judge_axis_names(const std::vector<PlcopenSection::Axis>& axes, scenario::F
       return same_word(other.name.text, name.text);
     });
     if (!is_identifier(name.text) || name.text == "panel")
-      findings.add(name.place, fmt::format("'{}' is no name of an axis", name.text),
+      findings.add("controller.bad-name"_code, name.place,
+                   fmt::format("'{}' is no name of an axis", name.text),
                    "letters, digits and underscores, as the program's VAR_EXTERNAL spells it");
     else if (same != axis)
       findings.add(
-          name.place,
+          "controller.twice"_code, name.place,
           fmt::format("axis {} is {} already: names are the same in any case", name.text, same->name.text),
           "keep one");
   }
@@ -77,12 +79,13 @@ std::vector<plcopen::McCamTable> load_tables(const PlcopenSection& section,
     if (parameters.is_master && parameters.modulo > 0) masters.push_back({name, parameters.modulo});
   for (const auto& entry : section.tables) {
     const auto path = scenario.file.parent_path() / entry.file.text;
-    const auto complain = [&](std::string what, std::string remedy) {
+    const auto complain = [&](Code code, std::string what, std::string remedy) {
       problems.push_back(
-          scenario::problem_at(scenario, entry.file.place, std::move(what), std::move(remedy)));
+          scenario::problem_at(code, scenario, entry.file.place, std::move(what), std::move(remedy)));
     };
     if (path.extension() != ".tab" && path.extension() != ".csv") {
-      complain(fmt::format("'{}' is no kind of cam table that is known", entry.file.text),
+      complain("controller.cam-kind"_code,
+               fmt::format("'{}' is no kind of cam table that is known", entry.file.text),
                "give a table of the kernel (.tab) or a cam as CSV (.csv)");
       continue;
     }
@@ -99,11 +102,12 @@ std::vector<plcopen::McCamTable> load_tables(const PlcopenSection& section,
     if (entry.id != 0) table->id = static_cast<std::uint16_t>(entry.id);
     for (const auto& other : tables) {
       if (other.id == table->id)
-        complain(fmt::format("{} has id {}, as {} has", table->file, table->id, other.file),
+        complain("controller.twice"_code,
+                 fmt::format("{} has id {}, as {} has", table->file, table->id, other.file),
                  fmt::format("give one an id of its own: {{file: {}, id: {}}}", entry.file.text,
                              tables.size() + 1));
       else if (other.file == table->file)
-        complain(fmt::format("two tables are called {}", table->file),
+        complain("controller.twice"_code, fmt::format("two tables are called {}", table->file),
                  "programs find them by name: rename one");
     }
     tables.push_back(std::move(*table));
@@ -123,11 +127,11 @@ void check_names(const plcopen::st::Program& program, const std::string& file,
       };
       if (std::any_of(there.begin(), there.end(), same)) continue;
       const auto near = nearest(name.name, there);
-      problems.push_back(
-          {file, name.line, name.column, fmt::format("the scenario has no {} '{}'", what, name.name),
-           near.empty()
-               ? fmt::format("add it to controller.plcopen.{}", section)
-               : fmt::format("did you mean {}? Else add it to controller.plcopen.{}", near, section)});
+      problems.push_back({"controller.unknown-name"_code, file, name.line, name.column,
+                          fmt::format("the scenario has no {} '{}'", what, name.name),
+                          near.empty() ? fmt::format("add it to controller.plcopen.{}", section)
+                                       : fmt::format("did you mean {}? Else add it to controller.plcopen.{}",
+                                                     near, section)});
     }
   };
   std::vector<std::string> axes;
@@ -145,7 +149,7 @@ void check_tasks(const plcopen::st::Program& program, const std::string& file, c
   for (const auto& task : program.tasks())
     if (task.interval_ns % section.cycle != 0)
       problems.push_back(
-          {file, task.line, task.column,
+          {"scenario.time-grid"_code, file, task.line, task.column,
            fmt::format("the task {} runs every {}, not a whole multiple of the cycle {}", task.name,
                        scenario::format_time(task.interval_ns), scenario::format_time(section.cycle)),
            "change INTERVAL or controller.plcopen.cycle"});
@@ -153,14 +157,16 @@ void check_tasks(const plcopen::st::Program& program, const std::string& file, c
     if (program.has_configuration() || program.instances().size() < 2) return;
     const auto& second = program.instances()[1];
     problems.push_back(
-        {file, second.line, second.column, fmt::format("a second PROGRAM, '{}', without a task", second.name),
+        {"controller.twice"_code, file, second.line, second.column,
+         fmt::format("a second PROGRAM, '{}', without a task", second.name),
          fmt::format("CONFIGURATION ... TASK says when it runs, or the scenario: controller.plcopen.tasks: "
                      "{{slow: {{cycle: 20 ms, programs: [{}]}}}}",
                      second.name)});
     return;
   }
   if (program.has_configuration()) {
-    problems.push_back(scenario::problem_at(scenario, section.tasks.front().name.place,
+    problems.push_back(scenario::problem_at("scenario.does-not-go-together"_code, scenario,
+                                            section.tasks.front().name.place,
                                             "the program's CONFIGURATION has the tasks",
                                             "leave out controller.plcopen.tasks, or the CONFIGURATION"));
     return;
@@ -171,7 +177,7 @@ void check_tasks(const plcopen::st::Program& program, const std::string& file, c
     for (const auto& wanted : task.programs)
       if (std::none_of(names.begin(), names.end(),
                        [&](const std::string& name) { return same_word(name, wanted.text); }))
-        problems.push_back(scenario::problem_at(scenario, wanted.place,
+        problems.push_back(scenario::problem_at("controller.unknown-name"_code, scenario, wanted.place,
                                                 fmt::format("there is no PROGRAM '{}'", wanted.text),
                                                 did_you_mean(wanted.text, names)));
 }
@@ -179,7 +185,7 @@ void check_tasks(const plcopen::st::Program& program, const std::string& file, c
 /// The kernel's own v_phasing is so slow that a slave seems to hang on its way to the cam. MC_GearIn does not
 /// need it: a gear has no place to go to.
 void note_slow_phasing(const plcopen::st::Program& program, const PlcopenSection& section,
-                       const scenario::Scenario& scenario, std::vector<std::string>& notes) {
+                       const scenario::Scenario& scenario, std::vector<Finding>& notes) {
   if (!program.has_motion_block("MC_CamIn")) return;
   const auto& phasing = *plcopen::find_axis_parameter("cam_gear.v_phasing");
   for (const auto& axis : section.axes) {
@@ -189,10 +195,12 @@ void note_slow_phasing(const plcopen::st::Program& program, const PlcopenSection
     const auto name = fmt::format("{}.{}", axis.name.text, phasing.name);
     if (parameters.v_phasing != plcopen::AxisParameters{}.v_phasing || scenario::sets(scenario, name))
       continue;
-    notes.push_back(fmt::format(
-        "{} is at its default, {}: MC_CamIn will hardly reach its cam; give v_phasing, a_phasing, "
-        "d_phasing and j_phasing",
-        name, scenario::axis_value_text(phasing, parameters, axis.configuration.measure)));
+    notes.emplace_back(
+        "controller.slow-phasing"_code,
+        fmt::format(
+            "{} is at its default, {}: MC_CamIn will hardly reach its cam; give v_phasing, a_phasing, "
+            "d_phasing and j_phasing",
+            name, scenario::axis_value_text(phasing, parameters, axis.configuration.measure)));
   }
 }
 
@@ -253,8 +261,8 @@ std::string_view PlcopenSection::settable() const {
   return "name a variable of the program, or a value or parameter of an axis (drycut devices AXIS)";
 }
 
-std::vector<std::string> PlcopenSection::contradictions(const scenario::Scenario& scenario,
-                                                        const ScaleOf& scale_of) const {
+std::vector<Finding> PlcopenSection::contradictions(const scenario::Scenario& scenario,
+                                                    const ScaleOf& scale_of) const {
   auto found = contradicting_scales(*this, scenario, scale_of);
   std::vector<plcopen::AxisConfiguration> configurations;
   for (const auto& axis : axes) configurations.push_back(axis.configuration);
@@ -269,7 +277,7 @@ std::vector<std::string> PlcopenSection::contradictions(const scenario::Scenario
 
 std::unique_ptr<devices::Controller> PlcopenSection::load(const scenario::Scenario& scenario,
                                                           Problems& problems,
-                                                          std::vector<std::string>* notes) const {
+                                                          std::vector<Finding>* notes) const {
   const auto before = problems.size();
   const auto file = (scenario.file.parent_path() / program.text).string();
   plcopen::PlcopenConfiguration configuration;

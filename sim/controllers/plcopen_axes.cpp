@@ -30,13 +30,14 @@ class AxisUnits {
     return measured_by_ ? std::optional(measure_) : std::nullopt;
   }
   /// Who writes units means one everywhere: what the bare numbers beside them come to.
-  [[nodiscard]] std::vector<std::string> bare_numbers(const std::string& axis,
-                                                      const scenario::Findings& findings) const {
-    std::vector<std::string> notes;
+  [[nodiscard]] std::vector<Finding> bare_numbers(const std::string& axis,
+                                                  const scenario::Findings& findings) const {
+    std::vector<Finding> notes;
     if (!measured_by_) return notes;
     for (const auto& [parameter, text] : bare_) {
       const auto& place = text.place;
-      notes.push_back(
+      notes.emplace_back(
+          "controller.bare-number"_code,
           fmt::format("{}:{}:{}: {}.{} is {} without a unit, in {}: {}; write {} {} if that is meant",
                       findings.sources().at(static_cast<std::size_t>(place.source)), place.line, place.column,
                       axis, parameter->name, text.text, parameter->unit,
@@ -71,7 +72,7 @@ class AxisUnits {
     const auto limit = [&](double number) {
       return fmt::format("{:.12g}{}{}", number / people.factor, people.unit.empty() ? "" : " ", people.unit);
     };
-    findings.add(text.place,
+    findings.add("controller.axis-value"_code, text.place,
                  in_range ? fmt::format("{} is {}, not a whole number of {}", full, text.text,
                                         parameter.unit.empty() ? "ones" : parameter.unit)
                           : fmt::format("{} is {}, out of range", full, text.text),
@@ -95,7 +96,7 @@ class AxisUnits {
                               ? scenario::dimension_name(length.unit)
                               : fmt::format("{} or {}", scenario::dimension_name(length.unit),
                                             scenario::dimension_name(angle.unit));
-      findings.add(place,
+      findings.add("controller.axis-value"_code, place,
                    fmt::format("{} is {}, not {} ({})", full, wanted, scenario::dimension_name(quantity.unit),
                                quantity.unit),
                    length.unit.empty() ? std::string("write a number without unit")
@@ -107,7 +108,7 @@ class AxisUnits {
     if (length.unit == angle.unit) return length;
     const Measure measure = is_length ? Measure::length : Measure::angle;
     if (measured_by_ && measure != measure_) {
-      findings.add(place,
+      findings.add("controller.axis-value"_code, place,
                    fmt::format("{} is {}, but {} is {}", full, scenario::dimension_name(quantity.unit),
                                *measured_by_, measured_unit_),
                    "an axis measures lengths or angles: give all its quantities in one of them");
@@ -157,7 +158,8 @@ scenario::ParameterTable::Row path_row(const std::shared_ptr<AxisUnits>& units) 
                       items[0].kind == scenario::YamlNode::Kind::scalar &&
                       items[1].kind == scenario::YamlNode::Kind::scalar;
     if (!pair) {
-      findings.add(node.text.place, fmt::format("{} is not a way and its counts", name.full),
+      findings.add("controller.axis-value"_code, node.text.place,
+                   fmt::format("{} is not a way and its counts", name.full),
                    "write [500 mm, 10000]: the way of so many counts (x4) of the encoder");
       return;
     }
@@ -185,7 +187,7 @@ void judge_software_limits(scenario::MapReader& reader, const PlcopenSection::Ax
   const auto place = std::find_if(axis.places.begin(), axis.places.end(), [&](const auto& given) {
     return given.first == low.name || given.first == high.name;
   });
-  reader.findings().add(place->second,
+  reader.findings().add("controller.axis-value"_code, place->second,
                         fmt::format("{}: {} {} is above {} {}", reader.name(), low.name,
                                     scenario::axis_value_text(low, parameters, Measure::length), high.name,
                                     scenario::axis_value_text(high, parameters, Measure::length)),

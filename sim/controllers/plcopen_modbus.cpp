@@ -31,11 +31,13 @@ class Filler {
     const auto number = parsed<int>(address.text);
     const int words = (devices::width_of(format) + 15) / 16;
     if (!number || *number < 0 || *number + words > addresses)
-      return problem(address.place, fmt::format("'{}' is no address", address.text),
+      return problem("controller.bad-name"_code, address.place,
+                     fmt::format("'{}' is no address", address.text),
                      fmt::format("0 to {}, as it goes over the wire: 40001 is address 0", addresses - words));
     const auto found = controller_.find(value.text);
     if (!found)
-      return problem(value.place, fmt::format("the controller has nothing called '{}'", value.text),
+      return problem("controller.unknown-name"_code, value.place,
+                     fmt::format("the controller has nothing called '{}'", value.text),
                      did_you_mean(value.text, controller_.names(),
                                   "name a variable of the program, or a value or parameter of an axis"));
     // A word of what is never negative goes to 65535.
@@ -43,14 +45,15 @@ class Filler {
       format = ModbusFormat::uint16;
     const auto other = controller_.modbus_map().add(table, *number, found->name, format, low_first);
     if (!other.empty())
-      problem(address.place, fmt::format("{} stands at address {} already", other, *number),
+      problem("controller.twice"_code, address.place,
+              fmt::format("{} stands at address {} already", other, *number),
               words == 1 ? "give each an address of its own"
                          : fmt::format("give each addresses of its own: this one takes {}", words));
   }
 
  private:
-  void problem(const scenario::ScenePlace& place, std::string what, std::string remedy) {
-    problems_.push_back(scenario::problem_at(scenario_, place, std::move(what), std::move(remedy)));
+  void problem(Code code, const scenario::ScenePlace& place, std::string what, std::string remedy) {
+    problems_.push_back(scenario::problem_at(code, scenario_, place, std::move(what), std::move(remedy)));
   }
 
   plcopen::PlcopenController& controller_;

@@ -37,7 +37,7 @@ class AxisJudge {
             const scenario::ControllerSection::ScaleOf& scale_of)
       : axis_(axis), of_(axis.configuration.parameters), scenario_(scenario), scale_of_(scale_of) {}
 
-  std::vector<std::string> run() {
+  std::vector<Finding> run() {
     judge_path();
     judge_speed();
     return std::move(found_);
@@ -64,8 +64,9 @@ class AxisJudge {
     if (!differ(of_.path_counts, given, tolerance)) return;
     const auto shown = turns() ? fmt::format("{:.6g} deg", of_.path_increments / increments_a_turn * 360)
                                : fmt::format("{:.6g} mm", of_.path_increments / increments_a_metre * 1000);
-    found_.push_back(fmt::format("{}.path says {:.10g} counts for {}, and {} gives {:.10g}", axis_.name.text,
-                                 of_.path_counts, shown, plug, given));
+    found_.emplace_back("wiring.counts-contradict"_code,
+                        fmt::format("{}.path says {:.10g} counts for {}, and {} gives {:.10g}",
+                                    axis_.name.text, of_.path_counts, shown, plug, given));
   }
 
   void judge_speed() {
@@ -77,15 +78,16 @@ class AxisJudge {
     constexpr double tolerance = 1e-2;
     if (!differ(says, in_unit, tolerance)) return;
     const std::string_view unit = turns() ? "deg/s" : "mm/s";
-    found_.push_back(fmt::format("{}.antr.v_at_10v is {:.6g} {}, and 10 V at {} are {:.6g} {}",
-                                 axis_.name.text, says, unit, plug, in_unit, unit));
+    found_.emplace_back("wiring.speed-contradicts"_code,
+                        fmt::format("{}.antr.v_at_10v is {:.6g} {}, and 10 V at {} are {:.6g} {}",
+                                    axis_.name.text, says, unit, plug, in_unit, unit));
   }
 
   const PlcopenSection::Axis& axis_;
   const plcopen::AxisParameters& of_;
   const scenario::Scenario& scenario_;
   const scenario::ControllerSection::ScaleOf& scale_of_;
-  std::vector<std::string> found_;
+  std::vector<Finding> found_;
 };
 
 /// The way of the web in a turn of a straight-bladed knife's drum [m].
@@ -121,19 +123,18 @@ std::optional<double> nearest_slope(const plcopen::McCamTable& cam, double wante
 
 }  // namespace
 
-std::vector<std::string> contradicting_scales(const PlcopenSection& section,
-                                              const scenario::Scenario& scenario,
-                                              const scenario::ControllerSection::ScaleOf& scale_of) {
-  std::vector<std::string> found;
+std::vector<Finding> contradicting_scales(const PlcopenSection& section, const scenario::Scenario& scenario,
+                                          const scenario::ControllerSection::ScaleOf& scale_of) {
+  std::vector<Finding> found;
   for (const auto& axis : section.axes)
     for (auto& note : AxisJudge(axis, scenario, scale_of).run()) found.push_back(std::move(note));
   return found;
 }
 
-std::vector<std::string> contradicting_cams(const PlcopenSection& section,
-                                            const std::vector<plcopen::McCamTable>& cams,
-                                            const scenario::Scenario& scenario) {
-  std::vector<std::string> found;
+std::vector<Finding> contradicting_cams(const PlcopenSection& section,
+                                        const std::vector<plcopen::McCamTable>& cams,
+                                        const scenario::Scenario& scenario) {
+  std::vector<Finding> found;
   for (const auto& axis : section.axes) {
     if (axis.configuration.measure != plcopen::Measure::angle) continue;
     const auto plug = plug_at(scenario, axis.name.text + ".encoder");
@@ -145,7 +146,8 @@ std::vector<std::string> contradicting_cams(const PlcopenSection& section,
         const auto slope = nearest_slope(cam, wanted);
         constexpr double tolerance = 0.02;
         if (!slope || *slope <= 0 || !differ(*slope, wanted, tolerance)) continue;
-        found.push_back(
+        found.emplace_back(
+            "wiring.cam-contradicts"_code,
             fmt::format("{} runs {:.4g} deg a mm of web, as a drum of {:.6g} mm does, and {} has {:.6g} mm",
                         cam.file, *slope * increments_a_metre / increments_a_turn * 360 / 1000,
                         increments_a_turn / (*slope * increments_a_metre) * 1000, plant.name.text,

@@ -36,7 +36,7 @@ std::string_view QmoveSection::settable() const {
 
 std::unique_ptr<devices::Controller> QmoveSection::load(const scenario::Scenario& scenario,
                                                         Problems& problems,
-                                                        std::vector<std::string>* notes) const {
+                                                        std::vector<Finding>* notes) const {
   const auto before = problems.size();
   const auto folder = scenario.file.parent_path();
   const auto text = read_program("qmove.configuration", configuration, scenario, problems);

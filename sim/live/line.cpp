@@ -122,7 +122,8 @@ Problems Line::restart() {
   try {
     run_->keep_retentive();
   } catch (const std::runtime_error& not_kept) {
-    return {{"restart", 1, 1, not_kept.what(), "make room for it; the line goes on as it is"}};
+    return {{"file.not-writable"_code, "restart", 1, 1, not_kept.what(),
+             "make room for it; the line goes on as it is"}};
   }
   auto fresh = std::make_unique<LineRun>(options_, *run_, problems);
   if (!problems.empty()) return problems;

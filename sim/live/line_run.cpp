@@ -46,7 +46,7 @@ std::string machine_of(scenario::Scenario scenario, std::vector<std::string>& pa
   return renders::gltf_of_parts(film);
 }
 
-Replay read(const Line::Options& options, std::vector<std::string>& notes, Problems& problems) {
+Replay read(const Line::Options& options, std::vector<Finding>& notes, Problems& problems) {
   if (!options.from) return {scenario::read_scenario(options.scenario, options.set, problems)};
   return read_session(options.from->session, options.from->at, notes, problems).value_or(Replay{});
 }
@@ -73,7 +73,7 @@ LineRun::LineRun(const Line::Options& options, const LineRun* before, Problems& 
     machine_ = before->machine_;
     parts_ = before->parts_;
   } else {
-    std::vector<std::string> told;
+    std::vector<Finding> told;
     machine_ = machine_of(read(options, told, problems).scenario, parts_, problems);
     if (!problems.empty()) return;
   }
@@ -192,12 +192,13 @@ Problems LineRun::want(Asker asker, const Sample& sample) {
   const auto& names = sample.names;
   Problems problems;
   if (names.size() > most_channels)
-    return {
-        {"sample", 1, 1, fmt::format("{} channels", names.size()), fmt::format("{} at most", most_channels)}};
+    return {{"live.message"_code, "sample", 1, 1, fmt::format("{} channels", names.size()),
+             fmt::format("{} at most", most_channels)}};
   for (const auto& name : names) {
     if (problems.size() >= most_slips) break;
     if (known(name) == nullptr)
-      problems.push_back({"sample", 1, 1, fmt::format("there is no channel '{}'", name),
+      problems.push_back({"scenario.unknown-name"_code, "sample", 1, 1,
+                          fmt::format("there is no channel '{}'", name),
                           simulation_->names().suggest_reading(name)});
   }
   if (!problems.empty()) return problems;
@@ -207,7 +208,7 @@ Problems LineRun::want(Asker asker, const Sample& sample) {
   if (const auto all = wanted_names_.size(); all > most_channels_all) {
     count(names, -1);
     count(own.names, 1);
-    return {{"sample", 1, 1, fmt::format("the line would sample {} channels", all),
+    return {{"live.message"_code, "sample", 1, 1, fmt::format("the line would sample {} channels", all),
              fmt::format("{} at most for all pages together", most_channels_all)}};
   }
   own = sample;
@@ -245,7 +246,8 @@ Problems LineRun::values_of(const std::vector<std::string>& names, std::vector<d
       values.push_back((*read)());
       continue;
     }
-    problems.push_back({"read", 1, 1, fmt::format("there is no channel '{}'", name),
+    problems.push_back({"scenario.unknown-name"_code, "read", 1, 1,
+                        fmt::format("there is no channel '{}'", name),
                         simulation_->names().suggest_reading(name)});
     if (problems.size() >= most_slips) break;
   }
@@ -308,9 +310,10 @@ std::shared_ptr<const LineDescription> LineRun::describe() {
   told->parts = parts_;
   told->machine = machine_;
   for (const auto& check : simulation_->outcome().checks) told->checks.push_back(check.name);
-  told->notes = simulation_->warnings();
-  for (auto& note : simulation_->notes()) told->notes.push_back(std::move(note));
-  told->notes.insert(told->notes.begin(), notes_.begin(), notes_.end());
+  told->notes = record::texts_of(simulation_->warnings());
+  for (auto& note : simulation_->notes()) told->notes.push_back(std::move(note.text));
+  const auto read = record::texts_of(notes_);
+  told->notes.insert(told->notes.begin(), read.begin(), read.end());
   return told;
 }
 

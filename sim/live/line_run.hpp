@@ -76,7 +76,7 @@ class LineRun : public record::Observer {
   void describe_programs(LineDescription& told);
 
   Replay replay_;  ///< of nothing, unless it goes on from a session
-  std::vector<std::string> notes_;
+  std::vector<Finding> notes_;
   scenario::Scenario& scenario_ = replay_.scenario;
   int number_;
   std::vector<std::string> parts_;

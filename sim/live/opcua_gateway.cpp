@@ -41,9 +41,11 @@ void check_node(Problems& problems) {
     const auto asked = renders::run_process({node(), "nodejs", {"--version"}});
     const auto version = asked.output.empty() ? 0 : std::atoi(asked.output.c_str() + 1);  // v20.20.2
     if (!asked.good || version < oldest_node)
-      problems.push_back({"--opcua", 1, 1, fmt::format("node is too old: {}", asked.output), remedy});
+      problems.push_back({"live.gateway-missing"_code, "--opcua", 1, 1,
+                          fmt::format("node is too old: {}", asked.output), remedy});
   } catch (const renders::HelperFailed&) {
-    problems.push_back({"--opcua", 1, 1, "there is no Node.js, which OPC UA needs", remedy});
+    problems.push_back(
+        {"live.gateway-missing"_code, "--opcua", 1, 1, "there is no Node.js, which OPC UA needs", remedy});
   }
 }
 
@@ -64,11 +66,11 @@ fs::path find_opcua_gateway(Problems& problems) {
   check_node(problems);
   if (found.empty()) {
     problems.push_back(
-        {"--opcua", 1, 1,
+        {"live.gateway-missing"_code, "--opcua", 1, 1,
          fmt::format("there is no OPC UA gateway in {} nor in {}", folders[0].string(), folders[1].string()),
          "`make opcua` puts it there"});
   } else if (!fs::exists(found / "node_modules/node-opcua-server")) {
-    problems.push_back({"--opcua", 1, 1,
+    problems.push_back({"live.gateway-missing"_code, "--opcua", 1, 1,
                         fmt::format("the packages of the OPC UA gateway are missing in {}", found.string()),
                         "`make opcua`, or there: npm ci --omit=dev"});
   }

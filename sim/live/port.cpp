@@ -10,11 +10,13 @@ namespace asio = boost::asio;
 namespace {
 
 Problem problem_of(const boost::system::error_code& error, const std::string& what, const char* option) {
+  const auto problem = [&](const char* at, std::string remedy) {
+    return Problem{"live.cannot-listen"_code, at, 1, 1, what, std::move(remedy)};
+  };
   if (error == asio::error::address_in_use)
-    return {option, 1, 1, what, fmt::format("give another port, or {} 0 for any free one", option)};
-  if (error == asio::error::access_denied) return {option, 1, 1, what, "give a port from 1024 on"};
-  return {"--listen", 1, 1, what,
-          "an address of this machine, such as 127.0.0.1, or 0.0.0.0 for all of them"};
+    return problem(option, fmt::format("give another port, or {} 0 for any free one", option));
+  if (error == asio::error::access_denied) return problem(option, "give a port from 1024 on");
+  return problem("--listen", "an address of this machine, such as 127.0.0.1, or 0.0.0.0 for all of them");
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ using record::json_text;
 
 ordered_json list_of(const Problems& problems) {
   auto list = ordered_json::array();
-  for (const auto& problem : problems) list.push_back({{"what", problem.what}, {"remedy", problem.remedy}});
+  for (const auto& problem : problems)
+    list.push_back({{"code", problem.code.text()}, {"what", problem.what}, {"remedy", problem.remedy}});
   return list;
 }
 
@@ -50,26 +51,26 @@ class RequestParser {
     if (message.contains("sample") || message.contains("watch") || message.contains("programs"))
       return read_sample(message);
     if (message.contains("read")) return read_values(message);
-    refuse("the message asks for nothing",
+    refuse("live.message"_code, "the message asks for nothing",
            "one of act, run, advance, until, pace, restart, sample, watch, programs, read");
     return {};
   }
 
-  void refuse(std::string what, std::string remedy) {
-    problems_.push_back({"message", 1, 1, std::move(what), std::move(remedy)});
+  void refuse(Code code, std::string what, std::string remedy) {
+    problems_.push_back({code, "message", 1, 1, std::move(what), std::move(remedy)});
   }
 
  private:
   std::optional<decltype(Request::what)> read_act(const ordered_json& act) {
     auto text = json_text(act);
     if (text.size() <= most_of_act) return Act{std::move(text)};
-    refuse(fmt::format("an act of {} bytes", text.size()),
+    refuse("live.message"_code, fmt::format("an act of {} bytes", text.size()),
            fmt::format("{} at most; make several of it", most_of_act));
     return {};
   }
   std::optional<decltype(Request::what)> read_switch(const ordered_json& on) {
     if (on.is_boolean()) return Go{on.get<bool>()};
-    refuse("run is true or false", "{\"run\": true}");
+    refuse("live.message"_code, "run is true or false", "{\"run\": true}");
     return {};
   }
   std::optional<decltype(Request::what)> read_advance(const ordered_json& by) {
@@ -79,19 +80,20 @@ class RequestParser {
                                             scenario::Sign::positive, findings);
       if (time && *time <= most_advance) return Advance{*time};
     }
-    refuse("advance is a time of an hour at most", R"({"advance": "1 ms"})");
+    refuse("live.message"_code, "advance is a time of an hour at most", R"({"advance": "1 ms"})");
     return {};
   }
   std::optional<decltype(Request::what)> read_until(const ordered_json& event) {
     if (event.is_string()) return UntilEvent{event.get<std::string>()};
-    refuse("until is an event's name", R"({"until": "cut"}, "" for any)");
+    refuse("live.message"_code, "until is an event's name", R"({"until": "cut"}, "" for any)");
     return {};
   }
   std::optional<decltype(Request::what)> read_pace(const ordered_json& pace) {
     if (pace == "max") return Pace{0};
     if (pace.is_number() && pace.get<double>() >= least_pace && pace.get<double>() <= most_pace)
       return Pace{pace.get<double>()};
-    refuse(fmt::format("pace is a number from {} to {}, or \"max\"", least_pace, most_pace), "{\"pace\": 1}");
+    refuse("live.message"_code,
+           fmt::format("pace is a number from {} to {}, or \"max\"", least_pace, most_pace), "{\"pace\": 1}");
     return {};
   }
   std::optional<decltype(Request::what)> read_sample(const ordered_json& message) {
@@ -105,7 +107,7 @@ class RequestParser {
       sample.programs = message["programs"].get<bool>();
       return sample;
     }
-    refuse("programs is true or false", R"({"watch": [], "programs": true})");
+    refuse("live.message"_code, "programs is true or false", R"({"watch": [], "programs": true})");
     return {};
   }
   std::optional<decltype(Request::what)> read_values(const ordered_json& message) {
@@ -119,7 +121,8 @@ class RequestParser {
     const auto& list = message[key];
     const auto is_name = [](const ordered_json& item) { return item.is_string(); };
     if (!list.is_array() || !std::all_of(list.begin(), list.end(), is_name)) {
-      refuse(fmt::format("{} is a list of channels", key), fmt::format(R"({{"{}": ["web.speed"]}})", key));
+      refuse("live.message"_code, fmt::format("{} is a list of channels", key),
+             fmt::format(R"({{"{}": ["web.speed"]}})", key));
       return false;
     }
     for (const auto& item : list) names.push_back(item.get<std::string>());
@@ -212,7 +215,7 @@ std::optional<Request> parse_request(std::string_view message, Asker asker, doub
   const auto json = ordered_json::parse(message, nullptr, false);
   id = 0;
   if (!json.is_object()) {
-    parser.refuse("the message is no JSON object", "{\"run\": true}");
+    parser.refuse("live.message"_code, "the message is no JSON object", "{\"run\": true}");
     return {};
   }
   if (json.contains("id") && json["id"].is_number()) id = json["id"].get<double>();
@@ -333,7 +336,7 @@ std::string busy_json(double id) {
       {{"done", id},
        {"busy", true},
        {"problems",
-        list_of({{"", 1, 1, "busy: too much of what was asked waits for the line already",
+        list_of({{"live.busy"_code, "", 1, 1, "busy: too much of what was asked waits for the line already",
                   fmt::format("wait for answers; {} requests and {} kB a client, {} of all",
                               Inbox::most_of_one, Inbox::most_bytes_of_one >> 10U, Inbox::most_of_all)}})}});
 }

@@ -79,7 +79,8 @@ class SessionReader {
       text.remove_prefix(end + 1);
     }
     if (number_ == 0)
-      problems_.push_back({file_, 1, 1, "the session is empty", "a file that drycut live --record wrote"});
+      problems_.push_back({"live.session-form"_code, file_, 1, 1, "the session is empty",
+                           "a file that drycut live --record wrote"});
     if (problems_.size() > before) return {};
     return std::move(session_);
   }
@@ -88,7 +89,8 @@ class SessionReader {
   static constexpr std::string_view item = "- ";
 
   void line(std::string_view text) {
-    if (!text.starts_with(item)) return problem("this is no line of a session", "each begins with '- {'");
+    if (!text.starts_with(item))
+      return problem("live.session-form"_code, "this is no line of a session", "each begins with '- {'");
     text.remove_prefix(item.size());
     Findings findings({file_});
     const auto node = scenario::parse_yaml(text, 0, findings);
@@ -117,8 +119,8 @@ class SessionReader {
     reader.finish();
     if (!act.at || act.when || act.every || act.after != 0) {
       if (findings.empty())
-        findings.add(node.text.place, "an act has the time at which it acted and nothing else",
-                     "{at: 1.2 s, set: {...}}");
+        findings.add("live.session-form"_code, node.text.place,
+                     "an act has the time at which it acted and nothing else", "{at: 1.2 s, set: {...}}");
       return;
     }
     session_.reached = std::max(session_.reached, *act.at);
@@ -138,7 +140,8 @@ class SessionReader {
     for (const auto& text : head.set) {
       const auto equals = text.text.find('=');
       if (equals == std::string::npos)
-        findings.add(text.place, fmt::format("'{}' is no override", text.text), "write path=value");
+        findings.add("option.set-path"_code, text.place, fmt::format("'{}' is no override", text.text),
+                     "write path=value");
       else
         session_.set.push_back({text.text.substr(0, equals), text.text.substr(equals + 1)});
     }
@@ -146,8 +149,8 @@ class SessionReader {
     std::from_chars(digits.data(), digits.data() + digits.size(), session_.fingerprint, 16);
   }
 
-  void problem(std::string what, std::string remedy) {
-    problems_.push_back({file_, number_, 1, std::move(what), std::move(remedy)});
+  void problem(Code code, std::string what, std::string remedy) {
+    problems_.push_back({code, file_, number_, 1, std::move(what), std::move(remedy)});
   }
 
   std::string file_;
@@ -178,7 +181,7 @@ std::optional<scenario::Stimulus> read_act(std::string_view text, const std::str
   if (findings.empty()) {
     for (const auto* when : {"at", "when", "after", "every"}) {
       if (const auto* given = child(node, when))
-        findings.add(given->text.place, fmt::format("{} acts now, and once", name),
+        findings.add("live.session-form"_code, given->text.place, fmt::format("{} acts now, and once", name),
                      fmt::format("leave {} out", when));
     }
     scenario::Text key{"at", node.text.place, {}};
@@ -243,11 +246,11 @@ void SessionFile::reached(Time now) {
 }
 
 std::optional<Replay> read_session(const std::filesystem::path& file, std::optional<Time> until,
-                                   std::vector<std::string>& notes, Problems& problems) {
+                                   std::vector<Finding>& notes, Problems& problems) {
   auto session = read_lines(file, problems);
   if (!session) return {};
   if (until && *until > session->reached) {
-    problems.push_back({file.string(), 1, 1,
+    problems.push_back({"study.out-of-range"_code, file.string(), 1, 1,
                         fmt::format("the session ends at {}, before {}",
                                     scenario::format_time(session->reached), scenario::format_time(*until)),
                         "name a time in it"});
@@ -265,7 +268,8 @@ std::optional<Replay> read_session(const std::filesystem::path& file, std::optio
   }
   replay.fingerprint = fingerprint_of(scenario);
   if (replay.fingerprint != session->fingerprint)
-    notes.push_back(
+    notes.emplace_back(
+        "live.other-files"_code,
         fmt::format("{} or one of its files is not what it was in the session: this run may differ",
                     session->scenario.string()));
   const auto source = static_cast<int>(scenario.sources.size());
@@ -281,7 +285,7 @@ std::optional<Replay> read_session(const std::filesystem::path& file, std::optio
 }
 
 std::string scenario_of_session(const std::filesystem::path& file, const std::filesystem::path& to,
-                                std::vector<std::string>& notes, Problems& problems) {
+                                std::vector<Finding>& notes, Problems& problems) {
   auto replay = read_session(file, {}, notes, problems);
   if (!replay) return "";
   auto& scenario = replay->scenario;
@@ -290,14 +294,16 @@ std::string scenario_of_session(const std::filesystem::path& file, const std::fi
   if (std::ranges::any_of(scenario.sources, [&](const auto& source) {
         return std::filesystem::weakly_canonical(source, unknown) == place;
       }))
-    problems.push_back({to.string(), 1, 1, "the session's scenario stands there, and what is made extends it",
+    problems.push_back({"live.cannot-extend"_code, to.string(), 1, 1,
+                        "the session's scenario stands there, and what is made extends it",
                         "name another file"});
   for (const auto& [path, value] : scenario.overrides) {
-    problems.push_back({file.string(), 1, 1, fmt::format("the session ran with --set \"{}={}\"", path, value),
+    problems.push_back({"live.cannot-extend"_code, file.string(), 1, 1,
+                        fmt::format("the session ran with --set \"{}={}\"", path, value),
                         "put the value into a scenario and run the session of that one"});
   }
   if (loop::retentive_file(scenario))
-    problems.push_back({file.string(), 1, 1,
+    problems.push_back({"live.cannot-extend"_code, file.string(), 1, 1,
                         fmt::format("{} keeps retentive values: a scenario that extends it would begin with "
                                     "today's and change them",
                                     scenario.file.string()),

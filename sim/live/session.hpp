@@ -68,12 +68,12 @@ struct Replay {
 /// Reads a session and its scenario, of the acts those before `until` only. A last line that was cut short is
 /// left out. That the scenario or one of its files is another one than it was is said in `notes`.
 std::optional<Replay> read_session(const std::filesystem::path& file, std::optional<Time> until,
-                                   std::vector<std::string>& notes, Problems& problems);
+                                   std::vector<Finding>& notes, Problems& problems);
 
 /// The same as a scenario of its own: extends, duration and the whole timeline, to be written to the file
 /// `to`. A problem if an override of the session, or retentive values that it began with, have no place
 /// there, or if `to` is one of the scenario's own files.
 std::string scenario_of_session(const std::filesystem::path& file, const std::filesystem::path& to,
-                                std::vector<std::string>& notes, Problems& problems);
+                                std::vector<Finding>& notes, Problems& problems);
 
 }  // namespace drycut::sim::live

@@ -34,11 +34,11 @@ class RecordingBinder {
   }
 
  private:
-  void fault(const scenario::ScenePlace& place, std::string what, std::string remedy) {
-    problems_.push_back(scenario::problem_at(scenario_, place, std::move(what), std::move(remedy)));
+  void fault(Code code, const scenario::ScenePlace& place, std::string what, std::string remedy) {
+    problems_.push_back(scenario::problem_at(code, scenario_, place, std::move(what), std::move(remedy)));
   }
   void no_channel(const scenario::Text& name) {
-    fault(name.place, fmt::format("there is no channel '{}'", name.text),
+    fault("scenario.unknown-name"_code, name.place, fmt::format("there is no channel '{}'", name.text),
           lookup_.names.suggest_reading(name.text));
   }
 
@@ -51,7 +51,8 @@ class RecordingBinder {
     add_channel(name);
     const auto* column = recording_.column(name.text);
     if (column != nullptr && !column->unit.empty())
-      fault(name.place, fmt::format("{} is a quantity in {}, not a state", name.text, column->unit),
+      fault("scenario.wrong-kind"_code, name.place,
+            fmt::format("{} is a quantity in {}, not a state", name.text, column->unit),
             "show it in a panel of channels");
   }
 
@@ -62,7 +63,8 @@ class RecordingBinder {
     for (const auto& name : motor_channels(plant.text))
       known = known && lookup_.watch.record(name, recording_);
     if (!known)
-      fault(plant.place, fmt::format("'{}' is no plant with a drive that has ratings", plant.text),
+      fault("scenario.unknown-name"_code, plant.place,
+            fmt::format("'{}' is no plant with a drive that has ratings", plant.text),
             "name a plant with parameters servo.rated_torque, servo.peak_torque, ...");
   }
 
@@ -86,10 +88,12 @@ class RecordingBinder {
     };
     for (const auto& [of, is] : pictures_.units) {
       if (lookup_.watch.slot(of.text) == nullptr && !is_axis(of.text))
-        fault(of.place, fmt::format("pictures.units: there is no axis and no channel '{}'", of.text),
+        fault("scenario.unknown-name"_code, of.place,
+              fmt::format("pictures.units: there is no axis and no channel '{}'", of.text),
               lookup_.names.suggest_reading(of.text));
       if (!scenario::is_unit(is.unit) || is.unit.empty() || !(is.number > 0))
-        fault(is.place, fmt::format("pictures.units: {} is no unit's size", of.text),
+        fault("scenario.wrong-kind"_code, is.place,
+              fmt::format("pictures.units: {} is no unit's size", of.text),
               "write what 1 is of a known unit: 0.01 mm");
     }
   }
@@ -99,7 +103,8 @@ class RecordingBinder {
     for (const auto& [name, plant] : lookup_.plants)
       if (name == wanted.plant.text && plant->quota_line(0)) quota.plant = plant;
     if (quota.plant == nullptr)
-      fault(wanted.plant.place, fmt::format("'{}' is no plant that shows a quota", wanted.plant.text),
+      fault("scenario.unknown-name"_code, wanted.plant.place,
+            fmt::format("'{}' is no plant that shows a quota", wanted.plant.text),
             "name one of type vertical_press");
     quota.slot = lookup_.watch.slot(wanted.at.text);
     if (quota.slot == nullptr) {
@@ -112,7 +117,8 @@ class RecordingBinder {
     if (scenario::is_unit(unit) && scenario::same_dimension(unit, "mm"))
       quota.metres = scenario::to_si(number, unit);
     else
-      fault(wanted.at.place, fmt::format("pictures.quota.at: {} is no length", wanted.at.text),
+      fault("scenario.wrong-kind"_code, wanted.at.place,
+            fmt::format("pictures.quota.at: {} is no length", wanted.at.text),
             fmt::format("name a position, or say what 1 is: units: {{{}: 0.01 mm}}", wanted.at.text));
     return quota;
   }
@@ -136,7 +142,8 @@ class RecordingBinder {
     for (const auto& [name, unit] : known->values) names.push_back(name);
     for (const auto& value : panel.values) {
       if (std::find(names.begin(), names.end(), value.text) == names.end())
-        fault(value.place, fmt::format("event '{}' has no value '{}'", panel.event.text, value.text),
+        fault("scenario.unknown-event"_code, value.place,
+              fmt::format("event '{}' has no value '{}'", panel.event.text, value.text),
               fmt::format("it has: {}", fmt::join(names, ", ")));
     }
   }
@@ -147,7 +154,7 @@ class RecordingBinder {
     const auto step = scenario_.scene.step;
     if (pictures_.every % pictures_.slow == 0 && pictures_.every / pictures_.slow % step == 0) return;
     fault(
-        pictures_.slow_place,
+        "scenario.time-grid"_code, pictures_.slow_place,
         fmt::format("pictures.frames: a frame every {} ns / {} is not a whole multiple of the step of {} ns",
                     pictures_.every, pictures_.slow, step),
         "choose every = slow x a multiple of the step");
@@ -160,7 +167,8 @@ class RecordingBinder {
     for (const auto& camera : pictures_.views())
       if (!camera.own && !camera.looks_at_part() &&
           std::find(cameras.begin(), cameras.end(), camera.shows.text) == cameras.end())
-        fault(camera.shows.place, fmt::format("there is no camera '{}'", camera.shows.text),
+        fault("scenario.unknown-name"_code, camera.shows.place,
+              fmt::format("there is no camera '{}'", camera.shows.text),
               fmt::format("cameras: {}", fmt::join(cameras, ", ")));
   }
 

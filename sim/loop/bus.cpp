@@ -78,7 +78,8 @@ class Connector {
     const auto address = terminal(wire.terminal);
     if (!address) return;
     if (!bus_.wired_.insert(*address).second) {
-      problem(wire.terminal.place, fmt::format("{} is wired already", controller_.terminal_name(*address)),
+      problem("wiring.twice"_code, wire.terminal.place,
+              fmt::format("{} is wired already", controller_.terminal_name(*address)),
               "a terminal takes one wire; remove this one");
       return;
     }
@@ -100,14 +101,14 @@ class Connector {
                       (filter.pulse == 0 || address->kind == Kind::interrupt) &&
                       (filter.delay == 0 || address->kind == Kind::input);
     if (!fits) {
-      problem(filter.terminal.place,
+      problem("wiring.kinds-differ"_code, filter.terminal.place,
               fmt::format("{} is a {} and has no such filter", controller_.terminal_name(*address),
                           name_of(address->kind)),
               "a counter has a frequency, an interrupt line a pulse, a digital input a delay");
       return;
     }
     if (!filters_.emplace(*address, &filter).second)
-      problem(filter.terminal.place,
+      problem("wiring.twice"_code, filter.terminal.place,
               fmt::format("{} has filters already", controller_.terminal_name(*address)),
               "write them in one place");
   }
@@ -116,7 +117,7 @@ class Connector {
   void refuse_idle_filters() {
     for (const auto& [address, filter] : filters_)
       if (!used_.contains(address))
-        problem(filter->terminal.place,
+        problem("wiring.nothing-to-filter"_code, filter->terminal.place,
                 fmt::format("no signal of a plant comes to {}: there is nothing to filter",
                             controller_.terminal_name(address)),
                 "wire it, or leave the filter out");
@@ -148,15 +149,16 @@ class Connector {
     const auto* filter = filter_of(address);
     if (filter == nullptr) return from;
     if (!wire.plug.text.ends_with(".index")) {
-      problem(filter->terminal.place, fmt::format("{} gives no zero pulses", wire.plug.text),
+      problem("wiring.kinds-differ"_code, filter->terminal.place,
+              fmt::format("{} gives no zero pulses", wire.plug.text),
               "a least width is for an index: knife.encoder.index");
       return from;
     }
     return bus_.filters_->zero_pulse(from, controller_.terminal_name(address), seconds(filter->pulse));
   }
 
-  void problem(const scenario::ScenePlace& place, std::string what, std::string remedy) {
-    problems_.push_back(scenario::problem_at(scenario_, place, std::move(what), std::move(remedy)));
+  void problem(Code code, const scenario::ScenePlace& place, std::string what, std::string remedy) {
+    problems_.push_back(scenario::problem_at(code, scenario_, place, std::move(what), std::move(remedy)));
   }
 
   /// The terminal, if it is one of the controller.
@@ -164,7 +166,7 @@ class Connector {
     const auto found = controller_.terminal(text.text);
     if (const auto* address = std::get_if<Address>(&found)) return *address;
     const auto& fault = std::get<devices::TerminalFault>(found);
-    problem(text.place, fault.what, fault.remedy);
+    problem(fault.code, text.place, fault.what, fault.remedy);
     return {};
   }
 
@@ -188,10 +190,10 @@ class Connector {
       candidates.push_back(port->first);
     }
     if (!known_plant) {
-      problem(text.place, fmt::format("there is no plant '{}'", plant),
+      problem("wiring.no-plug"_code, text.place, fmt::format("there is no plant '{}'", plant),
               did_you_mean(text.text, candidates, fmt::format("plants: {}", list(plant_names_, "none"))));
     } else {
-      problem(text.place,
+      problem("wiring.no-plug"_code, text.place,
               fmt::format("plant '{}' has no plug '{}'", plant,
                           text.text.substr(std::min(text.text.size(), plant.size() + 1))),
               did_you_mean(text.text, candidates, fmt::format("it has: {}", list(candidates, "no plugs"))));
@@ -213,7 +215,7 @@ class Connector {
   void connect_loop(const Address& address, const scenario::Wire& wire, const Address& from) {
     auto& cards = controller_.cards();
     if (!cards.pulse_outputs.contains(from)) {
-      problem(wire.plug.place,
+      problem("wiring.kinds-differ"_code, wire.plug.place,
               fmt::format("{} gives no pulses that {} could count", wire.plug.text,
                           controller_.terminal_name(address)),
               "wire an encoder to it, or a pulse output of the controller");
@@ -226,7 +228,7 @@ class Connector {
   void connect_pulses(const Address& address, const scenario::Wire& wire, plants::PulsePort* port) {
     auto& trains = controller_.cards().pulse_outputs;
     if (const auto found = trains.find(address); found == trains.end()) {
-      problem(wire.plug.place,
+      problem("wiring.kinds-differ"_code, wire.plug.place,
               fmt::format("{} gives no pulses, {} is a pulse train", controller_.terminal_name(address),
                           wire.plug.text),
               controller_.pulse_terminals().empty()
@@ -241,7 +243,7 @@ class Connector {
     if (address.kind == Kind::output && port.plug.index() == pulse_plug)
       return connect_pulses(address, wire, std::get<plants::PulsePort*>(port.plug));
     if (port.plug.index() != plug_for(address.kind)) {
-      problem(wire.plug.place,
+      problem("wiring.kinds-differ"_code, wire.plug.place,
               fmt::format("{} is {} {}, {} is {}", controller_.terminal_name(address),
                           address.kind == Kind::analogue ? "an" : "a", name_of(address.kind), wire.plug.text,
                           kind_of(port)),
@@ -297,14 +299,15 @@ class Connector {
         break;
       case Kind::counter:
       case Kind::analogue:
-        problem(wire.plug.place,
+        problem("wiring.kinds-differ"_code, wire.plug.place,
                 fmt::format("{} is a {}, the panel has switches and lamps",
                             controller_.terminal_name(address), name_of(address.kind)),
                 fmt::format("wire it to one of: {}", plugs_of_kind(plug_for(address.kind))));
         return;
     }
     if (panel.switches.contains(name) && panel.lamps.contains(name)) {
-      problem(wire.plug.place, fmt::format("{} is both a switch and a lamp", wire.plug.text),
+      problem("wiring.twice"_code, wire.plug.place,
+              fmt::format("{} is both a switch and a lamp", wire.plug.text),
               "give the lamp a name of its own");
     }
   }
@@ -313,7 +316,7 @@ class Connector {
   bool sole_driver(const Address& address, const scenario::Wire& wire) {
     const auto [at, fresh] = drivers_.emplace(wire.plug.text, address);
     if (!fresh) {
-      problem(wire.plug.place,
+      problem("wiring.twice"_code, wire.plug.place,
               fmt::format("{} already drives {}", controller_.terminal_name(at->second), wire.plug.text),
               fmt::format("wire {} elsewhere: a plug has one driver", controller_.terminal_name(address)));
     }

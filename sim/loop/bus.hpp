@@ -38,7 +38,7 @@ class InputFilters {
   /// line that saw a pulse, begin anew.
   [[nodiscard]] std::vector<Loss> take_losses() { return std::exchange(losses_, {}); }
   /// What was lost in all, a line a terminal.
-  [[nodiscard]] std::vector<std::string> lost() const;
+  [[nodiscard]] std::vector<Finding> lost() const;
 
  private:
   struct CounterFilter {
@@ -107,8 +107,8 @@ class Bus {
   [[nodiscard]] std::vector<Loss> take_losses() {
     return filters_ ? filters_->take_losses() : std::vector<Loss>();
   }
-  [[nodiscard]] std::vector<std::string> lost() const {
-    return filters_ ? filters_->lost() : std::vector<std::string>();
+  [[nodiscard]] std::vector<Finding> lost() const {
+    return filters_ ? filters_->lost() : std::vector<Finding>();
   }
 
   /// Terminals that the controller uses and nothing is wired to.

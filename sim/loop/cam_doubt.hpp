@@ -1,7 +1,8 @@
 #pragma once
 #include <functional>
-#include <string>
 #include <vector>
+
+#include "base/problem.hpp"
 
 namespace drycut::sim::loop {
 
@@ -9,7 +10,7 @@ struct PlayedCam;
 
 /// What speaks against a cam that a run played.
 struct CamDoubt {
-  std::string text;      ///< "cam of AxisX, sector 4: ..."
+  Finding what;          ///< "cam of AxisX, sector 4: ..."
   bool is_slip = false;  ///< the device stops or passes a limit, however slow the master is
 };
 

@@ -69,11 +69,12 @@ std::string last_set(const std::vector<record::Alarm>& sets, const std::vector<r
 }
 
 // A check whose expression never fits.
-std::string of_check(const std::vector<record::CheckResult>& checks) {
+std::optional<Finding> of_check(const std::vector<record::CheckResult>& checks) {
   for (const auto& check : checks)
     if (!check.passed && !check.throughout.empty())
-      return fmt::format("check '{}' held at no instant: {}", check.name, check.throughout);
-  return "";
+      return Finding{"check.never-held"_code,
+                     fmt::format("check '{}' held at no instant: {}", check.name, check.throughout)};
+  return {};
 }
 
 bool found_nothing(const std::vector<record::CheckResult>& checks) {
@@ -84,8 +85,6 @@ bool found_nothing(const std::vector<record::CheckResult>& checks) {
 std::string text_of_fault(const record::Alarm& fault) {
   return fmt::format("the timeline had at {:.6g} s: {} {}", fault.at, fault.source, fault.text);
 }
-
-std::string joined(const std::string& text) { return text.empty() ? "" : "; " + text; }
 
 }  // namespace
 
@@ -134,15 +133,16 @@ void Causes::sample(Time now) {
   }
 }
 
-std::string Causes::state_that_stands(double now) const {
+std::optional<Finding> Causes::state_that_stands(double now) const {
   constexpr double long_enough = 1;  // [s]
   constexpr double at_work = 1.5;    // times what it has stood before: it may be about to go on
   const State* latest = nullptr;
   for (const auto& state : states_)
     if (state.changed > 0 && (latest == nullptr || state.changed > latest->changed)) latest = &state;
   if (latest == nullptr || now - latest->changed < std::max(long_enough, at_work * latest->longest))
-    return "";
-  return fmt::format("{} stands at {:g} since {:.6g} s", latest->name, latest->last, latest->changed);
+    return {};
+  return Finding{"loop.state-stands"_code, fmt::format("{} stands at {:g} since {:.6g} s", latest->name,
+                                                       latest->last, latest->changed)};
 }
 
 std::vector<record::Alarm> Causes::alarms() const {
@@ -181,7 +181,7 @@ std::string Causes::with_warning(const record::Alarm& error) const {
 
 // What came before a failure: a fault that was put in, an error and the warning behind it, a drive at its
 // limit.
-std::string Causes::by_time(double failed_at, const Known& known) const {
+std::optional<Causes::Cause> Causes::by_time(double failed_at, const Known& known) const {
   constexpr double told_late = 0.1;  // [s] an error is told once it has lasted
   const record::Alarm* fault = nullptr;
   for (const auto& one : faults_)
@@ -192,80 +192,105 @@ std::string Causes::by_time(double failed_at, const Known& known) const {
   if (fault != nullptr) {
     const bool shown = failed_at - fault->at <= soon || (error != nullptr && error->at >= fault->at) ||
                        (warning != nullptr && warning->at >= fault->at);
-    return (shown ? "because " : "after ") + text_of_fault(*fault);
+    return Cause{shown ? Link::because : Link::after, {"loop.fault-put-in"_code, text_of_fault(*fault)}};
   }
-  if (error != nullptr) return "because " + with_warning(*error);
+  if (error != nullptr) return Cause{Link::because, {"loop.error"_code, with_warning(*error)}};
   if (known.hunting && known.hunting->first <= failed_at &&
       (warning == nullptr || known.hunting->first <= warning->at))
-    return "because " + known.hunting->second;
+    return Cause{Link::because, known.hunting->second};
   for (const auto& limit : limits_)
     if (limit.begin <= failed_at && failed_at - limit.end <= soon && warning == nullptr)
-      return fmt::format("after the drive of {} was at its torque limit from {:.6g} s on", limit.drive,
-                         limit.begin);
-  if (warning == nullptr) return "";
+      return Cause{
+          Link::after,
+          {"loop.torque-limit"_code, fmt::format("the drive of {} was at its torque limit from {:.6g} s on",
+                                                 limit.drive, limit.begin)}};
+  if (warning == nullptr) return {};
   // An error of the same source that follows confirms it.
   const bool confirmed = std::any_of(errors_.begin(), errors_.end(), [&](const record::Alarm& later) {
     return later.source == warning->source && later.at - warning->at <= soon;
   });
-  return fmt::format("{} {}", confirmed || failed_at - warning->at <= soon ? "because" : "after",
-                     text_of(*warning));
+  return Cause{confirmed || failed_at - warning->at <= soon ? Link::because : Link::after,
+               {"loop.warning"_code, text_of(*warning)}};
 }
 
-std::string Causes::of(const std::vector<record::CheckResult>& checks, const Known& known) const {
+std::optional<Finding> Causes::of(const std::vector<record::CheckResult>& checks, const Known& known) const {
   if (std::all_of(checks.begin(), checks.end(),
                   [](const record::CheckResult& check) { return check.passed; }))
-    return "";
+    return {};
+  const auto cause = cause_of(checks, known);
+  if (!cause) return {};
+  constexpr const char* words[] = {"because", "after", "shortly before", "while"};
+  auto found = cause->what;
+  found.role = Finding::Role::cause;
+  found.text = fmt::format("{} {}", words[static_cast<std::size_t>(cause->link)], found.text);
+  return found;
+}
+
+std::optional<Causes::Cause> Causes::cause_of(const std::vector<record::CheckResult>& checks,
+                                              const Known& known) const {
   constexpr auto ever = std::numeric_limits<double>::infinity();
   const auto failed_at = first_failure(checks);
-  if (value_cut_ && value_cut_->at <= failed_at.value_or(ever)) {
+  const auto then_error = [&] {
     const auto* error = first_error(ever);
-    return "because " + text_of(*value_cut_) + joined(error != nullptr ? text_of(*error) : "");
+    return error != nullptr ? text_of(*error) : "";
+  };
+  if (value_cut_ && value_cut_->at <= failed_at.value_or(ever))
+    return Cause{Link::because, {"loop.value-cut"_code, text_of(*value_cut_)}}.with(then_error());
+  if (!known.contradictions.empty())
+    return Cause{Link::because, known.contradictions.front()}.with(then_error());
+  for (const auto& [at, found] : known.astray)
+    if (at <= failed_at.value_or(ever) && first_error(at) == nullptr) return Cause{Link::because, found};
+  if (const auto* error = first_error(ever); !failed_at && error == nullptr && !known.hindrances.empty()) {
+    const auto& first = known.hindrances.front();
+    return faults_.empty()
+               ? Cause{Link::because, first}.with(last_set(sets_, checks))
+               : Cause{Link::after, {"loop.fault-put-in"_code, text_of_fault(faults_.front())}}.with(
+                     first.text);
   }
-  if (!known.contradictions.empty()) {
-    const auto* error = first_error(ever);
-    return "because " + known.contradictions.front() + (error != nullptr ? "; " + text_of(*error) : "");
-  }
-  for (const auto& [at, text] : known.astray)
-    if (at <= failed_at.value_or(ever) && first_error(at) == nullptr) return "because " + text;
-  if (const auto* error = first_error(ever); !failed_at && error == nullptr && !known.hindrances.empty())
-    return faults_.empty() ? "because " + known.hindrances.front() + joined(last_set(sets_, checks))
-                           : "after " + text_of_fault(faults_.front()) + joined(known.hindrances.front());
   auto cause = by_time(failed_at.value_or(ever), known);
-  const auto misfit = of_check(checks);
-  if (errors_.empty() && !misfit.empty() && (cause.empty() || cause.starts_with("after ")))
-    return "because " + misfit;
-  if (cause.empty() && known.standing && known.standing->first <= failed_at.value_or(ever))
-    cause = "while " + known.standing->second;
-  if (cause.empty() || cause.starts_with("after ")) return last_resort(checks, known, cause);
+  if (auto misfit = of_check(checks); errors_.empty() && misfit && (!cause || cause->link == Link::after))
+    return Cause{Link::because, std::move(*misfit)};
+  if (!cause && known.standing && known.standing->first <= failed_at.value_or(ever))
+    cause = Cause{Link::meanwhile, known.standing->second};
+  if (!cause || cause->link == Link::after) return last_resort(checks, known, std::move(cause));
   if (!faults_.empty()) return cause;
   if (found_nothing(checks) && !known.hindrances.empty()) {
+    const auto& first = known.hindrances.front();
     const auto both = first_error(failed_at.value_or(ever)) != nullptr
-                          ? cause + joined(known.hindrances.front())
-                          : fmt::format("because {}; {}", known.hindrances.front(),
-                                        cause.substr(cause.find(' ') + 1));
-    return both + (known.doubts.empty() ? "" : joined(known.doubts.front()));
+                          ? cause->with(first.text)
+                          : Cause{Link::because, first}.with(cause->what.text);
+    return both.with(known.doubts.empty() ? "" : known.doubts.front().text);
   }
-  return errors_.empty() || known.doubts.empty() ? cause : cause + joined(known.doubts.front());
+  return errors_.empty() || known.doubts.empty() ? cause : cause->with(known.doubts.front().text);
 }
 
 // Where nothing to judge was found, the machine stands: where. Else what looks odd, and what was done to it.
-std::string Causes::last_resort(const std::vector<record::CheckResult>& checks, const Known& known,
-                                const std::string& before) const {
+std::optional<Causes::Cause> Causes::last_resort(const std::vector<record::CheckResult>& checks,
+                                                 const Known& known, std::optional<Cause> before) const {
   if (found_nothing(checks) && !known.hindrances.empty()) {
     const auto* error = first_error(std::numeric_limits<double>::infinity());
     const bool announced = error != nullptr && last_warning(error->at, error->source) != nullptr;
-    if (announced && !before.empty())
-      return "because " + with_warning(*error) + joined(known.hindrances.front());
-    return "while " + known.hindrances.front() + joined(error != nullptr ? text_of(*error) : "");
+    if (announced && before)
+      return Cause{Link::because, {"loop.error"_code, with_warning(*error)}}.with(
+          known.hindrances.front().text);
+    return Cause{Link::meanwhile, known.hindrances.front()}.with(error != nullptr ? text_of(*error) : "");
   }
-  if (!before.empty()) return before + joined(known.doubts.empty() ? "" : known.doubts.front());
-  if (!known.doubts.empty()) return "while " + known.doubts.front();
+  if (before) return known.doubts.empty() ? before : before->with(known.doubts.front().text);
+  if (!known.doubts.empty()) return Cause{Link::meanwhile, known.doubts.front()};
   const auto failed_at = first_failure(checks);
   for (const auto& blow : blows_)
     if (failed_at && std::abs(blow.at - *failed_at) <= soon)
-      return fmt::format("{} {}", blow.at <= *failed_at ? "after" : "shortly before", text_of(blow));
-  if (const auto set = last_set(sets_, checks); !set.empty()) return "after " + set;
-  return "";
+      return Cause{blow.at <= *failed_at ? Link::after : Link::shortly_before,
+                   {"loop.blow"_code, text_of(blow)}};
+  const auto set = last_set(sets_, checks);
+  if (set.empty()) return {};
+  return Cause{Link::after, {"loop.timeline-set"_code, set}};
+}
+
+Causes::Cause Causes::Cause::with(const std::string& more) const {
+  auto cause = *this;
+  if (!more.empty()) cause.what.text += "; " + more;
+  return cause;
 }
 
 }  // namespace drycut::sim::loop

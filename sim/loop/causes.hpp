@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "sim/record/outcome.hpp"
 #include "sim/record/recording.hpp"
 
@@ -21,24 +22,25 @@ class Causes : public record::Observer {
 
   /// What a run knows besides, a phrase each, the most telling one first.
   struct Known {
-    std::vector<std::string> contradictions;  ///< of controller and machine
+    std::vector<Finding> contradictions;  ///< of controller and machine
     /// Why nothing began: a switch that was never on, a program that waits.
-    std::vector<std::string> hindrances = {};
+    std::vector<Finding> hindrances = {};
     /// An axis that goes the wrong way: from when on [s].
-    std::vector<std::pair<double, std::string>> astray = {};
+    std::vector<std::pair<double, Finding>> astray = {};
     /// An axis that hunts: from when on [s].
-    std::optional<std::pair<double, std::string>> hunting = {};
+    std::optional<std::pair<double, Finding>> hunting = {};
     /// Where the whole program stands, and since when [s].
-    std::optional<std::pair<double, std::string>> standing = {};
+    std::optional<std::pair<double, Finding>> standing = {};
     /// What may be a slip, where nothing tells more: positions that differ, doubtful wires.
-    std::vector<std::string> doubts = {};
+    std::vector<Finding> doubts = {};
   };
   /// Why the checks failed, as the end of a sentence: "because Knife at 2.282 s: the cam asks for ...", or
-  /// where it only came before, "after ..."; "" if nothing tells or all passed.
-  [[nodiscard]] std::string of(const std::vector<record::CheckResult>& checks, const Known& known) const;
-  /// "gbPhase stands at 1 since 0.31 s": the state that changed last, if it has not for a long time; "" =
-  /// there is none.
-  [[nodiscard]] std::string state_that_stands(double now) const;
+  /// where it only came before, "after ..."; nothing if nothing tells or all passed.
+  [[nodiscard]] std::optional<Finding> of(const std::vector<record::CheckResult>& checks,
+                                          const Known& known) const;
+  /// "gbPhase stands at 1 since 0.31 s": the state that changed last, if it has not for a long time;
+  /// nothing = there is none.
+  [[nodiscard]] std::optional<Finding> state_that_stands(double now) const;
   /// The first time that a plant ran into its end stop; nullptr = none did.
   [[nodiscard]] const record::Alarm* first_stop() const { return stop_ ? &*stop_ : nullptr; }
   /// The first errors and warnings in the order of their times, twenty at most.
@@ -57,18 +59,28 @@ class Causes : public record::Observer {
     double begin = 0;  ///< [s]
     double end = 0;
   };
+  /// How sure a cause is: the word before it.
+  enum class Link { because, after, shortly_before, meanwhile };
+  struct Cause {
+    Link link;
+    Finding what;
+    /// The same, and behind it a phrase that tells more; "" = none.
+    [[nodiscard]] Cause with(const std::string& more) const;
+  };
   [[nodiscard]] const record::Alarm* first_error(double until) const;
   [[nodiscard]] const record::Alarm* last_warning(double until, const std::string& source) const;
   [[nodiscard]] std::string with_warning(const record::Alarm& error) const;
-  [[nodiscard]] std::string by_time(double failed_at, const Known& known) const;
-  [[nodiscard]] std::string last_resort(const std::vector<record::CheckResult>& checks, const Known& known,
-                                        const std::string& before) const;
+  [[nodiscard]] std::optional<Cause> by_time(double failed_at, const Known& known) const;
+  [[nodiscard]] std::optional<Cause> cause_of(const std::vector<record::CheckResult>& checks,
+                                              const Known& known) const;
+  [[nodiscard]] std::optional<Cause> last_resort(const std::vector<record::CheckResult>& checks,
+                                                 const Known& known, std::optional<Cause> before) const;
 
   std::vector<record::Alarm> errors_;    ///< the first of each source
   std::vector<record::Alarm> warnings_;  ///< the first of each source and text
   std::vector<record::Alarm> faults_;
-  std::vector<record::Alarm> sets_;   ///< what the timeline did to the machine
-  std::vector<record::Alarm> blows_;  ///< the first of each source: it ran into a stop, it sank
+  std::vector<record::Alarm> sets_;    ///< what the timeline did to the machine
+  std::vector<record::Alarm> blows_;   ///< the first of each source: it ran into a stop, it sank
   std::optional<record::Alarm> stop_;  ///< the first at an end stop
   std::optional<record::Alarm> value_cut_;  ///< the first value that a program could not keep whole
   std::vector<Limit> limits_;

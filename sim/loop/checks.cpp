@@ -126,7 +126,7 @@ void Checks::bind(State& state, const scenario::Scenario& scenario, std::vector<
       if (slot.name != name) continue;
       if (check.kind == scenario::CheckRequest::Kind::all) return {&slot.number, slot.unit};
       return scenario::Expression::Operand::refused(
-          fmt::format("{} is a value of the event, and a cycle has one", name),
+          "expression.not-here"_code, fmt::format("{} is a value of the event, and a cycle has one", name),
           fmt::format("write all: {} for statistics over the events", check.event.text));
     }
     return check.kind == scenario::CheckRequest::Kind::all ? watch_.operand(name) : at_steps_.operand(name);
@@ -407,10 +407,21 @@ std::vector<record::Tolerance> Checks::tolerances_of(const State& state) {
   return tolerances;
 }
 
+std::vector<std::string> Checks::names_of(const State& state) {
+  std::vector<std::string> names;
+  for (const auto& operand : state.operands) names.push_back(operand.name);
+  if (state.expression)
+    for (const auto& statistic : state.expression->statistics())
+      for (const auto& name : statistic.names)
+        if (std::ranges::find(names, name.text) == names.end()) names.push_back(name.text);
+  return names;
+}
+
 record::CheckResult Checks::result(State& state, Time end) {
   const auto& check = state.check;
   record::CheckResult result{
       check.name.text, expectation_text(check) + state.rate, false, {}, state.unit, {}, ""};
+  result.names = names_of(state);
   const bool by_event =
       check.kind == scenario::CheckRequest::Kind::each || check.kind == scenario::CheckRequest::Kind::all;
   if (by_event && state.count < check.at_least) {

@@ -113,6 +113,7 @@ class Checks : public record::Observer {
   static std::string looked_at(const State& state);
   record::CheckResult result(State& state, Time end);
   static std::vector<record::Tolerance> tolerances_of(const State& state);
+  static std::vector<std::string> names_of(const State& state);
 
   Watch& watch_;
   Watch at_steps_;  ///< what statistics of every step look at

@@ -25,9 +25,10 @@ std::string program_words(const devices::ProgramText& program) {
       words += '\n';
     } else if (is_st && rest.starts_with("(*")) {
       const auto end = std::min(text.find("*)", i), text.size() - 1) + 1;
-      words.append(static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
-                                                       text.begin() + static_cast<std::ptrdiff_t>(end), '\n')),
-                   '\n');
+      words.append(
+          static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
+                                              text.begin() + static_cast<std::ptrdiff_t>(end), '\n')),
+          '\n');
       i = end;
     } else {
       words += text[i];
@@ -120,8 +121,8 @@ std::optional<plants::PlugScale> scale_of(const std::vector<NamedPlant>& plants,
 
 }  // namespace
 
-std::vector<std::string> contradictions(const scenario::Scenario& scenario,
-                                        const std::vector<NamedPlant>& plants) {
+std::vector<Finding> contradictions(const scenario::Scenario& scenario,
+                                    const std::vector<NamedPlant>& plants) {
   if (!scenario.controller) return {};
   return scenario.controller->contradictions(scenario,
                                              [&](const std::string& plug) { return scale_of(plants, plug); });
@@ -137,11 +138,10 @@ const scenario::Wire* wire_at(const scenario::Scenario& scenario, devices::Contr
   return nullptr;
 }
 
-std::vector<std::string> contradicting_speeds(const scenario::Scenario& scenario,
-                                              devices::Controller& controller,
-                                              const std::vector<NamedPlant>& plants) {
+std::vector<Finding> contradicting_speeds(const scenario::Scenario& scenario, devices::Controller& controller,
+                                          const std::vector<NamedPlant>& plants) {
   constexpr double tolerance = 0.02;
-  std::vector<std::string> found;
+  std::vector<Finding> found;
   for (const auto& loop : controller.position_loops()) {
     const double told = loop.counts_at_10v ? loop.counts_at_10v() : 0;
     if (told <= 0 || !loop.counter || !loop.reference) continue;
@@ -153,7 +153,8 @@ std::vector<std::string> contradicting_speeds(const scenario::Scenario& scenario
     if (!counts || !speed || counts->turns != speed->turns) continue;
     const double given = std::abs(counts->value * speed->value);
     if (std::abs(told - given) <= tolerance * given) continue;
-    found.push_back(
+    found.emplace_back(
+        "wiring.speed-contradicts"_code,
         fmt::format("{}: by its parameters 10 V are {:.0f} counts/s (maxvel, unitvel, decpt, counts a "
                     "unit), by {} and {} {:.0f}",
                     loop.name, told, driven->plug.text, counted->plug.text, given));
@@ -205,33 +206,33 @@ std::vector<MachineUnit> machine_units(const scenario::Scenario& scenario, devic
 
 }  // namespace
 
-std::vector<std::string> strange_units(const scenario::Scenario& scenario, devices::Controller& controller,
-                                       const std::vector<NamedPlant>& plants) {
+std::vector<Finding> strange_units(const scenario::Scenario& scenario, devices::Controller& controller,
+                                   const std::vector<NamedPlant>& plants) {
   constexpr double millimetre = 1e-3;
   constexpr double inch = 25.4e-3;
   constexpr double degree = std::numbers::pi / 180;
-  std::vector<std::string> found;
+  std::vector<Finding> found;
   for (const auto& unit : machine_units(scenario, controller, plants)) {
     const bool of_length =
         unit.length > 0 && (is_round(unit.length, millimetre) || is_round(unit.length, inch));
     const bool of_angle =
         unit.angle > 0 && (is_round(unit.angle, degree) || is_round(unit.angle, 360 * degree));
-    if (!of_length && !of_angle) found.push_back(unit.text());
+    if (!of_length && !of_angle) found.emplace_back("wiring.strange-unit"_code, unit.text());
   }
   return found;
 }
 
-std::vector<std::string> different_units(const scenario::Scenario& scenario, devices::Controller& controller,
-                                         const std::vector<NamedPlant>& plants) {
+std::vector<Finding> different_units(const scenario::Scenario& scenario, devices::Controller& controller,
+                                     const std::vector<NamedPlant>& plants) {
   constexpr double tolerance = 0.01;
   const auto units = machine_units(scenario, controller, plants);
-  std::vector<std::string> found;
+  std::vector<Finding> found;
   for (std::size_t i = 1; i < units.size(); ++i) {
     const auto& own = units[i - 1];
     const auto& master = units[i];
     if (own.counted.axis != master.counted.axis || own.length == 0 || master.length == 0) continue;
     if (std::abs(own.length - master.length) > tolerance * own.length)
-      found.push_back(fmt::format("{}, {}", own.text(), master.text()));
+      found.emplace_back("wiring.units-differ"_code, fmt::format("{}, {}", own.text(), master.text()));
   }
   return found;
 }
@@ -256,24 +257,26 @@ std::vector<std::pair<std::string, double>> modulo_masters(devices::Controller& 
 
 }  // namespace
 
-std::vector<std::string> strange_cycles(const scenario::Scenario& scenario, devices::Controller& controller,
-                                        const std::vector<NamedPlant>& plants,
-                                        const std::vector<CamCycle>& cycles,
-                                        const std::vector<std::pair<std::string, record::Tolerance>>& limits) {
+std::vector<Finding> strange_cycles(const scenario::Scenario& scenario, devices::Controller& controller,
+                                    const std::vector<NamedPlant>& plants,
+                                    const std::vector<CamCycle>& cycles,
+                                    const std::vector<std::pair<std::string, record::Tolerance>>& limits) {
   constexpr double tolerance = 0.02;
   constexpr double millimetres = 1000;
   const auto is_whole = [&](double ratio) {
     return std::round(ratio) >= 1 && std::abs(ratio - std::round(ratio)) <= tolerance * ratio;
   };
   const auto units = machine_units(scenario, controller, plants);
-  std::vector<std::string> found;
+  std::vector<Finding> found;
   for (const auto& cycle : cycles) {
     for (const auto& [axis, modulo] : modulo_masters(controller))
       if (cycle.unit == "mm" && axis != cycle.axis && !is_whole(cycle.length / modulo) &&
           !is_whole(modulo / cycle.length))
-        found.push_back(fmt::format("a cycle of the cam of {} is {:.4g} mm, and the modulo of its master {} is "
-                                    "{:.4g} mm",
-                                    cycle.axis, cycle.length, axis, modulo));
+        found.emplace_back(
+            "loop.cycle-no-modulo"_code,
+            fmt::format("a cycle of the cam of {} is {:.4g} mm, and the modulo of its master {} is "
+                        "{:.4g} mm",
+                        cycle.axis, cycle.length, axis, modulo));
     double length = cycle.unit == "mm" ? cycle.length : 0;
     // A device's first counter is its own, the second one its master's.
     for (std::size_t i = 1; i < units.size() && cycle.unit == "Um"; ++i)
@@ -285,9 +288,11 @@ std::vector<std::string> strange_cycles(const scenario::Scenario& scenario, devi
       if (limit.value != "length" || !std::isfinite(wanted) || wanted <= 0 || is_whole(length / wanted) ||
           is_whole(wanted / length))
         continue;
-      found.push_back(fmt::format("a cycle of the cam of {} is {:.4g} mm of material, and check '{}' wants "
-                                  "{:.4g} mm",
-                                  cycle.axis, length, check, wanted));
+      found.emplace_back(
+          "loop.cycle-no-piece"_code,
+          fmt::format("a cycle of the cam of {} is {:.4g} mm of material, and check '{}' wants "
+                      "{:.4g} mm",
+                      cycle.axis, length, check, wanted));
     }
   }
   return found;
@@ -296,9 +301,9 @@ std::vector<std::string> strange_cycles(const scenario::Scenario& scenario, devi
 namespace {
 
 /// Zero pulses of another encoder than the one that the axis counts.
-std::vector<std::string> strange_zero_pulses(const scenario::Scenario& scenario,
-                                             devices::Controller& controller) {
-  std::vector<std::string> notes;
+std::vector<Finding> strange_zero_pulses(const scenario::Scenario& scenario,
+                                         devices::Controller& controller) {
+  std::vector<Finding> notes;
   for (const auto& loop : controller.position_loops()) {
     if (!loop.zero || !loop.counter) continue;
     const auto* pulse = wire_at(scenario, controller, *loop.zero);
@@ -306,9 +311,10 @@ std::vector<std::string> strange_zero_pulses(const scenario::Scenario& scenario,
     if (pulse == nullptr || counted == nullptr || !pulse->plug.text.ends_with(".index") ||
         pulse->plug.text == counted->plug.text + ".index")
       continue;
-    notes.push_back(fmt::format("{} takes its zero pulse from {} ({}), and counts {} ({})", loop.name,
-                                pulse->plug.text, pulse->terminal.text, counted->plug.text,
-                                counted->terminal.text));
+    notes.emplace_back(
+        "wiring.other-zero-pulse"_code,
+        fmt::format("{} takes its zero pulse from {} ({}), and counts {} ({})", loop.name, pulse->plug.text,
+                    pulse->terminal.text, counted->plug.text, counted->terminal.text));
   }
   return notes;
 }
@@ -343,7 +349,9 @@ std::string name_in_program(const std::string& terminal, const std::vector<devic
 bool switches_on(const std::string& language, std::string_view line, const std::string& name) {
   const auto words = split_words(line, {1, 1}, " \t");
   if (words.empty()) return false;
-  const auto is = [&](std::size_t i, std::string_view word) { return i < words.size() && words[i].text == word; };
+  const auto is = [&](std::size_t i, std::string_view word) {
+    return i < words.size() && words[i].text == word;
+  };
   if (language == "il") return (is(0, "out") || is(0, "set")) && is(1, name);
   if (language == "qcl") return is(0, "setout") ? is(1, name) : is(0, name) && is(1, "=") && !is(2, "0");
   const auto assigned = line.find(":=");
@@ -352,9 +360,9 @@ bool switches_on(const std::string& language, std::string_view line, const std::
 }
 
 /// Axes that switch their drive on and off, by a terminal that is not wired, where the drive has the plug.
-std::vector<std::string> always_enabled(const scenario::Scenario& scenario, devices::Controller& controller) {
+std::vector<Finding> always_enabled(const scenario::Scenario& scenario, devices::Controller& controller) {
   constexpr std::string_view reference = ".reference";
-  std::vector<std::string> found;
+  std::vector<Finding> found;
   for (const auto& wire : scenario.wiring) {
     const auto& [terminal, plug] = std::pair(wire.terminal.text, wire.plug.text);
     if (!terminal.ends_with(reference) || !plug.ends_with(reference)) continue;
@@ -362,15 +370,16 @@ std::vector<std::string> always_enabled(const scenario::Scenario& scenario, devi
     const auto at = controller.terminal(enable);
     const auto* address = std::get_if<devices::Address>(&at);
     if (address != nullptr && wire_at(scenario, controller, *address) == nullptr)
-      found.push_back(fmt::format("{} is not wired: {} is on always, whatever the axis does", enable,
-                                  plug.substr(0, plug.size() - reference.size()) + ".enable"));
+      found.emplace_back("wiring.always-enabled"_code,
+                         fmt::format("{} is not wired: {} is on always, whatever the axis does", enable,
+                                     plug.substr(0, plug.size() - reference.size()) + ".enable"));
   }
   return found;
 }
 
 }  // namespace
 
-std::vector<std::string> crossed_wires(const scenario::Scenario& scenario, devices::Controller& controller) {
+std::vector<Finding> crossed_wires(const scenario::Scenario& scenario, devices::Controller& controller) {
   struct Named {
     std::string terminal;
     std::string plug;
@@ -397,28 +406,28 @@ std::vector<std::string> crossed_wires(const scenario::Scenario& scenario, devic
   const auto has = [](const Named& one, const Named& of, const Named& not_of) {
     constexpr std::size_t telling = 4;  // letters
     return std::any_of(of.words.begin(), of.words.end(), [&](const std::string& word) {
-      const bool common =
-          std::find(not_of.words.begin(), not_of.words.end(), word) != not_of.words.end();
+      const bool common = std::find(not_of.words.begin(), not_of.words.end(), word) != not_of.words.end();
       const auto name = lower(one.name);
-      return !common && (name.ends_with(word) ||
-                         (word.size() >= telling && name.find(word) != std::string::npos));
+      return !common &&
+             (name.ends_with(word) || (word.size() >= telling && name.find(word) != std::string::npos));
     });
   };
-  std::vector<std::string> notes;
+  std::vector<Finding> notes;
   for (std::size_t i = 0; i < named.size(); ++i)
     for (std::size_t j = i + 1; j < named.size(); ++j)
-      if (const auto &one = named[i], &other = named[j]; one.kind == other.kind &&
-                                                         has(one, other, one) && has(other, one, other) &&
-                                                         !has(one, one, other) && !has(other, other, one))
-        notes.push_back(fmt::format("{}, which the program calls {}, is wired to {}, and {}, {}, to {}",
-                                    one.terminal, one.name, one.plug, other.terminal, other.name,
-                                    other.plug));
+      if (const auto& one = named[i], &other = named[j]; one.kind == other.kind && has(one, other, one) &&
+                                                         has(other, one, other) && !has(one, one, other) &&
+                                                         !has(other, other, one))
+        notes.emplace_back(
+            "wiring.crossed"_code,
+            fmt::format("{}, which the program calls {}, is wired to {}, and {}, {}, to {}", one.terminal,
+                        one.name, one.plug, other.terminal, other.name, other.plug));
   return notes;
 }
 
-std::vector<std::string> backward_masters(const scenario::Scenario& scenario, devices::Controller& controller,
-                                          const std::vector<NamedPlant>& plants) {
-  std::vector<std::string> found;
+std::vector<Finding> backward_masters(const scenario::Scenario& scenario, devices::Controller& controller,
+                                      const std::vector<NamedPlant>& plants) {
+  std::vector<Finding> found;
   const auto units = controller.counted_units();
   // A device's first counter is its own, the second one its master's.
   for (std::size_t i = 1; i < units.size(); ++i) {
@@ -427,29 +436,31 @@ std::vector<std::string> backward_masters(const scenario::Scenario& scenario, de
     if (units[i - 1].axis != units[i].axis || !reversed || wire == nullptr) continue;
     const auto scale = scale_of(plants, wire->plug.text);
     if (scale && (reversed->read() != 0) == (scale->value > 0))
-      found.push_back(fmt::format("{} counts its master backwards (st_cntrevm {:g}, {})", units[i].axis,
-                                  reversed->read(), wire->plug.text));
+      found.emplace_back("wiring.master-backwards"_code,
+                         fmt::format("{} counts its master backwards (st_cntrevm {:g}, {})", units[i].axis,
+                                     reversed->read(), wire->plug.text));
   }
   return found;
 }
 
-std::vector<std::string> without_zero_pulse(const scenario::Scenario& scenario,
-                                            devices::Controller& controller) {
+std::vector<Finding> without_zero_pulse(const scenario::Scenario& scenario, devices::Controller& controller) {
   constexpr double by_zero_pulse = 1;  // prsmode
-  std::vector<std::string> found;
+  std::vector<Finding> found;
   for (const auto& loop : controller.position_loops()) {
     const auto mode = controller.find(loop.name + ".prsmode");
     if (!loop.zero || !mode || mode->read() != by_zero_pulse || !presets(controller, loop.name)) continue;
     if (wire_at(scenario, controller, *loop.zero) == nullptr)
-      found.push_back(fmt::format("{} is the zero pulse that PRESET of {} seeks (prsmode 1), and nothing is "
-                                  "wired to it",
-                                  controller.terminal_name(*loop.zero), loop.name));
+      found.emplace_back(
+          "wiring.no-zero-pulse"_code,
+          fmt::format("{} is the zero pulse that PRESET of {} seeks (prsmode 1), and nothing is "
+                      "wired to it",
+                      controller.terminal_name(*loop.zero), loop.name));
   }
   return found;
 }
 
-std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devices::Controller& controller) {
-  std::vector<std::string> notes;
+std::vector<Finding> doubtful_wires(const scenario::Scenario& scenario, devices::Controller& controller) {
+  std::vector<Finding> notes;
   const auto programs = controller.programs();
   std::map<std::string, std::string> counters;
   for (const auto& wire : scenario.wiring) {
@@ -458,14 +469,17 @@ std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devi
     if (address == nullptr) continue;
     const auto name = controller.terminal_name(*address);
     if (address->kind == devices::Kind::output && !is_named(name, programs, Named::perhaps))
-      notes.push_back(fmt::format("{} is wired to {}, and no program works it", name, wire.plug.text));
+      notes.emplace_back("wiring.idle-output"_code,
+                         fmt::format("{} is wired to {}, and no program works it", name, wire.plug.text));
     if (address->kind != devices::Kind::counter) continue;
     if (is_unread(name, programs))
-      notes.push_back(
+      notes.emplace_back(
+          "wiring.unread-counter"_code,
           fmt::format("{} is wired to {}, and the program does not name it", name, wire.plug.text));
     const auto [first, fresh] = counters.emplace(wire.plug.text, name);
     if (!fresh)
-      notes.push_back(fmt::format("{} and {} are both wired to {}", first->second, name, wire.plug.text));
+      notes.emplace_back("wiring.shared-counter"_code,
+                         fmt::format("{} and {} are both wired to {}", first->second, name, wire.plug.text));
   }
   for (auto& strange : strange_zero_pulses(scenario, controller)) notes.push_back(std::move(strange));
   for (auto& enabled : always_enabled(scenario, controller)) notes.push_back(std::move(enabled));
@@ -529,7 +543,8 @@ OpenTerminals open_terminals(devices::Controller& controller, const std::vector<
     if (address == nullptr) continue;
     const bool pulses = controller.cards().pulse_outputs.contains(*address);
     const auto tell = [&](auto& list, std::string_view what) {
-      list.push_back(fmt::format("{} {}, and nothing is wired to it", name, what));
+      list.emplace_back("wiring.open-terminal"_code,
+                        fmt::format("{} {}, and nothing is wired to it", name, what));
     };
     if (pulses && takes_pulses)
       tell(open.moving, "gives pulses");

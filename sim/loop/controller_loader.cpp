@@ -16,12 +16,14 @@ void set_values(const scenario::ControllerSection& section, const scenario::Scen
     const auto value = controller.find(name.text);
     if (value && value->write) {
       const auto fault = value->misfit(number);
-      if (fault) problems.push_back(scenario::problem_at(scenario, name.place, fault->what, fault->remedy));
+      if (fault)
+        problems.push_back(
+            scenario::problem_at(fault->code, scenario, name.place, fault->what, fault->remedy));
       if (!fault) value->write(number);
       continue;
     }
     problems.push_back(
-        scenario::problem_at(scenario, name.place,
+        scenario::problem_at("controller.unknown-name"_code, scenario, name.place,
                              value ? fmt::format("'{}' can only be read", name.text)
                                    : fmt::format("the controller has nothing called '{}'", name.text),
                              did_you_mean(name.text, value ? std::vector<std::string>() : controller.names(),
@@ -35,21 +37,23 @@ void restore(const scenario::Text& retentive, const scenario::Scenario& scenario
              devices::Controller& controller, Problems& problems) {
   const auto file = retentive_file(scenario);
   if (!file) return;
-  const auto refuse = [&](const std::string& what, const std::string& remedy) {
-    problems.push_back(scenario::problem_at(scenario, retentive.place, what, remedy));
+  const auto refuse = [&](Code code, const std::string& what, const std::string& remedy) {
+    problems.push_back(scenario::problem_at(code, scenario, retentive.place, what, remedy));
   };
   const auto folder = file->has_parent_path() ? file->parent_path() : std::filesystem::path(".");
   if (file->has_parent_path() && !folder_exists(folder)) {
-    refuse(fmt::format("there is no directory {}", folder.string()), "make it first, or name another file");
+    refuse("file.not-writable"_code, fmt::format("there is no directory {}", folder.string()),
+           "make it first, or name another file");
     return;
   }
   if (const auto why = hindrance(*file); scenario.controller->retains && !why.empty()) {
-    refuse(fmt::format("{} cannot be written at the end of the run: {}", file->string(), why),
+    refuse("file.not-writable"_code,
+           fmt::format("{} cannot be written at the end of the run: {}", file->string(), why),
            "name another file");
     return;
   }
   if (!file_exists(*file)) return;
-  const auto kept = read_file(*file, problems, scenario::problem_at(scenario, retentive.place, "", ""));
+  const auto kept = read_file(*file, problems, scenario::named_at(scenario, retentive.place));
   if (kept) controller.restore(*kept, problems, file->string());
 }
 
@@ -74,7 +78,7 @@ void keep_retentive(const scenario::Scenario& scenario, const std::string& state
 }
 
 std::unique_ptr<devices::Controller> load_controller(const scenario::Scenario& scenario, Problems& problems,
-                                                     std::vector<std::string>* notes) {
+                                                     std::vector<Finding>* notes) {
   if (!scenario.controller) return nullptr;
   const auto& section = *scenario.controller;
   auto controller = section.load(scenario, problems, notes);

@@ -16,7 +16,7 @@ namespace drycut::sim::loop {
 /// Retentive values come from the scenario's retentive file where it names one that exists; what the scenario
 /// sets itself comes after. `notes` takes what a reader should know that is no fault.
 std::unique_ptr<devices::Controller> load_controller(const scenario::Scenario& scenario, Problems& problems,
-                                                     std::vector<std::string>* notes = nullptr);
+                                                     std::vector<Finding>* notes = nullptr);
 
 /// The files that the controller is made of, as the scenario names them.
 std::vector<scenario::Text> controller_files(const scenario::Scenario& scenario);

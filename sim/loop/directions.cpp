@@ -59,7 +59,7 @@ void Directions::tell(const Axis& axis, Time now) {
           : loop.forward
               ? fmt::format("it counts the wrong way, or forward and backward are swapped ({})", loop.remedy)
               : fmt::format("positive feedback, it counts or turns the wrong way ({})", loop.remedy);
-  found_.push_back({seconds(now), std::move(text)});
+  found_.push_back({seconds(now), {"loop.axis-astray"_code, std::move(text)}});
 }
 
 }  // namespace drycut::sim::loop

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/controller.hpp"
 #include "sim/record/recording.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -20,7 +21,7 @@ class Directions : public record::Observer {
   /// An axis that goes the wrong way, as the end of a sentence.
   struct Found {
     double at = 0;  ///< [s] when it began
-    std::string text;
+    Finding what;
   };
   [[nodiscard]] const std::vector<Found>& found() const { return found_; }
 

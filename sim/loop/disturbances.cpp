@@ -32,7 +32,7 @@ Disturbances::Disturbances(const scenario::Scenario& scenario, Names& names, Pro
   const double h = seconds(scenario.scene.step);
   const auto refuse = [&](const scenario::ScenePlace& place, std::string what) {
     problems.push_back(
-        scenario::problem_at(scenario, place, std::move(what),
+        scenario::problem_at("scenario.time-grid"_code, scenario, place, std::move(what),
                              fmt::format("less than {:g} Hz, or a shorter scene.step", 0.5 / h)));
   };
   sources_.reserve(scenario.disturbances.size());
@@ -49,7 +49,7 @@ Disturbances::Disturbances(const scenario::Scenario& scenario, Names& names, Pro
     if (sum == nullptr) continue;
     if (sum->is_fault && goes_both_ways(of) && sum->target.read() <= sum->low) {
       problems.push_back(scenario::problem_at(
-          scenario, of.at.place,
+          "scenario.does-not-go-together"_code, scenario, of.at.place,
           fmt::format("{} cannot be less than it is, and this goes both ways: half of it would be lost",
                       of.at.text),
           "a single step up, {kind: step, amplitude: ...} without every"));
@@ -78,7 +78,7 @@ Disturbances::Sum* Disturbances::sum_of(const scenario::Text& name, const scenar
   if (!target) {
     const auto fixed = fixed_parameter(scenario, name.text);
     problems.push_back(scenario::problem_at(
-        scenario, name.place,
+        fixed ? fixed->code : "timeline.nothing-to-set"_code, scenario, name.place,
         fixed ? fixed->what : fmt::format("nothing called '{}' can be disturbed", name.text),
         fixed ? fixed->remedy : names.suggest_disturbed(name.text)));
     return nullptr;
@@ -86,7 +86,7 @@ Disturbances::Sum* Disturbances::sum_of(const scenario::Text& name, const scenar
   const auto range = target->range.value_or(devices::ValueRange{});
   if (range.whole) {
     problems.push_back(scenario::problem_at(
-        scenario, name.place,
+        "scenario.not-a-number"_code, scenario, name.place,
         fmt::format("{} takes whole numbers: nothing can be added little by little", name.text),
         "set it in the timeline"));
     return nullptr;

@@ -51,14 +51,15 @@ void Hunting::sample(Time now) {
   }
 }
 
-std::optional<std::pair<double, std::string>> Hunting::found() const {
+std::optional<std::pair<double, Finding>> Hunting::found() const {
   const Axis* first = nullptr;
   for (const auto& axis : axes_)
     if (axis.since && (first == nullptr || *axis.since < *first->since)) first = &axis;
   if (first == nullptr) return {};
-  return {
-      {*first->since, fmt::format("{} hunts from {:.4g} s on: it swings by {} bits x4, {:.2g} times a second",
-                                  first->name, *first->since, first->swing, first->rate)}};
+  return {{*first->since,
+           {"loop.axis-hunts"_code,
+            fmt::format("{} hunts from {:.4g} s on: it swings by {} bits x4, {:.2g} times a second",
+                        first->name, *first->since, first->swing, first->rate)}}};
 }
 
 }  // namespace drycut::sim::loop

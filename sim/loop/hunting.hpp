@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/controller.hpp"
 #include "sim/record/recording.hpp"
 
@@ -21,7 +22,7 @@ class Hunting : public record::Observer {
 
   /// Since when [s], and "AxisX hunts from 1.06 s on: it swings by 1570 bits x4, 3.1 times a second": the
   /// first that did.
-  [[nodiscard]] std::optional<std::pair<double, std::string>> found() const;
+  [[nodiscard]] std::optional<std::pair<double, Finding>> found() const;
 
  private:
   struct Turn {

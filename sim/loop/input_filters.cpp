@@ -89,16 +89,18 @@ void InputFilters::pass(LevelFilter& filter, double h) {
   }
 }
 
-std::vector<std::string> InputFilters::lost() const {
-  std::vector<std::string> all;
+std::vector<Finding> InputFilters::lost() const {
+  std::vector<Finding> all;
   for (const auto& filter : counters_)
     if (filter.lost > 0)
-      all.push_back(fmt::format("{} lost {:.0f} counts beyond {:g} Hz of one phase", filter.terminal,
-                                filter.lost, filter.hertz));
+      all.emplace_back("controller.counts-lost"_code,
+                       fmt::format("{} lost {:.0f} counts beyond {:g} Hz of one phase", filter.terminal,
+                                   filter.lost, filter.hertz));
   for (const auto& filter : pulses_)
     if (filter.lost > 0)
-      all.push_back(fmt::format("{} lost {} zero pulses shorter than {:g} us", filter.terminal, filter.lost,
-                                filter.least * 1e6));
+      all.emplace_back("controller.pulses-lost"_code,
+                       fmt::format("{} lost {} zero pulses shorter than {:g} us", filter.terminal,
+                                   filter.lost, filter.least * 1e6));
   return all;
 }
 

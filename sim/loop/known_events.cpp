@@ -97,9 +97,10 @@ const KnownEvent* find_event(const std::vector<KnownEvent>& events, const scenar
     known.push_back(event.name);
     known.push_back(event.source + "." + event.name);
   }
-  problems.push_back(scenario::problem_at(
-      scenario, wanted.place, fmt::format("nothing here reports an event '{}'", wanted.text),
-      did_you_mean(wanted.text, known, "events of plants are listed by drycut plants")));
+  problems.push_back(
+      scenario::problem_at("scenario.unknown-event"_code, scenario, wanted.place,
+                           fmt::format("nothing here reports an event '{}'", wanted.text),
+                           did_you_mean(wanted.text, known, "events of plants are listed by drycut plants")));
   return nullptr;
 }
 

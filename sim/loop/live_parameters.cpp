@@ -46,7 +46,7 @@ std::optional<devices::ValueFault> fixed_parameter(const scenario::Scenario& sce
   const auto& plant = found->plant->name.text;
   const auto rest = live.empty() ? std::string("nothing of it changes in mid-run")
                                  : fmt::format("in mid-run it takes: {}", fmt::join(live, ", "));
-  return devices::ValueFault{fmt::format("{} is fixed while the machine runs", name),
+  return devices::ValueFault{"timeline.fixed"_code, fmt::format("{} is fixed while the machine runs", name),
                              fmt::format("give it under plants.{}; {}", plant, rest)};
 }
 
@@ -71,7 +71,8 @@ std::optional<devices::ValueFault> objection_to(const scenario::Scenario& scenar
   }
   value = before;
   if (objections.empty()) return {};
-  return devices::ValueFault{fmt::format("{}: {}", name, objections.front().what), objections.front().remedy};
+  return devices::ValueFault{objections.front().code, fmt::format("{}: {}", name, objections.front().what),
+                             objections.front().remedy};
 }
 
 }  // namespace drycut::sim::loop

@@ -44,9 +44,10 @@ void refuse_shared_names(const scenario::Scenario& scenario, devices::Controller
     const auto& name = plant.name.text;
     const auto value = controller.find(name);
     if (!taken.contains(name) && (!value || value->name != name)) continue;
-    problems.push_back(scenario::problem_at(
-        scenario, plant.name.place, fmt::format("plants.{0}: the controller has {0} too", name),
-        "give the plant a name of its own, or another spelling: knife and Knife"));
+    problems.push_back(
+        scenario::problem_at("controller.twice"_code, scenario, plant.name.place,
+                             fmt::format("plants.{0}: the controller has {0} too", name),
+                             "give the plant a name of its own, or another spelling: knife and Knife"));
   }
 }
 

@@ -59,9 +59,9 @@ constexpr OddRow rows[] = {
 
 }  // namespace
 
-std::vector<std::string> odd_parameters(devices::Controller& controller) {
+std::vector<Finding> odd_parameters(devices::Controller& controller) {
   constexpr double slow_ns = 10e6;
-  std::vector<std::string> found;
+  std::vector<Finding> found;
   for (const auto& loop : controller.position_loops()) {
     const auto value = [&](const char* name) {
       const auto parameter = controller.find(fmt::format("{}.{}", loop.name, name));
@@ -69,18 +69,22 @@ std::vector<std::string> odd_parameters(devices::Controller& controller) {
     };
     for (const auto& [name, is_odd, why] : rows)
       if (const double is = value(name); is_odd(is, value))
-        found.push_back(fmt::format("{}.{} is {:g}: {}", loop.name, name, is, why));
+        found.emplace_back("loop.odd-parameter"_code,
+                           fmt::format("{}.{} is {:g}: {}", loop.name, name, is, why));
     auto period = loop.reference ? static_cast<double>(controller.output_period(*loop.reference)) : 0;
     if (!loop.reference)  // all its axes have one
       for (const auto& [name, ns] : controller.periods()) period = std::max(period, static_cast<double>(ns));
     const double gain = period > 0 ? value("pgain") / 1000 / (period * 1e-9) : std::nan("");
     if (gain > 0 && gain < low_gain)
-      found.push_back(fmt::format("{0}.pgain is {1:g}, every {2:g} ms: a gain of {3:.3g} 1/s, and position "
-                                  "loops of drives have 20 to 100",
-                                  loop.name, value("pgain"), period * 1e-6, gain));
+      found.emplace_back(
+          "loop.odd-parameter"_code,
+          fmt::format("{0}.pgain is {1:g}, every {2:g} ms: a gain of {3:.3g} 1/s, and position "
+                      "loops of drives have 20 to 100",
+                      loop.name, value("pgain"), period * 1e-6, gain));
     if (period > slow_ns)
-      found.push_back(fmt::format("{} is sampled every {:g} ms, too rarely for a position loop", loop.name,
-                                  period * 1e-6));
+      found.emplace_back("loop.odd-parameter"_code,
+                         fmt::format("{} is sampled every {:g} ms, too rarely for a position loop", loop.name,
+                                     period * 1e-6));
   }
   return found;
 }

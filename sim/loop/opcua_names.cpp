@@ -13,7 +13,7 @@ void check_opcua_names(const scenario::Scenario& scenario, Names& names,
   const auto& opcua = scenario.opcua;
   const auto value = [&](const scenario::Text& name) {
     if (name.text.empty() || names.reading(name.text)) return;
-    problems.push_back(scenario::problem_at(scenario, name.place,
+    problems.push_back(scenario::problem_at("controller.unknown-name"_code, scenario, name.place,
                                             fmt::format("there is no value '{}'", name.text),
                                             names.suggest_reading(name.text)));
   };
@@ -28,10 +28,11 @@ void check_opcua_names(const scenario::Scenario& scenario, Names& names,
   for (const auto& cutter : opcua.cutters) {
     value(cutter.length);
     if (std::find(cutters.begin(), cutters.end(), cutter.plant.text) != cutters.end()) continue;
-    problems.push_back(scenario::problem_at(
-        scenario, cutter.plant.place, fmt::format("no plant '{}' cuts", cutter.plant.text),
-        did_you_mean(cutter.plant.text, cutters,
-                     "name one that reports cuts: a rotary_knife, a flying_saw")));
+    problems.push_back(
+        scenario::problem_at("wiring.no-plug"_code, scenario, cutter.plant.place,
+                             fmt::format("no plant '{}' cuts", cutter.plant.text),
+                             did_you_mean(cutter.plant.text, cutters,
+                                          "name one that reports cuts: a rotary_knife, a flying_saw")));
   }
 }
 

@@ -29,16 +29,17 @@ bool is_assignment(const devices::ProgramText& program, int line, const std::str
   return rest.starts_with(sign) && rest.find(spelt) == std::string_view::npos;
 }
 
-/// What a run left nothing of; "" = it stands, or something reads it first.
-std::string told_of(const scenario::Scenario& scenario, devices::Controller& controller,
-                    const std::string& name, double number) {
+/// What a run left nothing of; nothing = it stands, or something reads it first.
+std::optional<Finding> told_of(const scenario::Scenario& scenario, devices::Controller& controller,
+                               const std::string& name, double number) {
   const auto value = controller.find(name);
   constexpr double rounding = 1e-6;
-  if (!value || std::abs(value->read() - number) <= rounding * std::abs(number)) return "";
+  if (!value || std::abs(value->read() - number) <= rounding * std::abs(number)) return {};
   const auto place = written_first(controller, name);
-  return place ? fmt::format("controller.{}.set.{} = {:g} has no effect: the program writes {:g} at {}",
-                             scenario.controller->kind(), name, number, value->read(), *place)
-               : "";
+  if (!place) return {};
+  return Finding{"controller.value-overwritten"_code,
+                 fmt::format("controller.{}.set.{} = {:g} has no effect: the program writes {:g} at {}",
+                             scenario.controller->kind(), name, number, value->read(), *place)};
 }
 
 }  // namespace
@@ -59,27 +60,26 @@ std::optional<std::string> written_first(devices::Controller& controller, const 
   return written;
 }
 
-std::vector<std::string> overwritten(const scenario::Scenario& scenario, devices::Controller& controller) {
-  std::vector<std::string> found;
+std::vector<Finding> overwritten(const scenario::Scenario& scenario, devices::Controller& controller) {
+  std::vector<Finding> found;
   if (!scenario.controller) return found;
   for (const auto& [name, number] : scenario.controller->set)
-    if (auto told = told_of(scenario, controller, name.text, number); !told.empty())
-      found.push_back(std::move(told));
+    if (auto told = told_of(scenario, controller, name.text, number)) found.push_back(std::move(*told));
   return found;
 }
 
-std::string overwritten(const scenario::Scenario& scenario, const std::string& name) {
+std::optional<Finding> overwritten(const scenario::Scenario& scenario, const std::string& name) {
   Problems problems;
-  if (!scenario.buildable || !scenario.controller) return "";
+  if (!scenario.buildable || !scenario.controller) return {};
   Simulation simulation(scenario, problems);
   if (!problems.empty() || simulation.controller() == nullptr ||
       !written_first(*simulation.controller(), name))
-    return "";
+    return {};
   simulation.keep_nothing();
   simulation.run();
   for (const auto& [set, number] : scenario.controller->set)
     if (set.text == name) return told_of(scenario, *simulation.controller(), name, number);
-  return "";
+  return {};
 }
 
 }  // namespace drycut::sim::loop

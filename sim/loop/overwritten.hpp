@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/controller.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -14,10 +15,10 @@ std::optional<std::string> written_first(devices::Controller& controller, const 
 
 /// Values of the controller's `set` of which a run left nothing, for its program writes them first, a phrase
 /// each: asked when it has run.
-std::vector<std::string> overwritten(const scenario::Scenario& scenario, devices::Controller& controller);
+std::vector<Finding> overwritten(const scenario::Scenario& scenario, devices::Controller& controller);
 
-/// The same of the value called `name` alone, after a run of its own; "" = it stays, or is read first. Of
-/// scenarios that cannot be run nothing is said.
-std::string overwritten(const scenario::Scenario& scenario, const std::string& name);
+/// The same of the value called `name` alone, after a run of its own; nothing = it stays, or is read first.
+/// Of scenarios that cannot be run nothing is said.
+std::optional<Finding> overwritten(const scenario::Scenario& scenario, const std::string& name);
 
 }  // namespace drycut::sim::loop

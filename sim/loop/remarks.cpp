@@ -15,16 +15,18 @@ void Remarks::happened(const record::RecordedEvent& event) {
   const bool urgent = is_of_program(event.event);  // stands before remarks on values
   if ((urgent ? urgent_ : remarks_.size()) >= shown) return;
   const auto place = urgent ? urgent_++ : remarks_.size();
-  remarks_.insert(remarks_.begin() + static_cast<std::ptrdiff_t>(place),
-                  fmt::format("{} at {} s: {}: {}", event.source, record::seconds_text(event.time),
-                              event.event, event.text));
+  remarks_.insert(
+      remarks_.begin() + static_cast<std::ptrdiff_t>(place),
+      {"controller.remark"_code, fmt::format("{} at {} s: {}: {}", event.source,
+                                             record::seconds_text(event.time), event.event, event.text)});
   if (remarks_.size() > shown) remarks_.pop_back();
 }
 
-std::vector<std::string> Remarks::notes() const {
+std::vector<Finding> Remarks::notes() const {
   auto notes = remarks_;
   if (count_ > remarks_.size())
-    notes.push_back(fmt::format("and {} more, see events.csv", counted(count_ - remarks_.size(), "remark")));
+    notes.emplace_back("controller.remark"_code, fmt::format("and {} more, see events.csv",
+                                                             counted(count_ - remarks_.size(), "remark")));
   return notes;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
@@ -12,10 +13,10 @@ class Remarks : public record::Observer {
  public:
   void happened(const record::RecordedEvent& event) override;
   /// The remarks, and how many more there were.
-  [[nodiscard]] std::vector<std::string> notes() const;
+  [[nodiscard]] std::vector<Finding> notes() const;
 
  private:
-  std::vector<std::string> remarks_;
+  std::vector<Finding> remarks_;
   std::size_t urgent_ = 0;  ///< that stand at their beginning
   std::size_t count_ = 0;
 };

@@ -113,7 +113,7 @@ void Simulation::compare_with_machine() {
   warnings_.insert(warnings_.end(), open_->others.begin(), open_->others.end());
   for (auto& doubt : controller_->doubts())
     if (doubt.value.empty() || !scenario::sets(scenario_, doubt.value))
-      doubts_of_program_.push_back(doubt.text);
+      doubts_of_program_.emplace_back(doubt.code, doubt.text);
   warnings_.insert(warnings_.end(), doubts_of_program_.begin(), doubts_of_program_.end());
   for (auto& doubt : doubtful_wires(scenario_, *controller_)) warnings_.push_back(std::move(doubt));
   for (auto& crossed : crossed_wires(scenario_, *controller_)) warnings_.push_back(std::move(crossed));
@@ -152,7 +152,7 @@ void Simulation::check_periods(Problems& problems) const {
   for (const auto& period : controller_->periods()) {
     if (period.ns % step_ == 0) continue;
     problems.push_back(
-        scenario::problem_at(scenario_, place,
+        scenario::problem_at("scenario.time-grid"_code, scenario_, place,
                              fmt::format("{} of {} ns is not a whole multiple of the step of {} ns",
                                          period.name, period.ns, step_),
                              "choose a step that divides it"));
@@ -167,7 +167,8 @@ void Simulation::check_panel(Problems& problems) const {
   for (const auto& push : scenario_.panel.push_buttons) {
     if (bus_.panel().switches.contains(push.text)) continue;
     problems.push_back(scenario::problem_at(
-        scenario_, push.place, fmt::format("the panel has no switch '{}'", push.text),
+        "timeline.nothing-to-set"_code, scenario_, push.place,
+        fmt::format("the panel has no switch '{}'", push.text),
         switches.empty() ? "wire one: {2.INP03: panel.start}" : did_you_mean(push.text, switches)));
   }
 }
@@ -179,7 +180,7 @@ void Simulation::delay_outputs(Problems& problems) {
     const Time period = controller_->output_period(wire.terminal);
     if (period == 0 || computing <= period) continue;
     problems.push_back(problem_at(
-        scenario_, scenario_.controller->place,
+        "scenario.time-grid"_code, scenario_, scenario_.controller->place,
         fmt::format("compute_time of {} is longer than the sampling time {} of {}",
                     scenario::format_time(computing), scenario::format_time(period), wire.terminal_name),
         fmt::format("at most {}", scenario::format_time(period))));
@@ -335,31 +336,34 @@ std::vector<std::optional<Strobe>> Simulation::strobes() const {
   return loop::strobes(parts, shutter_->kept());
 }
 
-std::vector<std::string> Simulation::notes() const {
-  std::vector<std::string> notes;
-  if (!open_->unnamed.empty()) notes.push_back(fmt::format("not wired: {}", fmt::join(open_->unnamed, ", ")));
+std::vector<Finding> Simulation::notes() const {
+  std::vector<Finding> notes;
+  if (!open_->unnamed.empty())
+    notes.emplace_back("wiring.unused-terminal"_code,
+                       fmt::format("not wired: {}", fmt::join(open_->unnamed, ", ")));
   notes.insert(notes.end(), notes_of_setup_.begin(), notes_of_setup_.end());
   for (auto& lost : bus_.lost()) notes.push_back(std::move(lost));
   const auto& around = scenario_.pictures.around;
   if (around && scenario_.pictures.frames && !shutter_->event_at()) {
-    notes.push_back(fmt::format("no frames: {}[{}] did not happen; {} did", around->event.text,
-                                around->number, shutter_->seen()));
+    notes.emplace_back("pictures.event-missing"_code,
+                       fmt::format("no frames: {}[{}] did not happen; {} did", around->event.text,
+                                   around->number, shutter_->seen()));
   }
   if (const auto strobe = worst_strobe(strobes()))
-    notes.push_back(text_of(*strobe, scenario_.pictures, scenario_.scene.step));
+    notes.emplace_back("pictures.strobe"_code, text_of(*strobe, scenario_.pictures, scenario_.scene.step));
   if (time_ > 0)  // it ran
     for (auto& undone : timeline_->left_undone(time_)) notes.push_back(std::move(undone));
   for (auto& told : contradicting_parameters()) notes.push_back(std::move(told));
   if (directions_)
-    for (const auto& found : directions_->found()) notes.push_back(found.text);
+    for (const auto& found : directions_->found()) notes.push_back(found.what);
   if (standing_ && time_ > 0)
-    if (auto never = standing_->never_on(); !never.empty()) notes.push_back(std::move(never));
+    if (auto never = standing_->never_on()) notes.push_back(std::move(*never));
   if (whereabouts_)
     for (auto& zero : whereabouts_->zeros()) notes.push_back(std::move(zero));
   for (auto& remark : remarks_->notes()) notes.push_back(std::move(remark));
   if (time_ > 0 && drives_->judges())
     for (auto& drive : drives_->verdicts())
-      for (auto& note : drive.notes) notes.push_back(std::move(note));
+      for (auto& note : drive.notes) notes.emplace_back("drive.not-judged"_code, std::move(note));
   return notes;
 }
 
@@ -398,7 +402,7 @@ record::Outcome Simulation::run(const std::function<void(Time)>& progress) {
   return outcome();
 }
 
-std::vector<std::string> Simulation::contradicting_parameters() const {
+std::vector<Finding> Simulation::contradicting_parameters() const {
   if (!controller_ || time_ == 0) return {};
   auto found = strange_units(scenario_, *controller_, named_);
   for (auto& speed : contradicting_speeds(scenario_, *controller_, named_)) found.push_back(std::move(speed));
@@ -427,11 +431,23 @@ std::string Simulation::unpressed() const {
   return unpressed;
 }
 
+namespace {
+
+/// Phrases as one, of the first one's kind.
+std::optional<Finding> joined(const std::vector<Finding>& findings) {
+  if (findings.empty()) return {};
+  auto all = findings.front();
+  all.text = fmt::format("{}", fmt::join(record::texts_of(findings), "; "));
+  return all;
+}
+
+}  // namespace
+
 Causes::Known Simulation::known(const CamJudgement& cams) {
   Causes::Known known;
   known.contradictions = contradictions_;
   for (const auto& cam : cams.doubts)
-    if (cam.is_slip) known.contradictions.push_back(cam.text);
+    if (cam.is_slip) known.contradictions.push_back(cam.what);
   known.contradictions.insert(known.contradictions.end(), doubts_of_program_.begin(),
                               doubts_of_program_.end());
   for (const auto* open : {&open_->moving, &open_->others})
@@ -452,58 +468,59 @@ Causes::Known Simulation::known(const CamJudgement& cams) {
       known.contradictions.push_back(std::move(cycle));
   }
   for (const auto& found : directions_ ? directions_->found() : std::vector<Directions::Found>())
-    known.astray.emplace_back(found.at, found.text);
+    known.astray.emplace_back(found.at, found.what);
   if (auto lost = search_that_met_a_stop(); lost) known.astray.push_back(std::move(*lost));
   if (hunting_) known.hunting = hunting_->found();
   // An axis that only counts needs no loop.
-  const auto moves = [&](const std::string& without) {
+  const auto moves = [&](const std::string& axis) {
     const auto loops = controller_->position_loops();
     return std::any_of(loops.begin(), loops.end(), [&](const auto& loop) {
-      return without.starts_with(loop.name + " ") && loop.reference &&
+      return loop.name == axis && loop.reference &&
              wire_at(scenario_, *controller_, *loop.reference) != nullptr;
     });
   };
-  std::string standing;
+  std::optional<Finding> standing;
   if (controller_) {
     const auto waits = waits_of(*controller_, time_);
-    standing = fmt::format("{}", fmt::join(waits.texts, "; "));
-    if (waits.all) known.standing.emplace(waits.since, standing);
-    if (standing.empty()) standing = without_loop(*controller_);
-    if (standing.empty()) {
-      auto signs = standing_ ? standing_->texts(time_) : std::vector<std::string>();
-      if (auto state = causes_.state_that_stands(seconds(time_)); !state.empty())
-        signs.push_back(std::move(state));
-      standing = fmt::format("{}", fmt::join(signs, "; "));
+    standing = joined(waits.texts);
+    if (waits.all) known.standing.emplace(waits.since, *standing);
+    const auto open = without_loop(*controller_);
+    if (!standing && open) standing = open->what;
+    if (!standing) {
+      auto signs = standing_ ? standing_->texts(time_) : std::vector<Finding>();
+      if (auto state = causes_.state_that_stands(seconds(time_))) signs.push_back(std::move(*state));
+      standing = joined(signs);
     }
-    if (auto open = without_loop(*controller_); !open.empty() && moves(open))
-      known.contradictions.push_back(std::move(open));
+    if (open && moves(open->axis)) known.contradictions.push_back(open->what);
     if (known.hunting) known.doubts.push_back(known.hunting->second);
-    for (auto& text : whereabouts_ ? whereabouts_->texts() : std::vector<std::string>())
+    for (auto& text : whereabouts_ ? whereabouts_->texts() : std::vector<Finding>())
       known.doubts.push_back(std::move(text));
     for (auto& doubt : doubtful_wires(scenario_, *controller_)) known.doubts.push_back(std::move(doubt));
     for (auto& odd : odd_parameters(*controller_)) known.doubts.push_back(std::move(odd));
     for (const auto& cam : cams.doubts)
-      if (!cam.is_slip) known.doubts.push_back(cam.text);
+      if (!cam.is_slip) known.doubts.push_back(cam.what);
   }
   if (auto first = unpressed(); !first.empty())
-    known.hindrances.push_back(first + (standing.empty() ? "" : "; " + standing));
-  else if (!standing.empty())
-    known.hindrances.push_back(standing);
+    known.hindrances.emplace_back("loop.not-pressed"_code, first + (standing ? "; " + standing->text : ""));
+  else if (standing)
+    known.hindrances.push_back(*standing);
   return known;
 }
 
 // The home switch lies the other way, or is dead.
-std::optional<std::pair<double, std::string>> Simulation::search_that_met_a_stop() const {
+std::optional<std::pair<double, Finding>> Simulation::search_that_met_a_stop() const {
   const auto* blow = causes_.first_stop();
   if (blow == nullptr || !standing_) return {};
   const auto never = standing_->never_on(blow->source + ".home");
   if (never.empty()) return {};
-  return std::pair(blow->at, fmt::format("{} at {:.6g} s: {}, and {} was never on: the search went the other "
-                                         "way, or the switch is not where it should be",
-                                         blow->source, blow->at, blow->text, never));
+  return std::pair(blow->at,
+                   Finding{"loop.search-met-stop"_code,
+                           fmt::format("{} at {:.6g} s: {}, and {} was never on: the search went the other "
+                                       "way, or the switch is not where it should be",
+                                       blow->source, blow->at, blow->text, never)});
 }
 
-void Simulation::warn_of_program(std::vector<std::string>& warnings) {
+void Simulation::warn_of_program(std::vector<Finding>& warnings) {
   for (auto& text : overwritten(scenario_, *controller_)) warnings.push_back(std::move(text));
   for (auto& text : ended_at_once(scenario_, *controller_, time_)) warnings.push_back(std::move(text));
   for (auto& text : without_zero_pulse(scenario_, *controller_)) warnings.push_back(std::move(text));
@@ -527,27 +544,32 @@ record::Outcome Simulation::outcome() {
                               program_error_.empty() ? "no error" : program_error_});
   }
   for (auto& check : unasked_->results()) outcome.checks.push_back(std::move(check));
-  outcome.warnings = warnings_;
+  auto warnings = warnings_;
   for (const auto& check : outcome.checks)
-    if (!check.doubt.empty()) outcome.warnings.push_back(check.doubt);
+    if (!check.doubt.empty())
+      warnings.emplace_back(check.used ? "check.far-limit"_code : "check.judged-nothing"_code, check.doubt);
   if (drives_->judges())
     for (const auto& drive : outcome.drives)
-      outcome.warnings.insert(outcome.warnings.end(), drive.warnings.begin(), drive.warnings.end());
-  if (controller_ && time_ > 0) warn_of_program(outcome.warnings);
+      for (const auto& warning : drive.warnings) warnings.emplace_back("drive.warning"_code, warning);
+  if (controller_ && time_ > 0) warn_of_program(warnings);
   const auto cams = cams_ && judge_cams_ ? judge_cams_(cams_->played()) : CamJudgement();
   for (const auto& cam : cams.doubts)
-    if (cam.is_slip) outcome.warnings.push_back(cam.text);
+    if (cam.is_slip) warnings.push_back(cam.what);
+  outcome.add(warnings, Finding::Role::warning);
   outcome.alarms = causes_.alarms();
   if (outcome.failure.empty() && !outcome.passed()) {
     auto known = this->known(cams);
     if (!missed) known.hindrances.clear();  // only ratings, or what no check asks about
-    outcome.cause = causes_.of(outcome.checks, known);
+    auto cause = causes_.of(outcome.checks, known);
     // A single check that fails is the first suspect itself.
     const auto failed = [](const record::CheckResult& check) { return !check.passed; };
     const auto& checks = outcome.checks;
-    if (outcome.cause.empty() && std::count_if(checks.begin(), checks.end(), failed) == 1)
-      outcome.cause = fmt::format("while nothing but check '{}' is amiss",
-                                  std::find_if(checks.begin(), checks.end(), failed)->name);
+    if (!cause && std::count_if(checks.begin(), checks.end(), failed) == 1)
+      cause = Finding("check.alone-fails"_code,
+                      fmt::format("while nothing but check '{}' is amiss",
+                                  std::find_if(checks.begin(), checks.end(), failed)->name),
+                      Finding::Role::cause);
+    if (cause) outcome.findings.push_back(std::move(*cause));
   }
   return outcome;
 }

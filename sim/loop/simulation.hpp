@@ -108,12 +108,12 @@ class Simulation {
 
   /// What a reader should know that is no fault: terminals that are declared only, how the controller is set
   /// up, remarks of it during the run.
-  [[nodiscard]] std::vector<std::string> notes() const;
+  [[nodiscard]] std::vector<Finding> notes() const;
   /// Those of them that are known before the run: how the controller is set up.
-  [[nodiscard]] const std::vector<std::string>& notes_of_setup() const { return notes_of_setup_; }
+  [[nodiscard]] const std::vector<Finding>& notes_of_setup() const { return notes_of_setup_; }
   /// What may be a slip: wires that nothing works or that are missing. Known before the run, and part of its
   /// outcome.
-  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+  [[nodiscard]] const std::vector<Finding>& warnings() const { return warnings_; }
   /// The controller's values as they are now, by name, with units; rows of cam tables only where they are not
   /// 0.
   [[nodiscard]] std::vector<Reading> controller_values();
@@ -149,12 +149,12 @@ class Simulation {
   /// What the run knows besides of why it failed.
   [[nodiscard]] Causes::Known known(const CamJudgement& cams);
   /// Of the parameters that the program has set.
-  [[nodiscard]] std::vector<std::string> contradicting_parameters() const;
+  [[nodiscard]] std::vector<Finding> contradicting_parameters() const;
   /// What may be a slip in a run that was sound else: tasks that ended at once, values set in vain.
-  void warn_of_program(std::vector<std::string>& warnings);
+  void warn_of_program(std::vector<Finding>& warnings);
   /// Switches that nobody pressed.
   [[nodiscard]] std::string unpressed() const;
-  [[nodiscard]] std::optional<std::pair<double, std::string>> search_that_met_a_stop() const;
+  [[nodiscard]] std::optional<std::pair<double, Finding>> search_that_met_a_stop() const;
 
   void run_to_end(const std::function<void(Time)>& progress);
   void step();
@@ -201,12 +201,12 @@ class Simulation {
   std::vector<KnownEvent> known_events_;      ///< of the plants
   std::vector<KnownEvent> all_events_;        ///< with those of timeline and controller
   std::string failure_;
-  std::vector<std::string> notes_of_setup_;
+  std::vector<Finding> notes_of_setup_;
   std::unique_ptr<OpenTerminals> open_;
-  std::vector<std::string> doubts_of_program_;
-  std::vector<std::string> warnings_;
-  std::vector<std::string> contradictions_;  ///< of controller and machine; among those notes too
-  std::string program_error_;                ///< first run-time error of the controller's program
+  std::vector<Finding> doubts_of_program_;
+  std::vector<Finding> warnings_;
+  std::vector<Finding> contradictions_;  ///< of controller and machine; among those notes too
+  std::string program_error_;            ///< first run-time error of the controller's program
 };
 
 }  // namespace drycut::sim::loop

@@ -30,14 +30,15 @@ bool seeks_home(devices::Controller& controller) {
          });
 }
 
-std::string those_never_on(const auto&... levels) {
+std::optional<Finding> those_never_on(const auto&... levels) {
   std::vector<std::string> never;
   const auto look = [&](const auto& list) {
     for (const auto& one : list)
       if (!one.was_on) never.push_back(fmt::format("{} ({})", one.plug, one.terminal));
   };
   (look(levels), ...);
-  return never.empty() ? "" : fmt::format("never seen on: {}", fmt::join(never, ", "));
+  if (never.empty()) return {};
+  return Finding{"loop.never-on"_code, fmt::format("never seen on: {}", fmt::join(never, ", "))};
 }
 
 }  // namespace
@@ -86,27 +87,30 @@ void Standing::sample(Time now) {
     }
 }
 
-std::vector<std::string> Standing::texts(Time now) const {
-  std::vector<std::string> texts;
+std::vector<Finding> Standing::texts(Time now) const {
+  std::vector<Finding> texts;
   for (const auto& count : counts_)
     if (count.counter->count == count.first)
-      texts.push_back(fmt::format("{} ({}) counted nothing", count.terminal, count.plug));
-  auto never = those_never_on(outputs_).empty() ? "" : those_never_on(outputs_, inputs_);
+      texts.emplace_back("loop.counted-nothing"_code,
+                         fmt::format("{} ({}) counted nothing", count.terminal, count.plug));
+  const auto never = those_never_on(outputs_) ? those_never_on(outputs_, inputs_) : std::nullopt;
   std::vector<std::string> states;
   for (const auto& output : outputs_)
     states.push_back(fmt::format("{} {}", output.plug, output.last ? "on" : "off"));
   const auto long_enough = std::max(stays, static_cast<Time>(at_work * static_cast<double>(longest_)));
   const bool stand = worked_ > 0 && now - worked_ >= long_enough;
-  if (never.empty() && !stand) return texts;  // they work
-  if (!never.empty()) texts.push_back(never);
+  if (!never && !stand) return texts;  // they work
+  if (never) texts.push_back(*never);
   for (const auto& lamp : lamps_)
     if (lamp.last && lamp.changed && now - *lamp.changed >= stays)
-      texts.push_back(fmt::format("{} is on since {} s{}", lamp.plug, record::seconds_text(*lamp.changed),
-                                  switched_on_by(controller_, lamp.terminal)));
-  if (!never.empty()) return texts;
+      texts.emplace_back("loop.lamp-stays-on"_code,
+                         fmt::format("{} is on since {} s{}", lamp.plug, record::seconds_text(*lamp.changed),
+                                     switched_on_by(controller_, lamp.terminal)));
+  if (never) return texts;
   // All have worked: where they have stopped, and what they wait for.
-  texts.push_back(fmt::format("{} since {} s", fmt::join(states, ", "), record::seconds_text(worked_)));
-  if (auto waited = never_on(); !waited.empty()) texts.push_back(std::move(waited));
+  texts.emplace_back("loop.machine-stands"_code,
+                     fmt::format("{} since {} s", fmt::join(states, ", "), record::seconds_text(worked_)));
+  if (auto waited = never_on()) texts.push_back(std::move(*waited));
   return texts;
 }
 
@@ -117,7 +121,7 @@ std::string Standing::never_on(const std::string& plug) const {
   return "";
 }
 
-std::string Standing::never_on() const {
+std::optional<Finding> Standing::never_on() const {
   auto read = inputs_;
   std::erase_if(read, [](const Level& input) { return !input.of_program; });
   return those_never_on(read);

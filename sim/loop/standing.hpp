@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/controller.hpp"
 #include "sim/record/recording.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -19,10 +20,10 @@ class Standing : public record::Observer {
 
   /// What tells of a machine that stands at `now`, a phrase each: "2.CNT02 (tube.wheel) counted nothing",
   /// "panel.too_long is on since 3.406 s", "never seen on: saw.clamp (2.OUT02)".
-  [[nodiscard]] std::vector<std::string> texts(Time now) const;
+  [[nodiscard]] std::vector<Finding> texts(Time now) const;
 
-  /// "never seen on: saw.home (X10)": of the machine's switches that a program reads; "" = all were.
-  [[nodiscard]] std::string never_on() const;
+  /// "never seen on: saw.home (X10)": of the machine's switches that a program reads; nothing = all were.
+  [[nodiscard]] std::optional<Finding> never_on() const;
   /// "saw.home (X10)" if it is such a switch and was never on, else "".
   [[nodiscard]] std::string never_on(const std::string& plug) const;
 

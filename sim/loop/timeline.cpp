@@ -25,8 +25,8 @@ class Binder {
   Binder(Names& names, const scenario::Scenario& scenario, Problems& problems)
       : names_(names), scenario_(scenario), problems_(problems) {}
 
-  void problem(const scenario::ScenePlace& place, std::string what, std::string remedy) {
-    problems_.push_back(scenario::problem_at(scenario_, place, std::move(what), std::move(remedy)));
+  void problem(Code code, const scenario::ScenePlace& place, std::string what, std::string remedy) {
+    problems_.push_back(scenario::problem_at(code, scenario_, place, std::move(what), std::move(remedy)));
   }
 
   /// The quantity as a setting or fault with `unit` and `range` takes it (SI); nullopt after a problem.
@@ -43,7 +43,7 @@ class Binder {
     auto fault = devices::misfit(name, *range, number, unit);
     if (!fault) fault = objection_to(scenario_, name, *si);
     if (!fault) return si;
-    problem(quantity.place, fault->what, fault->remedy);
+    problem(fault->code, quantity.place, fault->what, fault->remedy);
     return {};
   }
 
@@ -59,17 +59,17 @@ class Binder {
     if (found) return found;
     const auto fixed = fixed_parameter(scenario_, name.text);
     if (fixed)
-      problem(name.place, fixed->what, fixed->remedy);
+      problem(fixed->code, name.place, fixed->what, fixed->remedy);
     else
-      problem(name.place, fmt::format("nothing called '{}' can be set", name.text),
-              names_.suggest_target(name.text));
+      problem("timeline.nothing-to-set"_code, name.place,
+              fmt::format("nothing called '{}' can be set", name.text), names_.suggest_target(name.text));
     return found;
   }
 
   std::optional<plants::Fault> fault(const scenario::Stimulus::FaultAction& action) {
     auto found = names_.fault(action.component.text, action.fault.text);
     if (!found) {
-      problem(action.fault.place,
+      problem("timeline.no-such-fault"_code, action.fault.place,
               fmt::format("{} offers no fault '{}'", action.component.text, action.fault.text),
               names_.suggest_fault(action.component.text));
     }
@@ -152,17 +152,18 @@ Timeline::Entry Timeline::bind(const scenario::Stimulus& stimulus, const std::ve
     if (value) entry.faults.push_back({fault->act, *value, text_of(name, action.value, "=")});
   }
   if (stimulus.power && controller_ == nullptr) {
-    binder.problem(stimulus.place, "there is no controller to switch",
+    binder.problem("scenario.needs-another"_code, stimulus.place, "there is no controller to switch",
                    "add a controller section or leave power away");
   }
   return entry;
 }
 
-std::vector<std::string> Timeline::left_undone(Time end) const {
-  std::vector<std::string> undone;
+std::vector<Finding> Timeline::left_undone(Time end) const {
+  std::vector<Finding> undone;
   for (const auto& [number, entry] : entries_) {
     if (entry.acted) continue;
-    undone.push_back(
+    undone.emplace_back(
+        "timeline.never-happened"_code,
         entry.when ? fmt::format("the timeline's entry of line {} never happened: its `when` did not "
                                  "come true in {} s",
                                  entry.line, record::seconds_text(end))

@@ -34,7 +34,7 @@ class Timeline {
   }
 
   /// What did not happen in a run that ended at `end`, a line each: a fault that never came proves nothing.
-  [[nodiscard]] std::vector<std::string> left_undone(Time end) const;
+  [[nodiscard]] std::vector<Finding> left_undone(Time end) const;
   /// When an entry of that line that has not acted yet is due; nothing of one that waits for its `when`.
   [[nodiscard]] std::optional<Time> due(int line) const;
 

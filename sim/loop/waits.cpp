@@ -76,20 +76,25 @@ Waits waits_of(devices::Controller& controller, Time now) {
     if (program == programs.end()) continue;
     found.since = std::max(found.since, seconds(wait.since_ns));
     if (wait.ended) {
-      found.texts.push_back(fmt::format("{} came to its end, line {}, at {} s", wait.program, wait.line,
-                                        record::seconds_text(wait.since_ns)));
+      found.texts.emplace_back("loop.program-ended"_code,
+                               fmt::format("{} came to its end, line {}, at {} s", wait.program, wait.line,
+                                           record::seconds_text(wait.since_ns)));
       continue;
     }
     if (!wait.lacks.empty()) {
-      found.texts.push_back(fmt::format("{} stands at line {}, {}: {}", wait.program, wait.line,
-                                        code_of(*program, wait.line), wait.lacks));
+      found.texts.emplace_back("loop.program-waits"_code,
+                               fmt::format("{} stands at line {}, {}: {}", wait.program, wait.line,
+                                           code_of(*program, wait.line), wait.lacks));
       continue;
     }
-    found.texts.push_back(fmt::format(
-        "{} stands at line {}, {}{}, since {} s{}", wait.program, wait.line, code_of(*program, wait.line),
-        values_of(*program, wait.line, controller), record::seconds_text(wait.since_ns),
-        wait.until_ns > 0 ? fmt::format(", until its timer elapses at {} s", record::seconds_text(wait.until_ns))
-                          : ""));
+    found.texts.emplace_back(
+        "loop.program-waits"_code,
+        fmt::format(
+            "{} stands at line {}, {}{}, since {} s{}", wait.program, wait.line, code_of(*program, wait.line),
+            values_of(*program, wait.line, controller), record::seconds_text(wait.since_ns),
+            wait.until_ns > 0
+                ? fmt::format(", until its timer elapses at {} s", record::seconds_text(wait.until_ns))
+                : ""));
     if (program->language == "st") break;  // what comes behind has to wait for it
   }
   const auto running = std::count_if(programs.begin(), programs.end(),
@@ -98,24 +103,25 @@ Waits waits_of(devices::Controller& controller, Time now) {
   return found;
 }
 
-std::vector<std::string> ended_at_once(const scenario::Scenario& scenario, devices::Controller& controller,
-                                       Time now) {
+std::vector<Finding> ended_at_once(const scenario::Scenario& scenario, devices::Controller& controller,
+                                   Time now) {
   constexpr Time at_once = 1 * second;
   constexpr Time long_run = 2 * at_once;
-  std::vector<std::string> found;
+  std::vector<Finding> found;
   // Of QCL alone: what is scanned never ends.
   if (now < long_run || scenario.controller->kind() != "qmove") return found;
   for (const auto& wait : controller.waits()) {
     if (!wait.ended || wait.since_ns > at_once) continue;
     const auto wire = wire_that_it_names(scenario, controller, wait.program);
     if (!wire.empty())
-      found.push_back(fmt::format("{} came to its end at {} s, line {}, and looks after {} no more",
-                                  wait.program, record::seconds_text(wait.since_ns), wait.line, wire));
+      found.emplace_back("loop.program-ended-early"_code,
+                         fmt::format("{} came to its end at {} s, line {}, and looks after {} no more",
+                                     wait.program, record::seconds_text(wait.since_ns), wait.line, wire));
   }
   return found;
 }
 
-std::string without_loop(devices::Controller& controller) {
+std::optional<OpenLoop> without_loop(devices::Controller& controller) {
   std::string code;
   for (const auto& program : controller.programs())
     if (program.language == "qcl") code += program_words(program);
@@ -125,9 +131,11 @@ std::string without_loop(devices::Controller& controller) {
     const auto axis = name.substr(0, name.size() - state.size());
     const auto value = controller.find(name);
     if (!value || value->read() != 0 || code.find("loopon " + lower(axis)) != std::string::npos) continue;
-    return fmt::format("{} is without LOOPON: no program closes its position loop", axis);
+    return OpenLoop{axis,
+                    {"loop.axis-open"_code,
+                     fmt::format("{} is without LOOPON: no program closes its position loop", axis)}};
   }
-  return "";
+  return {};
 }
 
 }  // namespace drycut::sim::loop

@@ -61,28 +61,30 @@ void Whereabouts::sample(Time /*now*/) {
   }
 }
 
-std::vector<std::string> Whereabouts::texts() const {
-  std::vector<std::string> texts;
+std::vector<Finding> Whereabouts::texts() const {
+  std::vector<Finding> texts;
   for (const auto& axis : axes_) {
     if (axis.homed || axis.moved < enough_way) continue;
     if (std::abs(axis.went - axis.moved) > told_scale * axis.moved)
-      texts.push_back(fmt::format("{} counted {:.4g} where {} went {:.4g} mm", axis.name, axis.went,
-                                  axis.plant, axis.moved));
+      texts.emplace_back("loop.other-scale"_code, fmt::format("{} counted {:.4g} where {} went {:.4g} mm",
+                                                              axis.name, axis.went, axis.plant, axis.moved));
     else if (std::abs(axis.began_posit - axis.began) > told_place)
-      texts.push_back(fmt::format("{} stood at {:.6g} when it was driven first, and {} at {:.6g} mm",
-                                  axis.name, axis.began_posit, axis.plant, axis.began));
+      texts.emplace_back("loop.other-place"_code,
+                         fmt::format("{} stood at {:.6g} when it was driven first, and {} at {:.6g} mm",
+                                     axis.name, axis.began_posit, axis.plant, axis.began));
   }
   return texts;
 }
 
-std::vector<std::string> Whereabouts::zeros() const {
-  std::vector<std::string> texts;
+std::vector<Finding> Whereabouts::zeros() const {
+  std::vector<Finding> texts;
   for (const auto& axis : axes_) {
     const bool same_unit = std::abs(axis.went - axis.moved) <= told_scale * axis.moved;
     if (!axis.homed || axis.moved < enough_way || !same_unit) continue;
     if (std::abs(axis.rests_posit - axis.rests) > told_zero)
-      texts.push_back(fmt::format("{} is at {:.6g} where {} is {:.6g} mm: another zero", axis.name,
-                                  axis.rests_posit, axis.plant, axis.rests));
+      texts.emplace_back("loop.other-zero"_code,
+                         fmt::format("{} is at {:.6g} where {} is {:.6g} mm: another zero", axis.name,
+                                     axis.rests_posit, axis.plant, axis.rests));
   }
   return texts;
 }

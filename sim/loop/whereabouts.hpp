@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/controller.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/record/recording.hpp"
@@ -21,9 +22,9 @@ class Whereabouts : public record::Observer {
   void sample(Time now) override;
 
   /// What differs, a phrase each: "Axis counted 50 where press.position went 200 mm".
-  [[nodiscard]] std::vector<std::string> texts() const;
+  [[nodiscard]] std::vector<Finding> texts() const;
   /// Of axes that a program homes, a phrase each: "AxisX is at 50 where saw.position is 5 mm: another zero".
-  [[nodiscard]] std::vector<std::string> zeros() const;
+  [[nodiscard]] std::vector<Finding> zeros() const;
 
  private:
   struct Axis {

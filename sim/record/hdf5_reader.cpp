@@ -20,10 +20,12 @@ namespace {
 struct Wrong {
   std::string what;
   std::string remedy = "run the scenario again: drycut run writes the file";
+  Code code = "record.damaged"_code;
 };
 
 hdf5::Handle open_file(const std::filesystem::path& file) {
-  if (!is_hdf5(file)) throw Wrong{"it is no HDF5 file", "name a file that drycut wrote: trace.h5"};
+  if (!is_hdf5(file))
+    throw Wrong{"it is no HDF5 file", "name a file that drycut wrote: trace.h5", "record.not-a-record"_code};
   for (const auto how : {H5F_ACC_RDONLY, H5F_ACC_RDONLY | H5F_ACC_SWMR_READ}) {  // the latter: it is written
     const hdf5::Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_file_locking(access, 1, 1);
@@ -282,7 +284,7 @@ Record read_hdf5(const std::filesystem::path& file, Problems& problems, const Se
     record.outcome = read_outcome(opened);
     record.about = read_about(opened);
   } catch (const Wrong& wrong) {
-    problems.push_back({file.string(), 1, 1, wrong.what, wrong.remedy});
+    problems.push_back({wrong.code, file.string(), 1, 1, wrong.what, wrong.remedy});
   }
   return record;
 }

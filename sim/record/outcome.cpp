@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace drycut::sim::record {
 
@@ -47,6 +48,41 @@ std::string text_of(const DriveVerdict& verdict) {
 
 std::string text_of(const Alarm& alarm) {
   return fmt::format("{} at {:.6g} s: {}", alarm.source, alarm.at, alarm.text);
+}
+
+std::vector<std::string> texts_of(const std::vector<Finding>& findings) {
+  std::vector<std::string> texts;
+  for (const auto& finding : findings) texts.push_back(finding.text);
+  return texts;
+}
+
+std::vector<std::string> lines_of(const std::vector<Finding>& findings) {
+  std::vector<std::string> lines;
+  for (const auto& finding : findings) lines.push_back(to_string(finding));
+  return lines;
+}
+
+namespace {
+
+Finding cause_among(const std::vector<Finding>& findings) {
+  const auto found = std::ranges::find(findings, Finding::Role::cause, &Finding::role);
+  return found == findings.end() ? Finding() : *found;
+}
+
+}  // namespace
+
+std::string Outcome::cause() const { return cause_among(findings).text; }
+std::string Outcome::cause_code() const { return cause_among(findings).code; }
+
+std::vector<Finding> Outcome::warnings() const {
+  std::vector<Finding> warnings;
+  std::ranges::copy_if(findings, std::back_inserter(warnings),
+                       [](const Finding& finding) { return finding.role == Finding::Role::warning; });
+  return warnings;
+}
+
+void Outcome::add(const std::vector<Finding>& found, Finding::Role role) {
+  for (const auto& finding : found) findings.emplace_back(finding).role = role;
 }
 
 bool Outcome::passed() const {

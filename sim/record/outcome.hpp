@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "plants/plant.hpp"
 #include "sim/time.hpp"
 
@@ -104,7 +105,7 @@ std::string text_of(const DriveVerdict& verdict);
 struct Alarm {
   double at = 0;  ///< [s]
   std::string source;
-  std::string text;
+  Prose text;
 
   bool operator==(const Alarm&) const = default;
   template <typename Archive, typename Self>
@@ -133,6 +134,10 @@ struct HalfStep {
   }
 };
 
+/// The sentences alone; each with its code behind it.
+std::vector<std::string> texts_of(const std::vector<Finding>& findings);
+std::vector<std::string> lines_of(const std::vector<Finding>& findings);
+
 /// How a run ended.
 struct Outcome {
   Time end = 0;         ///< simulated until
@@ -140,12 +145,16 @@ struct Outcome {
   std::vector<CheckResult> checks;
   std::optional<HalfStep> half_step = {};  ///< where it was asked for
   std::vector<DriveVerdict> drives = {};   ///< what the drives came to beside their ratings
-  /// Why checks failed, as far as the run tells, as the end of a sentence: "because ..."; "" = it does not.
-  std::string cause = {};
-  /// What may be a slip though the checks cannot tell: wires, heat that nobody judged, a phrase each.
-  std::vector<std::string> warnings = {};
+  /// Why checks failed, as the end of a sentence, and what may be a slip, a phrase each.
+  std::vector<Finding> findings = {};
   std::vector<Alarm> alarms = {};  ///< of controller and machine, the first of each kind
   [[nodiscard]] bool passed() const;
+  /// "because ..."; "" = the run does not tell why checks failed.
+  [[nodiscard]] std::string cause() const;
+  [[nodiscard]] std::string cause_code() const;
+  /// What may be a slip though the checks cannot tell: wires, heat that nobody judged.
+  [[nodiscard]] std::vector<Finding> warnings() const;
+  void add(const std::vector<Finding>& found, Finding::Role role);
 
   bool operator==(const Outcome&) const = default;
   template <typename Archive, typename Self>
@@ -153,8 +162,9 @@ struct Outcome {
     archive("passed", self.passed());
     archive("end", self.end);
     archive("failure", self.failure);
-    archive("cause", self.cause);
-    archive("warnings", self.warnings);
+    archive("cause", self.cause());
+    archive("warnings", texts_of(self.warnings()));
+    archive("findings", self.findings);
     archive("half_step", self.half_step);
     archive("checks", self.checks);
     archive("alarms", self.alarms);

@@ -32,7 +32,7 @@ std::string checks_text(const Outcome& outcome, std::vector<std::string> failed)
   const auto more = count > most_named ? fmt::format(" and {} more", count - most_named) : "";
   failed.resize(std::min(count, most_named));
   return fmt::format("{} of {} checks failed: {}{}{}{}", count, outcome.checks.size(), listed(failed), more,
-                     outcome.cause.empty() ? "" : "; ", outcome.cause);
+                     outcome.cause().empty() ? "" : "; ", outcome.cause());
 }
 
 }  // namespace
@@ -45,6 +45,12 @@ void Verdict::judge(bool passed) {
 void Verdict::stopped(int status) {
   verdict = Came::failed;
   exit = status;
+  if (exit == simulation_failed) found({{"run.failed"_code, ""}});
+}
+
+void Verdict::found(const std::vector<Finding>& findings) {
+  for (const auto& finding : findings)
+    if (std::ranges::find(codes, finding.code) == codes.end()) codes.push_back(finding.code);
 }
 
 std::string Verdict::headword() const {
@@ -62,10 +68,11 @@ Verdict verdict_of(const Outcome& outcome) {
   const auto count = [&](const char* of, const auto& list) { verdict.counts[of] = std::ssize(list); };
   count("checks", outcome.checks);
   count("failed", failed);
-  count("warnings", outcome.warnings);
+  count("warnings", outcome.warnings());
   count("alarms", outcome.alarms);
   verdict.sentence = outcome.failure.empty() ? checks_text(outcome, std::move(failed)) : outcome.failure;
   verdict.simulated = seconds(outcome.end);
+  verdict.found(outcome.findings);
   return verdict;
 }
 

@@ -29,13 +29,13 @@ struct Verdict {
   std::string kind = {};  ///< "run", "sweep": what wrote it
   Came verdict = Came::none;
   int exit = all_passed;                         ///< status of a command that does this alone
-  std::string sentence = {};                     ///< "2 of 5 checks failed: ..."
+  Prose sentence = {};                           ///< "2 of 5 checks failed: ..."
   std::vector<std::string> codes{};              ///< of what was found
   std::map<std::string, long long> counts = {};  ///< "checks", "failed"; no Time, which is written in seconds
   std::vector<std::string> scenarios = {};       ///< files, as they were named
   std::vector<std::string> files = {};           ///< in the folder, this one among them
-  std::string title = {};                        ///< of what was asked
-  std::string word = {};                         ///< in place of PASS or FAIL: "SAME", "3 FIT"
+  Prose title = {};                              ///< of what was asked
+  Prose word = {};                               ///< in place of PASS or FAIL: "SAME", "3 FIT"
   std::string drycut = {};                       ///< the version
   std::optional<double> simulated = {};          ///< [s] of a run
 
@@ -43,6 +43,8 @@ struct Verdict {
   void judge(bool passed);
   /// The simulation itself failed, wholly or of some points: it says nothing of the rest.
   void stopped(int status = simulation_failed);
+  /// Their codes, each once.
+  void found(const std::vector<Finding>& findings);
   /// What a page is headed with.
   [[nodiscard]] std::string headword() const;
 

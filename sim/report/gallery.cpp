@@ -226,8 +226,8 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
         fmt::format("{} samples of each channel: what the plots show is thinned, to the lowest and "
                     "highest of {} stretches of equal length; all are in the record of the run",
                     samples, renders::kStretches));
-  for (const auto& warning : outcome.warnings) report.notes.push_back("warning: " + warning);
-  for (const auto& note : simulation.notes()) report.notes.push_back(note);
+  for (const auto& warning : outcome.warnings()) report.notes.push_back("warning: " + to_string(warning));
+  for (const auto& note : simulation.notes()) report.notes.push_back(to_string(note));
   add_checks(outcome.checks, report);
   if (auto drives = drive_table(outcome.drives, scenario.drives.judge); !drives.rows.empty())
     report.summary.push_back(std::move(drives));

@@ -45,7 +45,7 @@ PartMeshes load_part_meshes(const scenario::Scenario& scenario, const std::vecto
   PartMeshes meshes;
   const auto must_exist = [&](const scenario::Text& part) {
     if (is_known(part, plants)) return true;
-    problems.push_back(scenario::problem_at(scenario, part.place,
+    problems.push_back(scenario::problem_at("scenario.unknown-name"_code, scenario, part.place,
                                             fmt::format("there is no part '{}'", part.text),
                                             remedy_for(part.text, plants)));
     return false;
@@ -59,7 +59,7 @@ PartMeshes load_part_meshes(const scenario::Scenario& scenario, const std::vecto
     auto loaded =
         renders::load_mesh(file, {request.scale, renders::vec(request.rotate), renders::vec(request.at)});
     if (const auto* problem = std::get_if<renders::MeshProblem>(&loaded)) {
-      problems.push_back(scenario::problem_at(scenario, request.file.place,
+      problems.push_back(scenario::problem_at(problem->code, scenario, request.file.place,
                                               fmt::format("mesh {}: {}", file.string(), problem->what),
                                               problem->remedy));
       continue;

@@ -37,7 +37,7 @@ std::string properties_of(const RunResult& result) {
   add("scenario", result.scenario.string());
   if (result.seed) add("seed", std::to_string(*result.seed));
   add("duration", fmt::format("{} s", record::seconds_text(result.outcome.end)));
-  for (const auto& warning : result.outcome.warnings) add("warning", warning);
+  for (const auto& warning : result.outcome.warnings()) add("warning", to_string(warning));
   return text + "    </properties>\n";
 }
 
@@ -73,15 +73,15 @@ std::string suite_of(const RunResult& result) {
         result, i, check.name, each,
         check.passed ? ""
                      : fmt::format("<failure message=\"{}{}{}\">{}; {}</failure>", escaped(check.expectation),
-                                   outcome.cause.empty() ? "" : ": failed ", escaped(outcome.cause),
+                                   outcome.cause().empty() ? "" : ": failed ", escaped(outcome.cause()),
                                    escaped(check.detail), escaped(margin_text(check))));
   }
   if (stopped)
     text += case_of(result, outcome.checks.size(), "runs to its end", each,
                     fmt::format("<error message=\"{}\"/>", escaped(outcome.failure)));
   auto output = attachment_of(result);
-  for (const auto& warning : outcome.warnings)
-    output += fmt::format("{}warning: {}", output.empty() ? "" : "\n", escaped(warning));
+  for (const auto& warning : outcome.warnings())
+    output += fmt::format("{}warning: {}", output.empty() ? "" : "\n", escaped(to_string(warning)));
   if (!output.empty()) text += "    <system-out>" + output + "</system-out>\n";
   std::string alarms;
   for (const auto& alarm : outcome.alarms)
@@ -117,21 +117,21 @@ record::CheckResult no_warnings(const record::Outcome& outcome) {
   record::CheckResult check;
   check.name = "no warning";
   check.expectation = "no warning, with --strict";
-  check.detail = fmt::format("{}", fmt::join(outcome.warnings, "; "));
+  check.detail = fmt::format("{}", fmt::join(record::texts_of(outcome.warnings()), "; "));
   return check;
 }
 
 std::string verdict_text(const record::Outcome& outcome) {
-  const auto warned = outcome.warnings.empty()
+  const auto warned = outcome.warnings().empty()
                           ? ""
-                          : ", " + counted(static_cast<std::int64_t>(outcome.warnings.size()), "warning");
+                          : ", " + counted(static_cast<std::int64_t>(outcome.warnings().size()), "warning");
   if (!outcome.failure.empty()) return "the simulation stopped: " + outcome.failure;
   const auto failed =
       std::count_if(outcome.checks.begin(), outcome.checks.end(), [](const auto& c) { return !c.passed; });
   if (outcome.checks.empty()) return "the scenario states no checks" + warned;
   if (failed > 0)
     return fmt::format("{} of {} checks failed{}{}{}", failed, outcome.checks.size(),
-                       outcome.cause.empty() ? "" : ", ", outcome.cause, warned);
+                       outcome.cause().empty() ? "" : ", ", outcome.cause(), warned);
   return (outcome.checks.size() == 1 ? "the one check passed"
                                      : fmt::format("all {} checks passed", outcome.checks.size())) +
          warned;

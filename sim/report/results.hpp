@@ -27,6 +27,7 @@ struct RunResult {
   std::filesystem::path directory;  ///< where its files are
   record::Outcome outcome;
   bool has_report = false;
+  bool ran = true;                         ///< false: it was refused, or interrupted before
   std::string title = {};                  ///< of the scene
   std::optional<std::uint64_t> seed = {};  ///< absent: it compares runs
   /// Of the checks, in their order; a check of the program's own has none.

@@ -74,7 +74,7 @@ RunLeft RunFolder::run(const scenario::Scenario& scenario, loop::Simulation& sim
       simulation.stop(fmt::format("interrupted at {} s; what was recorded until then is kept",
                                   record::seconds_text(now)));
   });
-  if (request.strict && !outcome.warnings.empty() && outcome.failure.empty())
+  if (request.strict && !outcome.warnings().empty() && outcome.failure.empty())
     outcome.checks.push_back(no_warnings(outcome));
   left.simulating = std::chrono::duration<double>(Clock::now() - begun).count();
   if (request.half != nullptr && !request.is_interrupted())

@@ -219,7 +219,7 @@ class MapReader : public Archive {
   [[nodiscard]] std::string full(std::string_view key) const;
   [[nodiscard]] const std::string& name() const { return name_; }
   /// A problem at the key, or at the map if it is not given.
-  void refuse(std::string_view key, std::string what, std::string remedy);
+  void refuse(Code code, std::string_view key, std::string what, std::string remedy);
   void missing(std::string_view key, std::string_view remedy);
   [[nodiscard]] Findings& findings() { return findings_; }
   /// True if nothing in it has been refused so far.
@@ -262,7 +262,7 @@ void refuse_same_name(const std::vector<Item>& items, std::string_view what, std
     const auto& [text, place, breaks] = item.name;
     const auto [same, fresh] = lines.emplace(text, place.line);
     if (fresh || text.empty()) continue;
-    findings.add(place, fmt::format("there are two {} named '{}'", what, text),
+    findings.add("scenario.twice"_code, place, fmt::format("there are two {} named '{}'", what, text),
                  fmt::format(fmt::runtime(remedy), same->second));
   }
 }

@@ -64,9 +64,11 @@ Constant read_constant(std::string_view text) {
   const auto& unit = strict.nodes[strict.root].unit;
   const double number = value_of(strict);
   if (unit.kind == ExpressionUnit::Kind::mixed)
-    made.faults.push_back({0, "what this is measured in cannot be told", "divide by a unit, as in / 1 mm"});
+    made.faults.push_back({"expression.unit"_code, 0, "what this is measured in cannot be told",
+                           "divide by a unit, as in / 1 mm"});
   else if (!std::isfinite(number))
-    made.faults.push_back({0, "this is no finite number", "look at what it is divided by"});
+    made.faults.push_back(
+        {"expression.kind"_code, 0, "this is no finite number", "look at what it is divided by"});
   else
     made.value = text_of(number, unit.text);
   return made;

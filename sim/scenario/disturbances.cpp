@@ -26,7 +26,8 @@ Form band_form(Disturbance::Band& band) {
     const auto dots = text.text.find("..");
     const auto low = parse_quantity(text.text.substr(0, dots));
     if (dots == std::string::npos || !low) {
-      findings.add(text.place, fmt::format("{}: '{}' is no band", name, text.text), remedy);
+      findings.add("scenario.not-a-number"_code, text.place,
+                   fmt::format("{}: '{}' is no band", name, text.text), remedy);
       return;
     }
     const auto high = read_si({text.text.substr(dots + 2), text.at(dots + 2)}, name, "Hz", findings);
@@ -37,8 +38,8 @@ Form band_form(Disturbance::Band& band) {
     const auto from = read_si({first, text.place}, name, "Hz", findings);
     if (!from) return;
     if (*from < 0 || *from >= *high)
-      findings.add(text.place, fmt::format("{}: {} is not a lower and a higher frequency", name, text.text),
-                   remedy);
+      findings.add("scenario.order"_code, text.place,
+                   fmt::format("{}: {} is not a lower and a higher frequency", name, text.text), remedy);
     band = {*from, *high, text.place};
   };
   return single(
@@ -72,20 +73,22 @@ void judge_disturbance(MapReader& reader, const Disturbance& disturbance) {
     if (has(rule.takes) || !reader.has(rule.key)) continue;
     std::vector<std::string_view> owners;
     for (const auto kind : rule.takes) owners.push_back(word_of(kind));
-    reader.refuse(rule.key,
+    reader.refuse("scenario.needs-another"_code, rule.key,
                   fmt::format("{} does not go with a {}", reader.full(rule.key), word_of(disturbance.kind)),
                   fmt::format("{} belongs to {}", rule.key, fmt::join(owners, " and ")));
   }
   const bool single_step = disturbance.kind == Disturbance::Kind::step && disturbance.every == 0;
   if (disturbance.amplitude.number < 0 && !single_step)
-    reader.findings().add(disturbance.amplitude.place,
+    reader.findings().add("scenario.out-of-range"_code, disturbance.amplitude.place,
                           fmt::format("{} is negative", reader.full("amplitude")),
                           "a size is 0 or more; only a single step goes down");
   if (disturbance.step.number < 0)
-    reader.findings().add(disturbance.step.place, fmt::format("{} is negative", reader.full("step")),
+    reader.findings().add("scenario.out-of-range"_code, disturbance.step.place,
+                          fmt::format("{} is negative", reader.full("step")),
                           "a walk goes up and down by the same step");
   if (disturbance.to && *disturbance.to <= disturbance.from)
-    reader.refuse("to", fmt::format("{} is not after from", reader.full("to")), "let to be later than from");
+    reader.refuse("scenario.order"_code, "to", fmt::format("{} is not after from", reader.full("to")),
+                  "let to be later than from");
 }
 
 }  // namespace

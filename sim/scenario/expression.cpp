@@ -172,13 +172,13 @@ std::optional<Expression> Expression::compile(std::string_view text, const Resol
     compiled->texts.push_back(term.text);
     const auto& node = tree.nodes[term.left];
     if (kind != Kind::condition || compares(term) || is_condition(tokens, node)) continue;
-    faults.push_back({tokens[node.first].offset,
+    faults.push_back({"expression.kind"_code, tokens[node.first].offset,
                       fmt::format("{} is a number, not a condition", in_quotes(term.text)),
                       "compare it with a limit: < <= > >= == !="});
   }
   if (kind == Kind::limit && !compiled->has_margin)
-    faults.push_back(
-        {0, "a constraint compares by < <= > >=", "for example max(abs(knife.motor.torque)) <= 20"});
+    faults.push_back({"expression.kind"_code, 0, "a constraint compares by < <= > >=",
+                      "for example max(abs(knife.motor.torque)) <= 20"});
   if (faults.size() != before) return {};
   return Expression(std::move(compiled));
 }
@@ -191,8 +191,8 @@ std::optional<Expression> Expression::compile(const Text& text, const Scenario& 
   std::vector<ExpressionFault> faults;
   auto expression = compile(text.text, resolve, known, faults, Kind::condition, inside);
   for (auto& fault : faults) {
-    const auto problem =
-        problem_at(scenario, text.at(fault.offset), std::move(fault.what), std::move(fault.remedy));
+    const auto problem = problem_at(fault.code, scenario, text.at(fault.offset), std::move(fault.what),
+                                    std::move(fault.remedy));
     const bool said = std::any_of(problems.begin(), problems.end(), [&](const Problem& other) {
       return other.line == problem.line && other.column == problem.column && other.what == problem.what &&
              other.remedy == problem.remedy && other.file == problem.file;

@@ -20,9 +20,10 @@ struct Text;
 /// What is wrong with an expression, and at which byte of its text.
 struct ExpressionFault {
   enum class Of { syntax, names, values };
+  Code code;
   std::size_t offset = 0;
-  std::string what;
-  std::string remedy;
+  Prose what;
+  Prose remedy;
   Of of = Of::syntax;
 };
 
@@ -73,9 +74,9 @@ class Expression {
     std::optional<std::string> unit;     ///< of the number; absent: not known yet
     std::optional<ExpressionFault> why;  ///< why the name cannot stand here; its offset is not used
     Operand(const double* lives, std::optional<std::string> in = {}) : number(lives), unit(std::move(in)) {}
-    static Operand refused(std::string what, std::string remedy) {
+    static Operand refused(Code code, std::string what, std::string remedy) {
       Operand operand(nullptr);
-      operand.why = ExpressionFault{0, std::move(what), std::move(remedy)};
+      operand.why = ExpressionFault{code, 0, std::move(what), std::move(remedy)};
       return operand;
     }
   };

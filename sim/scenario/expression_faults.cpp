@@ -42,24 +42,32 @@ std::string told_unit(const std::string& text, const ExpressionUnit& unit) {
 }  // namespace
 
 ExpressionFault unexpected_token(const ExpressionToken& token) {
-  if (token.kind == ExpressionToken::Kind::close) return {token.offset, "this ) closes nothing", "remove it"};
+  if (token.kind == ExpressionToken::Kind::close)
+    return {"expression.syntax"_code, token.offset, "this ) closes nothing", "remove it"};
   if (token.text == ",")
-    return {token.offset, "',' stands only between the arguments of a function", "write . in decimals"};
-  if (token.text == ":") return {token.offset, "':' without '?'", "write condition ? value : other value"};
-  return {token.offset, fmt::format("an operator is missing before '{}'", token.text),
+    return {"expression.syntax"_code, token.offset, "',' stands only between the arguments of a function",
+            "write . in decimals"};
+  if (token.text == ":")
+    return {"expression.syntax"_code, token.offset, "':' without '?'",
+            "write condition ? value : other value"};
+  return {"expression.syntax"_code, token.offset,
+          fmt::format("an operator is missing before '{}'", token.text),
           fmt::format("add + - * / < > == && or ||; {}", how_units_stand)};
 }
 
 ExpressionFault missing_value(const ExpressionToken& token) {
-  return {token.offset, fmt::format("a value is missing before '{}'", token.text), "add a name or a number"};
+  return {"expression.syntax"_code, token.offset, fmt::format("a value is missing before '{}'", token.text),
+          "add a name or a number"};
 }
 
 ExpressionFault missing_last_value(std::size_t end) {
-  return {end, "the expression ends where a value must follow", "add a name or a number"};
+  return {"expression.syntax"_code, end, "the expression ends where a value must follow",
+          "add a name or a number"};
 }
 
 ExpressionFault wrong_arity(const ExpressionToken& function, bool too_many) {
-  return {function.offset, fmt::format("{} has too {} arguments", function.text, too_many ? "many" : "few"),
+  return {"expression.arguments"_code, function.offset,
+          fmt::format("{} has too {} arguments", function.text, too_many ? "many" : "few"),
           too_many ? "remove some" : "add what is missing"};
 }
 
@@ -69,19 +77,21 @@ ExpressionFault unknown_name(const ExpressionToken& token, const std::vector<std
   if (token.text == "and" || token.text == "AND") remedy = "write &&";
   if (token.text == "or" || token.text == "OR") remedy = "write ||";
   if (token.text == "not" || token.text == "NOT") remedy = "write !";
-  return {token.offset, fmt::format("unknown name '{}'", token.text), remedy};
+  return {"expression.unknown-name"_code, token.offset, fmt::format("unknown name '{}'", token.text), remedy};
 }
 
 ExpressionFault unknown_function(const ExpressionToken& token, bool statistics) {
   if (!statistics && RunningStatistic::named(token.text))
-    return {token.offset, fmt::format("{} looks at a window, and there is none", token.text),
+    return {"expression.not-here"_code, token.offset,
+            fmt::format("{} looks at a window, and there is none", token.text),
             "statistics stand in checks and metrics"};
   std::vector<std::string> all;
   for (const auto& function : expression_functions()) all.emplace_back(function.name);
   auto near = all;
   const auto& names = RunningStatistic::names();
   if (statistics) near.insert(near.end(), names.begin(), names.end());
-  return {token.offset, fmt::format("unknown function '{}'", token.text), suggest(token.text, near, all)};
+  return {"expression.unknown-name"_code, token.offset, fmt::format("unknown function '{}'", token.text),
+          suggest(token.text, near, all)};
 }
 
 std::optional<ExpressionFault> wrong_unit(const std::string& own, const ExpressionUnit& from,
@@ -89,7 +99,7 @@ std::optional<ExpressionFault> wrong_unit(const std::string& own, const Expressi
   using Kind = ExpressionUnit::Kind;
   if (from.kind != Kind::known || into.kind != Kind::known)
     return ExpressionFault{
-        0,
+        "expression.unit"_code, 0,
         fmt::format("{} is in no unit that could be said", in_quotes(from.kind == Kind::known ? met : own)),
         "write numbers without units there"};
   if (from.text == into.text || same_dimension(from.text, into.text)) return {};
@@ -98,7 +108,8 @@ std::optional<ExpressionFault> wrong_unit(const std::string& own, const Expressi
     remedy = "write the number without a unit";
   else if (!is_unit(into.text))
     remedy = fmt::format("write the number without a unit, in {}", into.text);
-  return ExpressionFault{0, fmt::format("{}, but {}", told_unit(own, from), told_unit(met, into)), remedy};
+  return ExpressionFault{"expression.unit"_code, 0,
+                         fmt::format("{}, but {}", told_unit(own, from), told_unit(met, into)), remedy};
 }
 
 }  // namespace drycut::sim::scenario

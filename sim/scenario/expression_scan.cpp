@@ -45,8 +45,8 @@ class ExpressionScanner {
   void skip_blanks() {
     while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
   }
-  void fault(std::size_t offset, std::string what, std::string remedy) {
-    faults_.push_back({offset, std::move(what), std::move(remedy)});
+  void fault(Code code, std::size_t offset, std::string what, std::string remedy) {
+    faults_.push_back({code, offset, std::move(what), std::move(remedy)});
     failed_ = true;
   }
   void put(ExpressionToken::Kind kind, std::string text, std::size_t start) {
@@ -128,11 +128,12 @@ class ExpressionScanner {
         return index;
       }
       if (c != '[' && c != ',' && std::isdigit(static_cast<unsigned char>(c)) == 0) {
-        fault(at_, fmt::format("'{}' in an index", c), "an index is a number, or two: [3], [2,5]");
+        fault("expression.syntax"_code, at_, fmt::format("'{}' in an index", c),
+              "an index is a number, or two: [3], [2,5]");
         return index;
       }
     }
-    fault(open, "this [ is not closed", "write ] after the index");
+    fault("expression.syntax"_code, open, "this [ is not closed", "write ] after the index");
     return index;
   }
 
@@ -147,14 +148,16 @@ class ExpressionScanner {
     }
     const char c = text_[at_];
     if (pair == "=<" || pair == "=>")
-      return fault(at_, fmt::format("'{}' does not compare", pair), fmt::format("write {}=", pair[1]));
-    if (c == '=') return fault(at_, "'=' does not compare", "write ==");
-    if (c == '&') return fault(at_, "'&' is not known", "write &&");
-    if (c == '|') return fault(at_, "'|' is not known", "write ||");
+      return fault("expression.syntax"_code, at_, fmt::format("'{}' does not compare", pair),
+                   fmt::format("write {}=", pair[1]));
+    if (c == '=') return fault("expression.syntax"_code, at_, "'=' does not compare", "write ==");
+    if (c == '&') return fault("expression.syntax"_code, at_, "'&' is not known", "write &&");
+    if (c == '|') return fault("expression.syntax"_code, at_, "'|' is not known", "write ||");
     if (std::string_view("+-*/^<>!?:,()").find(c) == std::string_view::npos) {
       std::size_t end = at_ + 1;  // the whole UTF-8 character
       while (end < text_.size() && (static_cast<unsigned char>(text_[end]) & 0xC0) == 0x80) ++end;
-      return fault(at_, fmt::format("'{}' has no meaning in an expression", text_.substr(at_, end - at_)),
+      return fault("expression.syntax"_code, at_,
+                   fmt::format("'{}' has no meaning in an expression", text_.substr(at_, end - at_)),
                    "use numbers, names, + - * / ^ < <= > >= == != && || ! ?: and functions");
     }
     ++at_;
@@ -177,14 +180,16 @@ bool is_relation(std::string_view sign) { return sign == "<" || sign == "<=" || 
 
 ExpressionTokens scan_expression(std::string_view text, std::vector<ExpressionFault>& faults) {
   if (text.size() > longest) {
-    faults.push_back({0, fmt::format("the expression has {} characters", text.size()),
+    faults.push_back({"expression.syntax"_code, 0,
+                      fmt::format("the expression has {} characters", text.size()),
                       fmt::format("at most {}", longest)});
     return {};
   }
   const std::size_t before = faults.size();
   auto tokens = ExpressionScanner(text, faults).run();
   if (tokens.empty() && faults.size() == before)
-    faults.push_back({0, "the expression is empty", "write a comparison, for example follerr < 400"});
+    faults.push_back({"expression.syntax"_code, 0, "the expression is empty",
+                      "write a comparison, for example follerr < 400"});
   return tokens;
 }
 

@@ -31,7 +31,7 @@ class TreeBuilder {
     using Of = ExpressionFault::Of;
     const auto of = syntax_ ? Of::syntax : of_names_.empty() ? Of::values : Of::names;
     const auto& all = syntax_ ? std::vector{*syntax_} : of_names_.empty() ? of_values_ : of_names_;
-    for (const auto& fault : all) faults.push_back({fault.offset, fault.what, fault.remedy, of});
+    for (const auto& fault : all) faults.push_back({fault.code, fault.offset, fault.what, fault.remedy, of});
     return std::move(tree_);
   }
 
@@ -44,10 +44,12 @@ class TreeBuilder {
     at_ = tokens_.size();
   }
 
-  void not_closed() { refuse({tokens_[open_.back()].offset, "this ( is not closed", "add )"}); }
+  void not_closed() {
+    refuse({"expression.syntax"_code, tokens_[open_.back()].offset, "this ( is not closed", "add )"});
+  }
 
   void choice_without_colon(std::size_t offset) {
-    refuse({offset, "? without :", "write condition ? value : other value"});
+    refuse({"expression.syntax"_code, offset, "? without :", "write condition ? value : other value"});
   }
 
   // ---- grammar: each returns its node ----
@@ -104,7 +106,8 @@ class TreeBuilder {
       const auto* const by = find_operator(tokens_[at_]);
       if (by == nullptr || by->level < level) break;
       if (by->level == comparison_level && compared) {
-        refuse({tokens_[at_].offset, "comparisons cannot be chained", "write a < b && b < c"});
+        refuse({"expression.syntax"_code, tokens_[at_].offset, "comparisons cannot be chained",
+                "write a < b && b < c"});
         break;
       }
       compared = by->level == comparison_level;
@@ -200,7 +203,7 @@ class TreeBuilder {
       const bool inside = statistic_ < tree_.statistics.size();
       const auto operand = (inside ? names_.inside : names_.resolve)(token.text);
       if (operand.why)
-        of_names_.push_back({token.offset, operand.why->what, operand.why->remedy});
+        of_names_.push_back({operand.why->code, token.offset, operand.why->what, operand.why->remedy});
       else if (operand.number == nullptr)
         of_names_.push_back(unknown_name(token, names_.known));
       node.kind = operand.number == nullptr ? Node::Kind::number : Node::Kind::name;
@@ -313,7 +316,8 @@ class TreeBuilder {
     const auto& token = tokens_[first];
     const bool inside = statistic_ < tree_.statistics.size();
     if (inside)
-      of_names_.push_back({token.offset, fmt::format("{} inside {}", token.text, tokens_[statistic_at_].text),
+      of_names_.push_back({"expression.not-here"_code, token.offset,
+                           fmt::format("{} inside {}", token.text, tokens_[statistic_at_].text),
                            "a term looks at channels or event values"});
     const auto index = tree_.statistics.size();
     if (!inside) {
@@ -337,18 +341,19 @@ class TreeBuilder {
     const std::size_t wanted = window.running.has_band() ? 2 : 1;
     if (operands.size() != wanted) {
       of_values_.push_back(
-          {token.offset, fmt::format("{} has {} arguments", token.text, operands.size()),
+          {"expression.arguments"_code, token.offset,
+           fmt::format("{} has {} arguments", token.text, operands.size()),
            wanted == 2 ? "write settling(AxisX.follerr, 10): the expression and its band" : "it takes one"});
       return nothing();
     }
     if (statistic.names.empty())
-      of_values_.push_back({tokens_[first + 1].end, "no channel and no event value is in it",
-                            "for example rms(AxisX.follerr)"});
+      of_values_.push_back({"expression.kind"_code, tokens_[first + 1].end,
+                            "no channel and no event value is in it", "for example rms(AxisX.follerr)"});
     if (wanted == 2) {
       meet(operands[0], operands[1]);
       const auto& band = tree_.nodes[operands[1]];
       if (band.kind != Node::Kind::number || !(band.number >= 0))
-        of_values_.push_back({tokens_[tree_.nodes[operands[0]].last].end,
+        of_values_.push_back({"expression.kind"_code, tokens_[tree_.nodes[operands[0]].last].end,
                               "the band of settling is no number from 0 on",
                               "for example settling(AxisX.follerr, 10)"});
       window.running.set_band(band.number);

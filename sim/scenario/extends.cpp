@@ -124,7 +124,8 @@ class Merger {
     for (auto& entry : own.entries) {
       const auto& key = entry.key;
       if (entry.is_repeated()) {
-        findings_.add(key.place, fmt::format("'{}' is given twice in {}", key.text, full),
+        findings_.add("scenario.twice"_code, key.place,
+                      fmt::format("'{}' is given twice in {}", key.text, full),
                       fmt::format("keep one; the first is at line {}", entry.first_line));
         continue;
       }
@@ -158,7 +159,8 @@ class Merger {
   }
 
   void nothing_to_leave_out(const Text& key, const std::vector<std::string>& known) {
-    findings_.add(key.place, fmt::format("there is no '{}' to leave out", key.text),
+    findings_.add("scenario.unknown-name"_code, key.place,
+                  fmt::format("there is no '{}' to leave out", key.text),
                   did_you_mean(key.text, known, "leave this line out"));
   }
 
@@ -190,7 +192,8 @@ class TreeReader {
     auto base = read_base(named.text, file, folder);
     if (base.kind == Kind::null) return {};
     if (base.kind != Kind::map || root.kind != Kind::map) {
-      findings_.add(named.text.place, fmt::format("{} is no scenario", named.text.text),
+      findings_.add("scenario.not-a-scenario"_code, named.text.place,
+                    fmt::format("{} is no scenario", named.text.text),
                     "name a file with sections: scene, plants ...");
       return {};
     }
@@ -209,7 +212,7 @@ class TreeReader {
       if (again) way.push_back(open.filename().string());
     }
     if (again) {
-      findings_.add(named.place,
+      findings_.add("scenario.extends-itself"_code, named.place,
                     fmt::format("{} extends itself: {} -> {}", path.filename().string(),
                                 fmt::join(way, " -> "), path.filename().string()),
                     "let one of them extend nothing");
@@ -222,7 +225,8 @@ class TreeReader {
     const auto source = findings_.add_source(path.string(), inner);
     auto base = read(*text, path, inner, source);
     if (base.kind == Kind::null && findings_.count() == before)
-      findings_.add(named.place, fmt::format("{} is empty", named.text), "name a scenario with sections");
+      findings_.add("scenario.not-a-scenario"_code, named.place, fmt::format("{} is empty", named.text),
+                    "name a scenario with sections");
     return base;
   }
 
@@ -230,13 +234,13 @@ class TreeReader {
   std::optional<std::string> read(const fs::path& path, const Text& named) {
     const std::string here = "extends";
     Problems problems;
-    auto text = read_file(path, problems, {here, named.place.line, named.place.column, "", ""});
+    auto text = read_file(path, problems, {here, named.place.line, named.place.column});
     for (auto& problem : problems) {
       const auto source = problem.file == here ? named.place.source : findings_.add_source(problem.file);
       const auto remedy = source == named.place.source
                               ? did_you_mean(path.filename().string(), files_beside(path), problem.remedy)
                               : problem.remedy;
-      findings_.add({problem.line, problem.column, source}, problem.what, remedy);
+      findings_.add(problem.code, {problem.line, problem.column, source}, problem.what, remedy);
     }
     return text;
   }

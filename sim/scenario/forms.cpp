@@ -39,7 +39,7 @@ std::string shown(double number, std::string_view unit) {
 void refuse_range(const plants::Parameter& parameter, const Text& text, const std::string& what,
                   Findings& findings) {
   findings.add(
-      text.place, what,
+      "scenario.out-of-range"_code, text.place, what,
       fmt::format("{} to {}", shown(parameter.min, parameter.unit), shown(parameter.max, parameter.unit)));
 }
 
@@ -122,8 +122,8 @@ std::optional<std::uint64_t> read_seed(const Text& text, const std::string& name
   const char* const end = text.text.data() + text.text.size();
   const auto parsed = std::from_chars(text.text.data(), end, number);
   if (parsed.ec == std::errc() && parsed.ptr == end) return number;
-  findings.add(text.place, fmt::format("{}: '{}' is not a whole number", name, text.text),
-               "0 to 18446744073709551615");
+  findings.add("scenario.not-a-number"_code, text.place,
+               fmt::format("{}: '{}' is not a whole number", name, text.text), "0 to 18446744073709551615");
   return {};
 }
 
@@ -257,8 +257,8 @@ Form form(double& value, std::string_view unit, double min, double max, std::str
         if (!si) return;
         value = *si;
         if (value < min || value > max)
-          findings.add(text.place, fmt::format("{} is {}, out of range", name, text.text),
-                       std::string(range));
+          findings.add("scenario.out-of-range"_code, text.place,
+                       fmt::format("{} is {}, out of range", name, text.text), std::string(range));
       },
       [&value, unit] {
         return unit.empty() ? fmt::format("{}", value) : yaml_text(format_quantity(value, unit));
@@ -274,7 +274,8 @@ Form form(std::array<double, 3>& values, std::string_view unit) {
         const auto texts = read_texts(list, name.full, findings);
         if (findings.count() != before) return;
         if (texts.size() != values.size()) {
-          findings.add(name.key, fmt::format("{} has {} numbers", name.full, texts.size()),
+          findings.add("scenario.not-a-number"_code, name.key,
+                       fmt::format("{} has {} numbers", name.full, texts.size()),
                        fmt::format("write three, along x, y and z: [0 {0}, 20 {0}, 0 {0}]", unit));
           return;
         }
@@ -301,7 +302,8 @@ Form form(std::optional<std::pair<double, double>>& values) {
           values = {numbers->front(), numbers->back()};
           return;
         }
-        findings.add(list.text.place, fmt::format("{} must be a lower and an upper limit", name.full),
+        findings.add("scenario.order"_code, list.text.place,
+                     fmt::format("{} must be a lower and an upper limit", name.full),
                      "for example [499.8, 500.2]");
       },
       [&values] { return values ? fmt::format("[{}, {}]", values->first, values->second) : ""; },

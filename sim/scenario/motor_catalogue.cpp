@@ -100,7 +100,8 @@ class SeriesReader : public MapReader {
   void refuse_source(const Text& text, const std::string& name, const std::vector<std::string>& words) {
     const auto near = nearest(text.text, words);
     findings().add(
-        text.place, fmt::format("{} says neither which sheet nor why an estimate", name),
+        "plant.motor-sheet"_code, text.place,
+        fmt::format("{} says neither which sheet nor why an estimate", name),
         near.empty()
             ? R"(write "sheet: ...", "checked 2026-11-24: ..." or "estimate: ...", or a word of sources)"
             : fmt::format("did you mean {}?", near));
@@ -140,7 +141,8 @@ class SeriesReader : public MapReader {
       const auto full = fmt::format("{}.{}", name, entry.key.text);
       const auto* const row = scratch.find(entry.key.text);
       if (row == nullptr) {
-        findings().add(entry.key.place, fmt::format("unknown key '{}' in {}", entry.key.text, name),
+        findings().add("scenario.unknown-key"_code, entry.key.place,
+                       fmt::format("unknown key '{}' in {}", entry.key.text, name),
                        did_you_mean(entry.key.text, scratch.names()));
         continue;
       }
@@ -169,7 +171,8 @@ class SeriesReader : public MapReader {
     if (entry.value.kind != YamlNode::Kind::map)
       return refuse_kind(entry.value, name, YamlNode::Kind::map, findings());
     if (entry.key.text.empty() || entry.key.text == plants::no_model)
-      findings().add(entry.key.place, fmt::format("'{}' cannot name a motor", entry.key.text),
+      findings().add("plant.motor-sheet"_code, entry.key.place,
+                     fmt::format("'{}' cannot name a motor", entry.key.text),
                      "write what is on its name plate");
     MotorModel motor{entry.key, "", kind_, vendor_, series_, {}};
     if (const auto* const former = child(entry.value, former_name))
@@ -197,7 +200,8 @@ class SeriesReader : public MapReader {
         return motor.find(key) != nullptr || is_wrong_in_common(key);
       });
       if (!given)
-        findings().add(motor.name.place, fmt::format("{}.{} is missing", name, fmt::join(keys, " or ")),
+        findings().add("plant.motor-incomplete"_code, motor.name.place,
+                       fmt::format("{}.{} is missing", name, fmt::join(keys, " or ")),
                        "write it from the motor's sheet; drycut plants --motor-template shows which values "
                        "a motor needs and which are estimated without");
     }
@@ -208,7 +212,7 @@ class SeriesReader : public MapReader {
     const double given = si(*power);
     const double made = si(*torque) * si(*speed);
     if (std::abs(made - given) > 0.03 * given)
-      findings().add(power->text.place,
+      findings().add("plant.motor-sheet"_code, power->text.place,
                      fmt::format("{}.rated_power is {}, but rated torque at rated speed gives {:.3g} kW",
                                  name, power->text.text, made / 1e3),
                      "within 3 % of each other");
@@ -272,7 +276,8 @@ void read_series(std::string_view text, int source, bool is_spare, std::vector<M
       motors.push_back(std::move(motor));
     } else if (!is_spare) {
       const auto& other = taken->name.place;
-      findings.add(motor.name.place, fmt::format("there are two motors named '{}'", motor.name.text),
+      findings.add("plant.motor-twice"_code, motor.name.place,
+                   fmt::format("there are two motors named '{}'", motor.name.text),
                    fmt::format("rename one; the first is in {}:{}",
                                findings.sources().at(static_cast<std::size_t>(other.source)), other.line));
     }
@@ -285,7 +290,7 @@ void read_own(const std::filesystem::path& folder, std::vector<MotorModel>& moto
     Problems problems;
     const auto text = read_file(file, problems, largest_series);
     for (auto& problem : problems)
-      findings.add({problem.line, problem.column, source}, problem.what, problem.remedy);
+      findings.add(problem.code, {problem.line, problem.column, source}, problem.what, problem.remedy);
     if (text) read_series(*text, source, false, motors, findings);
   }
 }
@@ -316,8 +321,8 @@ std::string MotorModel::standing() const {
   return standing_of(sources);
 }
 
-std::vector<std::string> notes_of_models(const PlantEntry& plant) {
-  std::vector<std::string> notes;
+std::vector<Finding> notes_of_models(const PlantEntry& plant) {
+  std::vector<Finding> notes;
   for (const auto& row : plant.definition->parameters()) {
     if (motor_kind(row.name).empty()) continue;
     const auto group =
@@ -333,10 +338,12 @@ std::vector<std::string> notes_of_models(const PlantEntry& plant) {
     if (sources.empty()) continue;
     const auto parameter = fmt::format("{}.{}", plant.name.text, row.name);
     if (const auto name = value_text(row); name != motor)
-      notes.push_back(fmt::format("{}: {} is called {} now; the next release does not know the old name",
-                                  parameter, name, motor));
+      notes.emplace_back("plant.motor-renamed"_code,
+                         fmt::format("{}: {} is called {} now; the next release does not know the old name",
+                                     parameter, name, motor));
     if (const auto standing = standing_of(sources); standing != "checked")
-      notes.push_back(
+      notes.emplace_back(
+          "plant.motor-unchecked"_code,
           fmt::format("{}: the values of {} are {}; compare them with its sheet: drycut plants --motors {}",
                       parameter, motor, standing, motor));
   }
@@ -371,10 +378,10 @@ const MotorModel* MotorCatalogue::find(std::string_view kind, const Text& name, 
   // It may be in a file that cannot be read.
   if (!is_sound_) return nullptr;
   const auto near = nearest(name.text, known);
-  findings_.add(name.place, fmt::format("{}: there is no motor '{}'", full, name.text),
-                near.empty()
-                    ? "'drycut plants --motors' lists them; your own are in catalogue/ beside the scenario"
-                    : fmt::format("did you mean {}?", near));
+  findings_.add(
+      "plant.unknown-motor"_code, name.place, fmt::format("{}: there is no motor '{}'", full, name.text),
+      near.empty() ? "'drycut plants --motors' lists them; your own are in catalogue/ beside the scenario"
+                   : fmt::format("did you mean {}?", near));
   return nullptr;
 }
 

@@ -75,7 +75,7 @@ class MotorCatalogue {
 
 /// What a reader should know of the motors that a plant names: a former name, values that nobody has compared
 /// with their sheet, estimates.
-std::vector<std::string> notes_of_models(const PlantEntry& plant);
+std::vector<Finding> notes_of_models(const PlantEntry& plant);
 
 /// A file with one motor of that kind, to fill in from its sheet: what it must give, and in remarks what else
 /// it may, with the estimate for each.

@@ -19,7 +19,8 @@ class OverrideSetter {
 
   void apply(YamlNode& root) {
     if (override_.path == "extends")
-      return refuse("what a scenario extends cannot be set", "write extends into a scenario of its own");
+      return refuse("option.set-path"_code, "what a scenario extends cannot be set",
+                    "write extends into a scenario of its own");
     const auto before = findings_.count();
     value_ = parse_yaml(override_.value, place_.source, findings_);
     if (findings_.count() != before) return;
@@ -30,7 +31,9 @@ class OverrideSetter {
  private:
   // Follows `rest` below `node`, which is called `name`.
   void set(YamlNode& node, std::string_view rest, const std::string& name) {
-    if (rest.empty()) return refuse("the path ends with a dot or is empty", "write section.key=value");
+    if (rest.empty())
+      return refuse("option.set-path"_code, "the path ends with a dot or is empty",
+                    "write section.key=value");
     switch (node.kind) {
       case YamlNode::Kind::map:
         return set_in_map(node, rest, name);
@@ -38,7 +41,7 @@ class OverrideSetter {
         return set_in_list(node, rest, name);
       case YamlNode::Kind::scalar:
       case YamlNode::Kind::null:
-        refuse(fmt::format("{} is {}; nothing is below it", name, name_of(node.kind)),
+        refuse("option.set-path"_code, fmt::format("{} is {}; nothing is below it", name, name_of(node.kind)),
                fmt::format("--set {}=value", name));
     }
   }
@@ -75,7 +78,7 @@ class OverrideSetter {
     const auto& sections = section_names();
     const bool section = std::find(sections.begin(), sections.end(), first) != sections.end();
     if (dot == std::string_view::npos && name.empty() && !section && is_variable(map, rest))
-      return refuse(fmt::format("there is no '{}' in the scenario", rest),
+      return refuse("option.set-path"_code, fmt::format("there is no '{}' in the scenario", rest),
                     fmt::format("it is a variable: --set variables.{}={}", rest, override_.value));
     if ((dot == std::string_view::npos && name != "variables") || takes_dotted_keys(name)) {
       map.entries.push_back({Text{std::string(rest), place_}, value_});
@@ -95,7 +98,8 @@ class OverrideSetter {
       const bool is_plant =
           plants != nullptr && std::any_of(plants->entries.begin(), plants->entries.end(),
                                            [&](const auto& entry) { return entry.key.text == first; });
-      refuse(fmt::format("there is no '{}' in {}", first, name.empty() ? "the scenario" : name),
+      refuse("option.set-path"_code,
+             fmt::format("there is no '{}' in {}", first, name.empty() ? "the scenario" : name),
              is_plant   ? fmt::format("it is a plant: --set plants.{}={}", override_.path, override_.value)
              : is_value ? fmt::format("of the controller's values write controller.{}.set.{}; {}",
                                       controller->entries.front().key.text, rest, remedy)
@@ -131,7 +135,7 @@ class OverrideSetter {
     if (index >= list.items.size()) {
       const auto numbers =
           list.items.empty() ? std::string("it is empty") : fmt::format("0 to {}", list.items.size() - 1);
-      return refuse(fmt::format("'{}' is no entry of the list {}", part, name),
+      return refuse("option.set-path"_code, fmt::format("'{}' is no entry of the list {}", part, name),
                     did_you_mean(part, names, names.empty() ? numbers : numbers + ", or " + listed(names)));
     }
     auto& item = list.items[index];
@@ -150,6 +154,7 @@ class OverrideSetter {
     if (!written.empty() && given && given->unit.empty()) {
       const auto& place = node.text.place;
       return refuse(
+          "scenario.wrong-unit"_code,
           fmt::format("{} has a unit in the scenario ({}, {}:{}:{}), and {} has none", name, node.text.text,
                       findings_.sources().at(static_cast<std::size_t>(place.source)), place.line,
                       place.column, value_.text.text),
@@ -171,8 +176,8 @@ class OverrideSetter {
     return quantity && is_unit(quantity->unit) && needs_unit(quantity->unit) ? quantity->unit : "";
   }
 
-  void refuse(std::string what, std::string remedy) {
-    findings_.add(place_, std::move(what), std::move(remedy));
+  void refuse(Code code, std::string what, std::string remedy) {
+    findings_.add(code, place_, std::move(what), std::move(remedy));
   }
 
   const Override& override_;

@@ -28,10 +28,12 @@ Form size_form(PicturesSection& pictures) {
         const bool crossed = first.ec == std::errc() && first.ptr != end && *first.ptr == 'x';
         const auto second = crossed ? std::from_chars(first.ptr + 1, end, height) : first;
         if (!crossed || second.ec != std::errc() || second.ptr != end) {
-          findings.add(text.place, fmt::format("{}: '{}' is no picture size", name, text.text),
+          findings.add("scenario.out-of-range"_code, text.place,
+                       fmt::format("{}: '{}' is no picture size", name, text.text),
                        "write width x height in pixels without blanks: 960x540");
         } else if (std::min(width, height) < smallest_picture || std::max(width, height) > largest_picture) {
-          findings.add(text.place, fmt::format("{} is {}, out of range", name, text.text),
+          findings.add("scenario.out-of-range"_code, text.place,
+                       fmt::format("{} is {}, out of range", name, text.text),
                        fmt::format("{} to {} pixels each way", smallest_picture, largest_picture));
         } else {
           pictures.width = width;
@@ -56,7 +58,8 @@ Form around_form(std::optional<PicturesSection::Around>& around) {
         const auto read = std::from_chars(text.text.data() + open + 1, end, number);
         const bool closed = read.ec == std::errc() && end - read.ptr == 1 && *read.ptr == ']';
         if (closed && number >= 1 && open > 0) return;
-        findings.add(text.place, fmt::format("{}: '{}' is no event", name, text.text),
+        findings.add("scenario.unknown-event"_code, text.place,
+                     fmt::format("{}: '{}' is no event", name, text.text),
                      "write its name and its number from 1: \"cut[3]\"");
       },
       [&around] {
@@ -83,12 +86,13 @@ void visit_frames(Archive& archive, PicturesSection& pictures) {
     pictures.slow_place = reader.has("slow") ? reader.value_place("slow") : reader.place("every");
     const auto cameras = pictures.cameras.size();
     if (cameras == 1 || cameras > most_cameras)
-      reader.refuse("cameras", fmt::format("{} has {}", reader.full("cameras"), cameras),
+      reader.refuse("scenario.out-of-range"_code, "cameras",
+                    fmt::format("{} has {}", reader.full("cameras"), cameras),
                     "two to four share the picture; one stands under camera");
     for (const auto* key : {"from", "until"}) {
       if (!reader.has("around") || !reader.has(key)) continue;
-      reader.refuse(key, fmt::format("{} does not go with around", reader.full(key)),
-                    "write before and after");
+      reader.refuse("scenario.does-not-go-together"_code, key,
+                    fmt::format("{} does not go with around", reader.full(key)), "write before and after");
     }
   });
 }
@@ -111,7 +115,8 @@ Form overlays_form(PicturesSection::Overlays& overlays) {
           if (bool* const chosen = flag(one.text))
             *chosen = true;
           else
-            findings.add(one.place, fmt::format("{}: there is no overlay '{}'", name.full, one.text),
+            findings.add("scenario.unknown-choice"_code, one.place,
+                         fmt::format("{}: there is no overlay '{}'", name.full, one.text),
                          "overlays: trail, lengths, forces, speeds");
         }
       },
@@ -140,7 +145,8 @@ void visit(Archive& archive, PicturesSection::Camera& camera) {
   archive.require("target", "write target: [0 m, 1 m, 2 m], along x, y and z");
   archive.judge([&own](MapReader& reader) {
     if (reader.is_sound() && own->eye == own->target)
-      reader.refuse("target", fmt::format("{} looks at the place where it stands", reader.name()),
+      reader.refuse("scenario.does-not-go-together"_code, "target",
+                    fmt::format("{} looks at the place where it stands", reader.name()),
                     "let target be another point than eye");
   });
 }
@@ -152,7 +158,7 @@ void visit_window(Archive& archive, Time& from, std::optional<Time>& until,
   archive.value({"until", "what is later is not shown", !about}, form(until, Sign::positive));
   archive.judge([&from, &until](MapReader& reader) {
     if (!until || *until > from || *until == 0) return;
-    reader.refuse("until", fmt::format("{} is not after from", reader.full("until")),
+    reader.refuse("scenario.order"_code, "until", fmt::format("{} is not after from", reader.full("until")),
                   "let until be later than from");
   });
   if (around == nullptr) return;
@@ -165,7 +171,8 @@ void visit_window(Archive& archive, Time& from, std::optional<Time>& until,
   archive.judge([](MapReader& reader) {
     for (const auto* key : {"before", "after"}) {
       if (reader.has("around") || !reader.has(key)) continue;
-      reader.refuse(key, fmt::format("{} stands without around", reader.full(key)),
+      reader.refuse("scenario.needs-another"_code, key,
+                    fmt::format("{} stands without around", reader.full(key)),
                     "add around: \"cut[3]\", or write from and until");
     }
   });
@@ -235,15 +242,17 @@ void visit(Archive& archive, PicturesSection& pictures) {
   archive.list({"plots", "curves of the run"}, pictures.plots);
   archive.judge([&pictures](MapReader& reader) {
     if (pictures.video && !reader.has("frames")) {
-      reader.refuse("video", "pictures.video is a film of the frames, and there are none",
+      reader.refuse("scenario.needs-another"_code, "video",
+                    "pictures.video is a film of the frames, and there are none",
                     "add frames: {every: 40 ms}");
     }
     if (pictures.view && reader.has("view") && !reader.has("frames")) {
-      reader.refuse("view", "pictures.view moves the machine as in the frames, and there are none",
+      reader.refuse("scenario.needs-another"_code, "view",
+                    "pictures.view moves the machine as in the frames, and there are none",
                     "add frames: {every: 40 ms}");
     }
     if (pictures.live.size() > most_live)
-      reader.findings().add(pictures.live[most_live].place,
+      reader.findings().add("scenario.out-of-range"_code, pictures.live[most_live].place,
                             fmt::format("pictures.live has {} channels", pictures.live.size()),
                             "one or two have room in the corner; show more in plots");
     refuse_same_name(pictures.plots, "plots", "rename one: each is a file", reader.findings());

@@ -33,7 +33,7 @@ std::optional<PlantEntry> read_plant(const YamlNode::Entry& entry, std::span<con
                                  [](const YamlNode::Entry& given) { return given.key.text == "type"; });
   if (type == entry.value.entries.end() || type->value.kind == YamlNode::Kind::null) {
     findings.add(
-        entry.key.place, fmt::format("{}.type is missing", full),
+        "scenario.missing-key"_code, entry.key.place, fmt::format("{}.type is missing", full),
         did_you_mean(entry.key.text, entry.value.beside, fmt::format("known: {}", fmt::join(names, ", "))));
     return {};
   }
@@ -45,7 +45,7 @@ std::optional<PlantEntry> read_plant(const YamlNode::Entry& entry, std::span<con
   const auto known = std::find_if(types.begin(), types.end(),
                                   [&](const plants::PlantType& t) { return t.name == wanted.text; });
   if (known == types.end()) {
-    findings.add(wanted.place, fmt::format("unknown plant type '{}'", wanted.text),
+    findings.add("plant.unknown-type"_code, wanted.place, fmt::format("unknown plant type '{}'", wanted.text),
                  did_you_mean(wanted.text, names));
     return {};
   }
@@ -121,7 +121,7 @@ void take_presets(const YamlNode& node, PlantEntry& plant) {
 void object(const PlantEntry& plant, const std::vector<plants::PlantDefinition::Objection>& objections,
             Findings& findings) {
   for (const auto& objection : objections)
-    findings.add(place_of(plant, objection.parameter),
+    findings.add(objection.code, place_of(plant, objection.parameter),
                  fmt::format("{}.{}: {}", plant.name.text, objection.parameter, objection.what),
                  objection.remedy);
 }
@@ -167,14 +167,15 @@ std::vector<std::size_t> references(const std::vector<PlantEntry>& all, const In
     }
     const auto remedy = fitting(all, std::string(parameter.reference));
     if (target != index.end()) {
-      findings.add(place,
+      findings.add("plant.wrong-reference"_code, place,
                    fmt::format("{}: {} is a {}, not a {}", full, name, all[target->second].type.text,
                                parameter.reference),
                    remedy);
     } else if (name.empty()) {
-      findings.add(place, fmt::format("{} names no plant", full), remedy);
+      findings.add("plant.unknown-plant"_code, place, fmt::format("{} names no plant", full), remedy);
     } else if (!given.contains(name)) {
-      findings.add(place, fmt::format("{}: there is no plant '{}'", full, name), remedy);
+      findings.add("plant.unknown-plant"_code, place, fmt::format("{}: there is no plant '{}'", full, name),
+                   remedy);
     }
   }
   return found;
@@ -206,7 +207,7 @@ std::vector<PlantEntry> sorted(std::vector<PlantEntry> plants, const YamlNode& s
   }
   for (std::size_t i = 0; i < plants.size(); ++i) {
     if (placed[i]) continue;
-    findings.add(plants[i].name.place,
+    findings.add("plant.reference-circle"_code, plants[i].name.place,
                  fmt::format("plants.{} refers to itself in a circle", plants[i].name.text),
                  "let one of the plants stand alone");
     order.push_back(std::move(plants[i]));
@@ -258,7 +259,7 @@ void refuse_shared_places(const std::vector<PlantEntry>& all, Findings& findings
                                             &decltype(plant.places)::value_type::first) != plant.places.end();
       const std::string_view named = placed ? std::string_view("place") : std::string_view(parameter.name);
       findings.add(
-          place_of(plant, std::string(named)),
+          "plant.no-room"_code, place_of(plant, std::string(named)),
           fmt::format("plants.{}.{}: it takes {} of {}, where the {} {} stands, {}", plant.name.text, named,
                       millimetres(one.stretch), one.target, other->plant->type.text, other->plant->name.text,
                       millimetres(other->stretch)),
@@ -301,7 +302,7 @@ std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants
     if (name == "panel" || name.empty() ||
         name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") !=
             std::string::npos) {
-      findings.add(entry.key.place, fmt::format("'{}' cannot name a plant", name),
+      findings.add("scenario.bad-name"_code, entry.key.place, fmt::format("'{}' cannot name a plant", name),
                    "letters, digits and underscores; panel is the operator's panel");
       continue;
     }

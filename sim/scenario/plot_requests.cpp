@@ -27,8 +27,8 @@ Form points_form(std::vector<PlotRequest::Panel::Point>& points) {
           if (numbers->size() == 2)
             points.push_back({key, numbers->front(), numbers->back()});
           else
-            findings.add(key.place, fmt::format("{} must be a place in the plane", full),
-                         "for example [15, -33]");
+            findings.add("scenario.wrong-kind"_code, key.place,
+                         fmt::format("{} must be a place in the plane", full), "for example [15, -33]");
         }
       },
       [&points] {
@@ -47,15 +47,17 @@ constexpr auto panel_keys = {"channels", "lanes",  "motor",     "event",
 void judge_path(MapReader& reader, const PlotRequest::Panel& panel) {
   const auto& name = reader.name();
   if (reader.has("x") != reader.has("y")) {
-    reader.refuse(reader.has("x") ? "x" : "y", fmt::format("{}: x and y go together", name),
-                  "write x: AxisX.posit, y: AxisY.posit");
+    reader.refuse("scenario.needs-another"_code, reader.has("x") ? "x" : "y",
+                  fmt::format("{}: x and y go together", name), "write x: AxisX.posit, y: AxisY.posit");
   }
   for (const auto* key : panel_keys) {
     if (!reader.has(key)) continue;
-    reader.refuse(key, fmt::format("{} has both a path and {}", name, key), "make two plots of it");
+    reader.refuse("scenario.does-not-go-together"_code, key,
+                  fmt::format("{} has both a path and {}", name, key), "make two plots of it");
   }
   if (!panel.labels.empty() && panel.split.text.empty()) {
-    reader.refuse("labels", fmt::format("{}: labels are for the parts of a split path", name),
+    reader.refuse("scenario.does-not-go-together"_code, "labels",
+                  fmt::format("{}: labels are for the parts of a split path", name),
                   "add split: with the channel that numbers them, or leave labels out");
   }
 }
@@ -64,8 +66,8 @@ void judge_path(MapReader& reader, const PlotRequest::Panel& panel) {
 void judge_alone(MapReader& reader, std::string_view what) {
   for (const auto* key : panel_keys) {
     if (key == what || !reader.has(key)) continue;
-    reader.refuse(key, fmt::format("{} has both {} and {}", reader.name(), what, key),
-                  "make two panels of it");
+    reader.refuse("scenario.does-not-go-together"_code, key,
+                  fmt::format("{} has both {} and {}", reader.name(), what, key), "make two panels of it");
   }
 }
 
@@ -74,31 +76,37 @@ void judge_panel(MapReader& reader, const PlotRequest::Panel& panel) {
   if (reader.has("x") || reader.has("y")) return judge_path(reader, panel);
   for (const auto* key : {"split", "labels", "points"}) {
     if (!reader.has(key)) continue;
-    reader.refuse(key, fmt::format("{}: {} goes with a path in a plane", name, key),
+    reader.refuse("scenario.needs-another"_code, key,
+                  fmt::format("{}: {} goes with a path in a plane", name, key),
                   "write x: AxisX.posit, y: AxisY.posit, or leave it out");
   }
   const bool event = reader.has("event");
   if (panel.histogram && (!event || panel.values.size() != 1)) {
-    reader.refuse("histogram", fmt::format("{}: a histogram shows one value of an event", name),
+    reader.refuse("scenario.does-not-go-together"_code, "histogram",
+                  fmt::format("{}: a histogram shows one value of an event", name),
                   "write event: cut, values: [length]");
   }
   if (panel.spectrum && (!event || panel.values.size() != 1)) {
-    reader.refuse("spectrum", fmt::format("{}: a spectrum is of one value of an event", name),
+    reader.refuse("scenario.does-not-go-together"_code, "spectrum",
+                  fmt::format("{}: a spectrum is of one value of an event", name),
                   "write event: cut, values: [length]");
   }
   for (const auto* key : {"histogram", "limits"}) {
     if (!panel.spectrum || !reader.has(key)) continue;
-    reader.refuse(key, fmt::format("{} has both a spectrum and {}", name, key), "make two plots of it");
+    reader.refuse("scenario.does-not-go-together"_code, key,
+                  fmt::format("{} has both a spectrum and {}", name, key), "make two plots of it");
   }
   if (reader.has("lanes") || reader.has("motor")) {
     judge_alone(reader, reader.has("lanes") ? "lanes" : "motor");
   } else if (reader.has("channels") && event) {
-    reader.refuse("event", fmt::format("{} has both channels and an event", name), "make two panels of it");
+    reader.refuse("scenario.does-not-go-together"_code, "event",
+                  fmt::format("{} has both channels and an event", name), "make two panels of it");
   } else if (!reader.has("channels") && !event) {
     reader.missing("channels",
                    "add channels: [knife.speed], lanes: [2.OUT01], or event: cut and values: [length]");
   } else if (event != reader.has("values")) {
-    reader.refuse(event ? "event" : "values", fmt::format("{}: event and values go together", name),
+    reader.refuse("scenario.needs-another"_code, event ? "event" : "values",
+                  fmt::format("{}: event and values go together", name),
                   "write event: cut, values: [length]");
   }
 }
@@ -107,7 +115,7 @@ void judge_against(MapReader& reader, const PlotRequest& plot) {
   if (!plot.against_number) return;
   for (const auto& panel : plot.panels) {
     if (panel.channels.empty() && panel.lanes.empty()) continue;
-    reader.findings().add(reader.value_place("against"),
+    reader.findings().add("scenario.does-not-go-together"_code, reader.value_place("against"),
                           fmt::format("{}: {} have no number", reader.full("against"),
                                       panel.lanes.empty() ? "channels" : "lanes"),
                           "against: number is for plots whose panels all show events");
@@ -121,13 +129,15 @@ void judge_plot(MapReader& reader, const PlotRequest& plot) {
   constexpr std::size_t longest = 100;  // [bytes]; a file system takes 255
   if (file.find_first_of("/\\\n\r\t\f") != std::string::npos || file.starts_with('.') ||
       file.size() > longest) {
-    reader.findings().add(plot.name.place, fmt::format("{}.name '{}' is no file name", name, file),
+    reader.findings().add("scenario.bad-name"_code, plot.name.place,
+                          fmt::format("{}.name '{}' is no file name", name, file),
                           "leave / and \\ out and begin with a letter, not too long; it becomes name.png");
   }
   judge_against(reader, plot);
   const auto refuse_marks = [&] {
     if (plot.marks)
-      reader.refuse("marks", fmt::format("{}: marks stand at times, this plot is not over time", name),
+      reader.refuse("scenario.does-not-go-together"_code, "marks",
+                    fmt::format("{}: marks stand at times, this plot is not over time", name),
                     "leave marks out");
   };
   // What has an x of its own.
@@ -141,11 +151,12 @@ void judge_plot(MapReader& reader, const PlotRequest& plot) {
                                        "a path", "a histogram", "a spectrum"};
   const auto* const kind = names.at(static_cast<std::size_t>(loner->kind()));
   if (plot.panels.size() > 1) {
-    reader.refuse("panels", fmt::format("{}: {} stands alone in its plot", name, kind),
-                  "make a plot of each");
+    reader.refuse("scenario.does-not-go-together"_code, "panels",
+                  fmt::format("{}: {} stands alone in its plot", name, kind), "make a plot of each");
   }
   if (plot.against_number)
-    reader.refuse("against", fmt::format("{}: {} has its own x", name, kind), "leave against out");
+    reader.refuse("scenario.does-not-go-together"_code, "against",
+                  fmt::format("{}: {} has its own x", name, kind), "leave against out");
   refuse_marks();
 }
 

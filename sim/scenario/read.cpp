@@ -51,10 +51,11 @@ class ScenarioReader final : public MapReader {
     for (const auto& entry : node.entries) {
       const auto* const kind = controller_kind(entry.key.text);
       if (kind == nullptr) {
-        findings().add(entry.key.place, fmt::format("unknown controller '{}'", entry.key.text),
+        findings().add("controller.unknown-kind"_code, entry.key.place,
+                       fmt::format("unknown controller '{}'", entry.key.text),
                        fmt::format("known: {}", fmt::join(known, ", ")));
       } else if (!entry.is_repeated() && &entry != &node.entries.front()) {
-        findings().add(entry.key.place,
+        findings().add("scenario.twice"_code, entry.key.place,
                        fmt::format("a second controller, after {}", node.entries.front().key.text),
                        "keep one");
       } else if (!entry.is_repeated()) {
@@ -68,7 +69,7 @@ class ScenarioReader final : public MapReader {
     if (!node.entries.empty()) return;
     const auto last = examples.back();
     examples.pop_back();
-    findings().add(node.text.place, "controller names none",
+    findings().add("scenario.needs-another"_code, node.text.place, "controller names none",
                    fmt::format("write controller: {} or {}", fmt::join(examples, ", "), last));
   }
 
@@ -94,7 +95,7 @@ void require_multiple(const YamlNode& root, std::initializer_list<std::string_vi
   if (period % step == 0) return;
   const Time below = period / step * step;
   const auto name = fmt::format("{}", fmt::join(path, "."));
-  findings.add(place_at(root, path),
+  findings.add("scenario.time-grid"_code, place_at(root, path),
                fmt::format("{} {} is not a whole multiple of scene.step {}", name, format_time(period),
                            format_time(step)),
                below == 0
@@ -108,7 +109,7 @@ void refuse_late_checks(const Scenario& scenario, const YamlNode& root, Findings
   if (shortened > 0 && shortened <= static_cast<int>(scenario.overrides.size())) return;
   for (const auto& check : scenario.checks)
     if (check.from >= scenario.scene.duration)
-      findings.add(check.name.place,
+      findings.add("scenario.order"_code, check.name.place,
                    fmt::format("the check '{}' begins at {}, and the run ends at {}", check.name.text,
                                format_time(check.from), format_time(scenario.scene.duration)),
                    "an earlier from, or a longer scene.duration");
@@ -127,7 +128,7 @@ void check_together(const Scenario& scenario, const YamlNode& root, Findings& fi
                      findings);
   }
   if (scenario.scene.duration < step) {
-    findings.add(place_at(root, {"scene", "duration"}),
+    findings.add("scenario.time-grid"_code, place_at(root, {"scene", "duration"}),
                  fmt::format("scene.duration {} is shorter than scene.step {}",
                              format_time(scenario.scene.duration), format_time(step)),
                  "let it last at least one step");
@@ -135,7 +136,7 @@ void check_together(const Scenario& scenario, const YamlNode& root, Findings& fi
   refuse_late_checks(scenario, root, findings);
   constexpr Time most_steps = Time{1} << 53U;  // a recorder's row has a number that a double holds
   if (scenario.scene.duration / step > most_steps) {
-    findings.add(place_at(root, {"scene", "step"}),
+    findings.add("scenario.time-grid"_code, place_at(root, {"scene", "step"}),
                  fmt::format("scene.duration {} takes {} steps of {}", format_time(scenario.scene.duration),
                              scenario.scene.duration / step, format_time(step)),
                  fmt::format("at most {} steps: a longer step or a shorter duration", most_steps));
@@ -177,7 +178,7 @@ void refuse_axes_without_wires(const YamlNode& root, Findings& findings) {
     if (wiring != nullptr && std::any_of(wiring->entries.begin(), wiring->entries.end(), is_of_axis))
       continue;
     findings.add(
-        axis.key.place,
+        "scenario.unknown-name"_code, axis.key.place,
         fmt::format("the axis '{}' has no wire, and what is extended has none of this name", axis.key.text),
         meant);
   }
@@ -189,7 +190,7 @@ void take_misspelt_sections(YamlNode& root, Findings& findings) {
   for (auto& [key, value, first_line] : root.entries) {
     const auto meant = nearest(key.text, section_names());
     if (meant.empty() || child(root, meant) != nullptr) continue;
-    findings.add(key.place, fmt::format("unknown key '{}'", key.text),
+    findings.add("scenario.unknown-key"_code, key.place, fmt::format("unknown key '{}'", key.text),
                  did_you_mean(key.text, section_names()));
     key.text = meant;
   }
@@ -206,7 +207,8 @@ void take_decimal_commas(YamlNode& node, Findings& findings) {
     const auto written = fmt::format("{},{}", value.text.text, torn.key.text);
     const auto pointed = with_decimal_point(written);
     if (pointed.empty()) continue;
-    findings.add(value.text.place, fmt::format("{}: '{}' has a decimal comma", key.text, written),
+    findings.add("scenario.not-a-number"_code, value.text.place,
+                 fmt::format("{}: '{}' has a decimal comma", key.text, written),
                  fmt::format("write {}", pointed));
     value.text = {pointed, value.text.place};
     node.entries.erase(node.entries.begin() + static_cast<std::ptrdiff_t>(i));
@@ -218,7 +220,8 @@ bool refuse_comparison(const YamlNode& root, Findings& findings) {
   const auto found = std::find_if(root.entries.begin(), root.entries.end(),
                                   [](const YamlNode::Entry& entry) { return entry.key.text == "compare"; });
   if (found == root.entries.end()) return false;
-  findings.add(found->key.place, "this scene compares scenarios and is none itself",
+  findings.add("scenario.not-a-scenario"_code, found->key.place,
+               "this scene compares scenarios and is none itself",
                "drycut run and drycut check take it; name one of its scenarios here");
   return true;
 }
@@ -250,10 +253,16 @@ bool sets(const Scenario& scenario, std::string_view value) {
          });
 }
 
-Problem problem_at(const Scenario& scenario, const ScenePlace& place, std::string what, std::string remedy) {
+NamedAt named_at(const Scenario& scenario, const ScenePlace& place) {
   const auto source = static_cast<std::size_t>(place.source);
   const auto name = source < scenario.sources.size() ? scenario.sources[source] : scenario.file.string();
-  return {name, place.line, place.column, std::move(what), std::move(remedy)};
+  return {name, place.line, place.column};
+}
+
+Problem problem_at(Code code, const Scenario& scenario, const ScenePlace& place, std::string what,
+                   std::string remedy) {
+  auto at = named_at(scenario, place);
+  return {code, std::move(at.file), at.line, at.column, std::move(what), std::move(remedy)};
 }
 
 namespace {
@@ -270,7 +279,7 @@ Scenario read_once(std::string_view text, const std::filesystem::path& file,
   Findings findings(scenario.sources);
   auto root = read_tree(text, file, findings);
   if (findings.empty() && root.kind == YamlNode::Kind::null) {
-    findings.add({1, 1}, "the scenario is empty",
+    findings.add("scenario.needs-another"_code, {1, 1}, "the scenario is empty",
                  fmt::format("its sections are: {}", fmt::join(section_names(), ", ")));
   } else if (root.kind != YamlNode::Kind::null) {
     take_misspelt_sections(root, findings);

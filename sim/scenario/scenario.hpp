@@ -104,8 +104,8 @@ struct ControllerSection {
   /// What a plug of the machine makes of its motion: "knife.encoder".
   using ScaleOf = std::function<std::optional<plants::PlugScale>(const std::string& plug)>;
   /// Where the section and the machine say different things of one thing, a phrase each.
-  [[nodiscard]] virtual std::vector<std::string> contradictions(const Scenario& scenario,
-                                                                const ScaleOf& scale_of) const {
+  [[nodiscard]] virtual std::vector<Finding> contradictions(const Scenario& scenario,
+                                                            const ScaleOf& scale_of) const {
     (void)scenario;
     (void)scale_of;
     return {};
@@ -113,7 +113,7 @@ struct ControllerSection {
   /// The controller with its programs read and compiled; nullptr after problems. `notes`, if given, takes
   /// what is no fault.
   virtual std::unique_ptr<devices::Controller> load(const Scenario& scenario, Problems& problems,
-                                                    std::vector<std::string>* notes) const = 0;
+                                                    std::vector<Finding>* notes) const = 0;
 };
 
 /// A kind of controller that a scenario can name.
@@ -427,7 +427,10 @@ struct Trial {
 bool sets(const Scenario& scenario, std::string_view value);
 
 /// A problem at a place of the scenario, with the right file name.
-Problem problem_at(const Scenario& scenario, const ScenePlace& place, std::string what, std::string remedy);
+/// A place of the scenario or of what it extends, with the file's name.
+NamedAt named_at(const Scenario& scenario, const ScenePlace& place);
+Problem problem_at(Code code, const Scenario& scenario, const ScenePlace& place, std::string what,
+                   std::string remedy);
 
 /// Reads a scenario. Syntax, unknown and duplicate keys, kinds, units, dimensions and ranges are checked and
 /// reported with their place in `problems`, all of the file in one run. The scenario is usable only if no

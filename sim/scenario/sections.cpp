@@ -28,7 +28,8 @@ void visit_scene(Archive& archive, SceneSection& scene) {
 std::optional<Quantity> read_action(const YamlNode::Entry& entry, const std::string& name,
                                     Findings& findings) {
   if (entry.value.kind == YamlNode::Kind::null) {
-    findings.add(entry.key.place, fmt::format("{} has no value", name), "write the value to set");
+    findings.add("scenario.needs-another"_code, entry.key.place, fmt::format("{} has no value", name),
+                 "write the value to set");
     return {};
   }
   if (entry.value.kind != YamlNode::Kind::scalar) {
@@ -51,7 +52,7 @@ constexpr std::string_view action_schema = R"({"type": ["number", "string", "boo
 /// What acts on nothing would be no line of a session.
 void refuse_empty(const YamlNode& map, const Form::Name& name, std::string_view example, Findings& findings) {
   if (!map.entries.empty()) return;
-  findings.add(name.key, fmt::format("{} is empty", name.full),
+  findings.add("scenario.needs-another"_code, name.key, fmt::format("{} is empty", name.full),
                fmt::format("name what it acts on, {}, or leave it out", example));
 }
 
@@ -82,7 +83,7 @@ void read_faults(const YamlNode& map, const std::string& name, std::vector<Stimu
     const auto full = name + "." + component.key.text;
     if (component.value.kind != YamlNode::Kind::map || component.value.entries.empty()) {
       findings.add(
-          component.key.place, fmt::format("{} names no fault", full),
+          "scenario.needs-another"_code, component.key.place, fmt::format("{} names no fault", full),
           fmt::format("write {}: {{fault: value}}; 'drycut plants' lists the faults", component.key.text));
       continue;
     }
@@ -128,16 +129,18 @@ void judge_stimulus(MapReader& reader, Stimulus& stimulus) {
   stimulus.place = reader.place();
   const auto& name = reader.name();
   if (reader.has("ramp") && !reader.has("over"))
-    reader.refuse("ramp", fmt::format("{}.ramp has no duration", name), "add over: 1 s");
+    reader.refuse("scenario.needs-another"_code, "ramp", fmt::format("{}.ramp has no duration", name),
+                  "add over: 1 s");
   if (reader.has("over") && !reader.has("ramp")) {
-    reader.refuse("over", fmt::format("{}.over stands without ramp", name),
+    reader.refuse("scenario.needs-another"_code, "over", fmt::format("{}.over stands without ramp", name),
                   "write ramp instead of set, or leave over out");
   }
   if (reader.has("at") && reader.has("when"))
-    reader.refuse("at", fmt::format("{} has both at and when", name),
+    reader.refuse("scenario.does-not-go-together"_code, "at", fmt::format("{} has both at and when", name),
                   "keep one; from: is the time before which `when` is not looked at");
   if (reader.has("from") && !reader.has("when"))
-    reader.refuse("from", fmt::format("{}.from stands without when", name), "write at for a time");
+    reader.refuse("scenario.needs-another"_code, "from", fmt::format("{}.from stands without when", name),
+                  "write at for a time");
 }
 
 struct KindName {
@@ -181,14 +184,17 @@ Form kind_form(CheckRequest& check, const KindName& of, bool& said) {
 void judge_period(MapReader& reader, const CheckRequest& check) {
   const bool eventually = check.kind == CheckRequest::Kind::eventually;
   if (reader.has("every") && check.kind != CheckRequest::Kind::always && !eventually)
-    return reader.refuse("every", fmt::format("{} does not go with this kind of check", reader.full("every")),
+    return reader.refuse("scenario.needs-another"_code, "every",
+                         fmt::format("{} does not go with this kind of check", reader.full("every")),
                          "every belongs to always and eventually");
   if (check.expression.text.empty() || reader.has("every") == has_statistics(check.expression)) return;
   if (reader.has("every"))
-    reader.refuse("every", fmt::format("{} stands without a statistic", reader.full("every")),
+    reader.refuse("scenario.needs-another"_code, "every",
+                  fmt::format("{} stands without a statistic", reader.full("every")),
                   "write a statistic, such as rms(knife.motor.torque), or leave every out");
   else if (eventually)
-    reader.refuse("eventually", fmt::format("{} has statistics and no period", reader.name()),
+    reader.refuse("scenario.needs-another"_code, "eventually",
+                  fmt::format("{} has statistics and no period", reader.name()),
                   "add every: 0.8 s, or write always");
 }
 
@@ -196,7 +202,8 @@ void judge_check(MapReader& reader, const CheckRequest& check) {
   // A key that belongs to other kinds of check only.
   const auto refuse_misplaced = [&](std::string_view key, std::string_view belongs_to) {
     if (!reader.has(key)) return;
-    reader.refuse(key, fmt::format("{} does not go with this kind of check", reader.full(key)),
+    reader.refuse("scenario.needs-another"_code, key,
+                  fmt::format("{} does not go with this kind of check", reader.full(key)),
                   fmt::format("{} belongs to {}", key, belongs_to));
   };
   std::vector<std::string_view> given;
@@ -207,7 +214,8 @@ void judge_check(MapReader& reader, const CheckRequest& check) {
     reader.missing("expect", "add expect: \"abs(length - 500) <= 0.2\" or the like");
   if (!of_events && !given.empty()) refuse_misplaced("expect", "each and all");
   if (given.size() > 1) {
-    reader.refuse(given[1], fmt::format("{} is both {} and {}", reader.name(), given[0], given[1]),
+    reader.refuse("scenario.does-not-go-together"_code, given[1],
+                  fmt::format("{} is both {} and {}", reader.name(), given[0], given[1]),
                   "make two checks of it");
   }
   const bool eventually = check.kind == CheckRequest::Kind::eventually;
@@ -216,7 +224,7 @@ void judge_check(MapReader& reader, const CheckRequest& check) {
   if (!is_of_events(check)) refuse_misplaced("at_least", "each and all");
   judge_period(reader, check);
   if (check.until && *check.until <= check.from && reader.has("from")) {
-    reader.refuse("until", fmt::format("{} is not after from", reader.full("until")),
+    reader.refuse("scenario.order"_code, "until", fmt::format("{} is not after from", reader.full("until")),
                   "let until be later than from");
   }
 }
@@ -231,8 +239,8 @@ void visit_record(Archive& archive, RecordSection& record) {
     std::unordered_set<std::string> known;
     for (const auto& channel : record.channels)
       if (!known.insert(channel.text).second)
-        reader.findings().add(channel.place, fmt::format("channel {} is recorded twice", channel.text),
-                              "keep one");
+        reader.findings().add("scenario.twice"_code, channel.place,
+                              fmt::format("channel {} is recorded twice", channel.text), "keep one");
   });
 }
 
@@ -253,7 +261,7 @@ void visit(Archive& archive, Wire& wire) {
   auto plug = form(wire.plug);
   plug.read = [read = plug.read](const YamlNode& node, const Form::Name& name, Findings& findings) {
     if (node.kind != YamlNode::Kind::null) return read(node, name, findings);
-    findings.add(name.key, fmt::format("{} leads to nothing", name.full),
+    findings.add("scenario.needs-another"_code, name.key, fmt::format("{} leads to nothing", name.full),
                  "write terminal: plant.plug, or terminal: panel.switch");
   };
   archive.alone(plug);
@@ -365,13 +373,14 @@ void visit(Archive& archive, Scenario& scenario) {
                   [&](Archive& inner) { visit(inner, scenario.opcua); });
   archive.judge([&scenario](MapReader& reader) {
     if (!scenario.filters.empty() && !reader.has("controller"))
-      reader.refuse("filters", "filters are of a controller's cards, and there is no controller",
+      reader.refuse("scenario.needs-another"_code, "filters",
+                    "filters are of a controller's cards, and there is no controller",
                     "add one, or leave the filters out");
     refuse_same_name(scenario.checks, "checks", "rename one; the first is at line {}", reader.findings());
     for (const auto& check : scenario.checks)
       if (check.every && *check.every < scenario.record.every)
         reader.findings().add(
-            check.expression.place,
+            "scenario.order"_code, check.expression.place,
             fmt::format("the period of the check '{}' is shorter than record.every", check.name.text),
             fmt::format("every: {} at least", format_time(scenario.record.every)));
   });

@@ -72,18 +72,18 @@ std::vector<SlipCandidate> candidates_for(const ParsedQuantity& present) {
   return candidates;
 }
 
-auto place_of(const Problem& problem) { return std::tie(problem.file, problem.line, problem.column); }
+auto place_of(const auto& of) { return std::tie(of.file, of.line, of.column); }
 
-bool stands_in(const Problem& problem, const Problems& problems) {
-  return std::any_of(problems.begin(), problems.end(),
-                     [&](const Problem& other) { return place_of(other) == place_of(problem); });
+bool stands_in(const Problem& problem, const auto& places) {
+  return std::any_of(places.begin(), places.end(),
+                     [&](const auto& other) { return place_of(other) == place_of(problem); });
 }
 
 // Where a variable that was given anew stands: what is wrong there is the new value's own.
-Problems places_given_anew(const Scenario& scenario) {
-  Problems places;
+std::vector<NamedAt> places_given_anew(const Scenario& scenario) {
+  std::vector<NamedAt> places;
   for (const auto& variable : scenario.variables)
-    if (variable.given_anew) places.push_back(problem_at(scenario, variable.value.place, "", ""));
+    if (variable.given_anew) places.push_back(named_at(scenario, variable.value.place));
   return places;
 }
 
@@ -161,10 +161,10 @@ void blame_variables(const Scenario& scenario, Problems& problems, std::size_t f
     for (const auto& problem : told)
       if (!stands_in(problem, least)) gone.push_back(problem);
     if (gone.empty()) continue;
-    const auto place = problem_at(scenario, variable.value.place, "", "");
+    const auto place = named_at(scenario, variable.value.place);
     std::erase_if(problems, [&](const Problem& problem) { return stands_in(problem, gone); });
     insert(problems, std::min(first, problems.size()),
-           problem_at(scenario, variable.value.place,
+           problem_at("scenario.variable-value"_code, scenario, variable.value.place,
                       fmt::format("variables.{} {} (at {})", variable.name.text, best.what,
                                   places_text(gone, place.file)),
                       fmt::format("write {}", best.value)));

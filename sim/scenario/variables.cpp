@@ -35,7 +35,7 @@ bool is_quantity(std::string_view value) {
   return parsed && is_unit(parsed->unit);
 }
 
-using Report = std::function<void(const ScenePlace& place, std::string what, std::string remedy)>;
+using Report = std::function<void(Code code, const ScenePlace& place, std::string what, std::string remedy)>;
 /// The value of a variable; nullptr if there is none, which has been told at the place.
 using Lookup = std::function<const std::string*(const std::string& name, const ScenePlace& place)>;
 
@@ -54,7 +54,7 @@ std::optional<std::vector<Piece>> pieces_of(const Text& text, const Lookup& look
     if (next > at) pieces.push_back({at, next});
     const auto end = text.text.find('}', next);
     if (end == std::string::npos) {
-      report(text.at(next), "this ${ is not closed", "write ${name}");
+      report("scenario.variable-syntax"_code, text.at(next), "this ${ is not closed", "write ${name}");
       return {};
     }
     const auto name = text.text.substr(next + opening.size(), end - next - opening.size());
@@ -62,7 +62,8 @@ std::optional<std::vector<Piece>> pieces_of(const Text& text, const Lookup& look
     if (is_name(name))
       value = lookup(name, text.at(next));
     else
-      report(text.at(next), fmt::format("'{}' is no name of a variable", name),
+      report("scenario.variable-syntax"_code, text.at(next),
+             fmt::format("'{}' is no name of a variable", name),
              "the name alone stands in ${ }, arithmetic around it: ${length} / 2");
     sound = sound && value != nullptr;
     at = end + 1;
@@ -139,7 +140,8 @@ std::optional<Text> put_together(const Text& text, const std::vector<Piece>& pie
   if (pieces.size() == 1) return pinned(text, *pieces.front().value);
   const auto whole = joined(text, pieces, Parentheses::all);
   const auto constant = read_constant(whole.text);
-  for (const auto& fault : constant.faults) report(whole.at(fault.offset), fault.what, fault.remedy);
+  for (const auto& fault : constant.faults)
+    report(fault.code, whole.at(fault.offset), fault.what, fault.remedy);
   switch (constant.kind) {
     case Constant::Kind::value:
       if (!constant.faults.empty()) return {};
@@ -161,13 +163,14 @@ std::optional<Text> computed(const Text& text, const Lookup& lookup, const Repor
   for (const auto& piece : *pieces)
     length += piece.value == nullptr ? piece.end - piece.begin : piece.value->size();
   if (length > longest_value) {
-    report(text.place, fmt::format("this comes to {} characters", length),
+    report("scenario.variable-circle"_code, text.place, fmt::format("this comes to {} characters", length),
            fmt::format("at most {}", longest_value));
     return {};
   }
   auto made = put_together(text, *pieces, report);
   if (!made || made->text.find(opening) == std::string::npos) return made;
-  report(text.place, "this comes to a text with ${ in it", "a value has no ${ but those of its variables");
+  report("scenario.variable-syntax"_code, text.place, "this comes to a text with ${ in it",
+         "a value has no ${ but those of its variables");
   return {};
 }
 
@@ -204,7 +207,8 @@ class Resolver {
       entries_.emplace(entry.key.text, &entry);
       names_.push_back(entry.key.text);
       if (!is_name(entry.key.text))
-        findings_.add(entry.key.place, fmt::format("'{}' is no name of a variable", entry.key.text),
+        findings_.add("scenario.variable-syntax"_code, entry.key.place,
+                      fmt::format("'{}' is no name of a variable", entry.key.text),
                       "letters, digits and underscores, a letter first");
     }
   }
@@ -237,12 +241,12 @@ class Resolver {
   void refuse_unknown(const std::string& name, const ScenePlace& place) {
     const auto meant = nearest(name, names_);
     if (meant.empty() || named_.contains(meant) || named_[name] < 2) {
-      findings_.add(place, fmt::format("there is no variable '{}'", name),
+      findings_.add("scenario.unknown-variable"_code, place, fmt::format("there is no variable '{}'", name),
                     did_you_mean(name, names_, fmt::format("add variables: {{{}: 800 mm}}", name)));
       return;
     }
     if (!misspelt_.insert(name).second) return;
-    findings_.add(entries_.at(meant)->key.place,
+    findings_.add("scenario.unknown-variable"_code, entries_.at(meant)->key.place,
                   fmt::format("the variable '{}' is not used, and there is no '{}', which {}:{} uses", meant,
                               name, place.line, place.column),
                   fmt::format("did you mean {}?", name));
@@ -252,7 +256,8 @@ class Resolver {
     for (auto& item : node.items) walk(item);
     for (auto& entry : node.entries) {
       if (entry.key.text.find(opening) != std::string::npos)
-        findings_.add(entry.key.place, "a variable cannot stand in a key", "write the key out");
+        findings_.add("scenario.variable-syntax"_code, entry.key.place, "a variable cannot stand in a key",
+                      "write the key out");
       walk(entry.value);
     }
   }
@@ -261,8 +266,8 @@ class Resolver {
     if (text.text.find(opening) == std::string::npos) return true;
     const auto made = computed(
         text, [this](const std::string& name, const ScenePlace& place) { return find(name, place); },
-        [this](const ScenePlace& place, std::string what, std::string remedy) {
-          findings_.add(place, std::move(what), std::move(remedy));
+        [this](Code code, const ScenePlace& place, std::string what, std::string remedy) {
+          findings_.add(code, place, std::move(what), std::move(remedy));
         });
     if (made)
       text = *made;
@@ -282,12 +287,14 @@ class Resolver {
     if (waiting != open_.end()) {
       auto cycle = std::vector<std::string>(waiting, open_.end());
       cycle.push_back(name);
-      findings_.add(place, fmt::format("the variable '{}' needs itself: {}", name, fmt::join(cycle, " -> ")),
+      findings_.add("scenario.variable-circle"_code, place,
+                    fmt::format("the variable '{}' needs itself: {}", name, fmt::join(cycle, " -> ")),
                     "give one of them a value of its own");
       return nullptr;
     }
     if (open_.size() < deepest_use) return value_of(*entry->second);
-    findings_.add(place, fmt::format("variables in variables, more than {} deep", deepest_use), "nest less");
+    findings_.add("scenario.variable-circle"_code, place,
+                  fmt::format("variables in variables, more than {} deep", deepest_use), "nest less");
     return nullptr;
   }
 
@@ -313,7 +320,8 @@ class Resolver {
       refuse_unit(text, "variables." + entry.key.text, findings_);
       return false;
     }
-    for (const auto& fault : constant.faults) findings_.add(text.at(fault.offset), fault.what, fault.remedy);
+    for (const auto& fault : constant.faults)
+      findings_.add(fault.code, text.at(fault.offset), fault.what, fault.remedy);
     if (constant.kind == Constant::Kind::value && constant.faults.empty())
       text = pinned(text, constant.value);
     return constant.faults.empty();
@@ -327,7 +335,7 @@ class Resolver {
     const auto unit = parse_quantity(was)->unit;
     if (is_quantity(value.text) && same_dimension(parse_quantity(value.text)->unit, unit)) return true;
     const auto& source = findings_.sources().at(static_cast<std::size_t>(place.source));
-    findings_.add(value.place,
+    findings_.add("scenario.variable-value"_code, value.place,
                   fmt::format("variables.{} is {} ({}, {}:{}:{}), not {}", entry.key.text, measure_of(was),
                               was, source, place.line, place.column, measure_of(value.text)),
                   fmt::format("for example {}", was));
@@ -405,13 +413,13 @@ std::string with_variables(std::string_view table, const std::vector<VariableEnt
                            const std::string& file, Problems& problems) {
   std::vector<std::string> names;
   for (const auto& variable : variables) names.push_back(variable.name.text);
-  const Report report = [&](const ScenePlace& place, std::string what, std::string remedy) {
-    problems.push_back({file, place.line, place.column, std::move(what), std::move(remedy)});
+  const Report report = [&](Code code, const ScenePlace& place, std::string what, std::string remedy) {
+    problems.push_back({code, file, place.line, place.column, std::move(what), std::move(remedy)});
   };
   const Lookup lookup = [&](const std::string& name, const ScenePlace& place) -> const std::string* {
     for (const auto& variable : variables)
       if (variable.name.text == name) return &variable.value.text;
-    report(place, fmt::format("the scenario has no variable '{}'", name),
+    report("scenario.unknown-variable"_code, place, fmt::format("the scenario has no variable '{}'", name),
            did_you_mean(name, names, "add it to the scenario's variables"));
     return nullptr;
   };
@@ -439,7 +447,8 @@ std::string with_variables(std::string_view table, const std::vector<VariableEnt
     const auto value = computed(text, lookup, report);
     const auto number = value ? parse_quantity(value->text) : std::nullopt;
     if (value && (!number || !number->unit.empty()))
-      report(text.place, fmt::format("'{}' is {}, not a plain number", text.text, value->text),
+      report("scenario.variable-value"_code, text.place,
+             fmt::format("'{}' is {}, not a plain number", text.text, value->text),
              "divide by the table's unit: ${length} / 0.1 mm");
     made += fmt::format("{:{}}", value ? value->text : cell, cell.size());
   }
@@ -447,15 +456,17 @@ std::string with_variables(std::string_view table, const std::vector<VariableEnt
   return made;
 }
 
-std::vector<std::string> unused_variables(const Scenario& scenario) {
-  std::vector<std::string> notes;
+std::vector<Finding> unused_variables(const Scenario& scenario) {
+  std::vector<Finding> notes;
   for (const auto* variable : unused(scenario)) {
     const auto& beside = variable->beside;
-    notes.push_back(fmt::format("the variable '{}' is not used{}", variable->name.text,
-                                beside.empty() ? ""
-                                               : fmt::format(", and what is extended has none of this name: "
-                                                             "it has {}",
-                                                             listed(beside))));
+    notes.emplace_back(
+        "scenario.unused-variable"_code,
+        fmt::format("the variable '{}' is not used{}", variable->name.text,
+                    beside.empty() ? ""
+                                   : fmt::format(", and what is extended has none of this name: "
+                                                 "it has {}",
+                                                 listed(beside))));
   }
   return notes;
 }
@@ -470,7 +481,7 @@ void refuse_slips(const Scenario& scenario, Findings& findings) {
   if (std::none_of(scenario.variables.begin(), scenario.variables.end(), is_slip)) return;
   for (const auto* variable : unused(scenario))
     if (is_slip(*variable))
-      findings.add(variable->name.place,
+      findings.add("scenario.unknown-variable"_code, variable->name.place,
                    fmt::format("the variable '{}' is not used, and what is extended has none of this name",
                                variable->name.text),
                    meant(*variable));

@@ -22,7 +22,7 @@ std::string with_variables(std::string_view table, const std::vector<VariableEnt
                            const std::string& file, Problems& problems);
 
 /// Variables that neither the scenario nor a file of its controller uses, as notes.
-std::vector<std::string> unused_variables(const Scenario& scenario);
+std::vector<Finding> unused_variables(const Scenario& scenario);
 /// One of them that looks like a slip for a variable of what the scenario extends is a problem.
 void refuse_slips(const Scenario& scenario, Findings& findings);
 

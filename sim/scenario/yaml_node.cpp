@@ -232,19 +232,22 @@ class Builder : public YAML::EventHandler {
     put(YamlNode{YamlNode::Kind::null, {written ? "~" : "", lines_.place(mark)}});
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
-    findings_.add(lines_.place(mark), "aliases (*name) are not used in scenarios", "write the value out");
+    findings_.add("scenario.yaml-not-taken"_code, lines_.place(mark),
+                  "aliases (*name) are not used in scenarios", "write the value out");
     put(YamlNode{YamlNode::Kind::null, {"", lines_.place(mark)}});
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& bytes) override {
     const auto value = in_utf8(bytes);
     if (const auto fault = text_fault(value))  // an escape, for the file itself is plain text
-      findings_.add(lines_.place(mark), "an escape makes what is no text: " + fault->what, "leave it out");
+      findings_.add("scenario.yaml-syntax"_code, lines_.place(mark),
+                    "an escape makes what is no text: " + fault->what, "leave it out");
     const bool odd = refuse_anchor(mark, anchor) || refuse_tag(mark, tag);
     Alignment alignment(lines_, lines_.offset(mark), value);
     auto text = odd ? Text{value, lines_.place(mark)} : alignment.run();
     if (!odd && !alignment.closed()) {
-      findings_.add(lines_.place(mark), "this quotation is not closed", "end the text with the same quote");
+      findings_.add("scenario.yaml-syntax"_code, lines_.place(mark), "this quotation is not closed",
+                    "end the text with the same quote");
     }
     put(YamlNode{YamlNode::Kind::scalar, std::move(text)});
   }
@@ -279,12 +282,14 @@ class Builder : public YAML::EventHandler {
 
   bool refuse_anchor(const YAML::Mark& mark, YAML::anchor_t anchor) {
     if (anchor == 0) return false;
-    findings_.add(lines_.place(mark), "anchors (&name) are not used in scenarios", "write the value out");
+    findings_.add("scenario.yaml-not-taken"_code, lines_.place(mark),
+                  "anchors (&name) are not used in scenarios", "write the value out");
     return true;
   }
   bool refuse_tag(const YAML::Mark& mark, const std::string& tag) {
     if (tag.empty() || tag == "?" || tag == "!") return false;
-    findings_.add(lines_.place(mark), "tags (!name) are not used in scenarios", "write the value alone");
+    findings_.add("scenario.yaml-not-taken"_code, lines_.place(mark),
+                  "tags (!name) are not used in scenarios", "write the value alone");
     return true;
   }
 
@@ -318,8 +323,8 @@ class Builder : public YAML::EventHandler {
       level.key.reset();
     } else {
       if (node.kind != YamlNode::Kind::scalar) {
-        findings_.add(node.text.place, fmt::format("{} cannot be a key", name_of(node.kind)),
-                      "write key: value");
+        findings_.add("scenario.yaml-syntax"_code, node.text.place,
+                      fmt::format("{} cannot be a key", name_of(node.kind)), "write key: value");
       }
       level.key = std::move(node.text);
     }
@@ -335,45 +340,50 @@ class Builder : public YAML::EventHandler {
 void refuse_yaml(const YAML::ParserException& error, const Lines& lines,
                  const std::optional<ScenePlace>& open, Findings& findings) {
   auto place = lines.place(error.mark);
-  const auto told = [&](std::string what, std::string remedy) {
-    findings.add(place, std::move(what), std::move(remedy));
+  const auto told = [&](Code code, std::string what, std::string remedy) {
+    findings.add(code, place, std::move(what), std::move(remedy));
   };
   if (const auto tab = lines.indenting_tab(error.mark)) {
     place = *tab;
-    return told("a tab in the indentation", "indent with spaces");
+    return told("scenario.yaml-syntax"_code, "a tab in the indentation", "indent with spaces");
   }
   if (open && lines.has_variable(error.mark))
-    return told("inside { } and [ ] a value with ${name} stands in quotes", "write \"${length} / 2\"");
+    return told("scenario.yaml-syntax"_code, "inside { } and [ ] a value with ${name} stands in quotes",
+                "write \"${length} / 2\"");
   if (lines.has_second_colon(error.mark)) {
     const auto key = lines.word_before(error.mark);
-    return told("a second ': ' behind a key",
+    return told("scenario.yaml-syntax"_code, "a second ': ' behind a key",
                 fmt::format("{}a text with a colon in it stands in quotes: title: \"saw: test\"",
                             open ? fmt::format("write a comma before '{}'; ", key) : ""));
   }
   const std::string opened =
       open ? fmt::format(" opened at line {}, column {}", open->line, open->column) : std::string();
   if (error.msg == YAML::ErrorMsg::END_OF_SEQ_FLOW)
-    return told(fmt::format("the list{} is not closed", opened), "write ] or a comma here");
+    return told("scenario.yaml-syntax"_code, fmt::format("the list{} is not closed", opened),
+                "write ] or a comma here");
   if (error.msg == YAML::ErrorMsg::END_OF_MAP_FLOW)
-    return told(fmt::format("the map{} is not closed", opened), "write } or a comma here");
+    return told("scenario.yaml-syntax"_code, fmt::format("the map{} is not closed", opened),
+                "write } or a comma here");
   if (error.msg == YAML::ErrorMsg::UNKNOWN_TOKEN)
-    return told("no YAML text begins like this", "put the text into quotes");
+    return told("scenario.yaml-syntax"_code, "no YAML text begins like this", "put the text into quotes");
   if (error.msg == YAML::ErrorMsg::UNKNOWN_ANCHOR || error.msg.find("anchor") != std::string::npos)
-    return told("aliases (*name) are not used in scenarios", "write the value out");
+    return told("scenario.yaml-not-taken"_code, "aliases (*name) are not used in scenarios",
+                "write the value out");
   if (const auto line = lines.line_without_colon(error.mark);
       error.msg == YAML::ErrorMsg::MAP_VALUE && !open && !line.empty()) {
     place = lines.place(static_cast<std::size_t>(line.data() - lines.text().data()));
-    return told(fmt::format("there is no colon in {}", in_quotes(line)), "write key: value");
+    return told("scenario.yaml-syntax"_code, fmt::format("there is no colon in {}", in_quotes(line)),
+                "write key: value");
   }
-  told(fmt::format("not readable as YAML: {}", error.msg),
+  told("scenario.yaml-syntax"_code, fmt::format("not readable as YAML: {}", error.msg),
        "check indentation, colons and brackets here and in the line before");
 }
 
 }  // namespace
 
-void Findings::add(const ScenePlace& place, std::string what, std::string remedy) {
+void Findings::add(Code code, const ScenePlace& place, std::string what, std::string remedy) {
   if (std::find(silent_.begin(), silent_.end(), place) != silent_.end()) return;
-  found_.push_back({place, std::move(what), std::move(remedy)});
+  found_.push_back({code, place, std::move(what), std::move(remedy)});
 }
 
 int Findings::add_source(std::string name, const std::filesystem::path& folder) {
@@ -396,8 +406,8 @@ Problems Findings::sorted() const {
            std::tie(b.place.source, b.place.line, b.place.column);
   });
   Problems problems;
-  for (auto& [place, what, remedy] : found) {
-    problems.push_back({sources_.at(static_cast<std::size_t>(place.source)), place.line, place.column,
+  for (auto& [code, place, what, remedy] : found) {
+    problems.push_back({code, sources_.at(static_cast<std::size_t>(place.source)), place.line, place.column,
                         std::move(what), std::move(remedy)});
   }
   return problems;
@@ -415,20 +425,22 @@ YamlNode parse_yaml(std::string_view text, int source, Findings& findings) {
     Builder rest(lines, findings);
     // Anything after the first document (a second one, or text after a closing bracket).
     if (parser.HandleNextDocument(rest)) {
-      findings.add(rest.take().text.place, "something stands after the end of the document",
+      findings.add("scenario.yaml-not-taken"_code, rest.take().text.place,
+                   "something stands after the end of the document",
                    "one document a file, and nothing after its closing bracket");
     }
     if (findings.count() == before) return root;
   } catch (const TooDeep& deep) {
-    findings.add(deep.place, fmt::format("nested more than {} levels deep", deepest), "nest less");
+    findings.add("scenario.yaml-not-taken"_code, deep.place,
+                 fmt::format("nested more than {} levels deep", deepest), "nest less");
   } catch (const YAML::DeepRecursion& deep) {
-    findings.add(lines.place(deep.mark), fmt::format("nested more than {} levels deep", deepest),
-                 "nest less");
+    findings.add("scenario.yaml-not-taken"_code, lines.place(deep.mark),
+                 fmt::format("nested more than {} levels deep", deepest), "nest less");
   } catch (const YAML::ParserException& error) {
     refuse_yaml(error, lines, builder.open_bracket(), findings);
   } catch (const std::exception& error) {
-    findings.add({1, 1, source}, fmt::format("not readable as YAML: {}", error.what()),
-                 "a scenario is a YAML text");
+    findings.add("scenario.yaml-syntax"_code, {1, 1, source},
+                 fmt::format("not readable as YAML: {}", error.what()), "a scenario is a YAML text");
   }
   return YamlNode{YamlNode::Kind::null, {"", {1, 1, source}}};
 }
@@ -436,12 +448,14 @@ YamlNode parse_yaml(std::string_view text, int source, Findings& findings) {
 YamlNode parse_scenario(std::string_view text, int source, Findings& findings) {
   constexpr std::size_t largest_text = std::size_t{1} << 20U;  // [bytes]; yaml-cpp takes half a second for it
   if (text.size() > largest_text) {
-    findings.add({1, 1, source}, fmt::format("the text has {} bytes", text.size()),
+    findings.add("scenario.yaml-not-taken"_code, {1, 1, source},
+                 fmt::format("the text has {} bytes", text.size()),
                  fmt::format("a scenario has at most {}", largest_text));
     return {};
   }
   if (const auto fault = text_fault(text)) {
-    findings.add({fault->line, fault->column, source}, fault->what, "a scenario is a YAML text in UTF-8");
+    findings.add("scenario.yaml-syntax"_code, {fault->line, fault->column, source}, fault->what,
+                 "a scenario is a YAML text in UTF-8");
     return {};
   }
   return parse_yaml(text, source, findings);

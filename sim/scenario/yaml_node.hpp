@@ -43,7 +43,7 @@ inline YamlNode::YamlNode(Kind of, Text given) : kind(of), text(std::move(given)
 class Findings {
  public:
   explicit Findings(std::vector<std::string> sources) : sources_(std::move(sources)) {}
-  void add(const ScenePlace& place, std::string what, std::string remedy);
+  void add(Code code, const ScenePlace& place, std::string what, std::string remedy);
   /// Another text takes part: its number. `folder`: of the file, seen from that of the scenario; "" = the
   /// same.
   int add_source(std::string name, const std::filesystem::path& folder = {});
@@ -59,9 +59,10 @@ class Findings {
 
  private:
   struct Found {
+    Code code;
     ScenePlace place;
-    std::string what;
-    std::string remedy;
+    Prose what;
+    Prose remedy;
   };
   std::vector<std::string> sources_;
   std::map<int, std::filesystem::path> folders_;  ///< of sources that stand in another one than the scenario

@@ -77,7 +77,7 @@ void refuse_kind(const YamlNode& node, const std::string& name, YamlNode::Kind w
   std::string form = "key: value, or {key: value}";
   if (wanted == YamlNode::Kind::sequence) form = "[first, second], or a line '- ...' for each";
   if (wanted == YamlNode::Kind::scalar) form = "one value";
-  findings.add(node.text.place,
+  findings.add("scenario.wrong-kind"_code, node.text.place,
                fmt::format("{} must be {}, not {}", name, name_of(wanted), name_of(node.kind)),
                fmt::format("write {}", form));
 }
@@ -86,7 +86,8 @@ void refuse_duplicates(const YamlNode& map, const std::string& name, Findings& f
   for (const auto& entry : map.entries) {
     if (!entry.is_repeated()) continue;
     const auto where = name.empty() ? std::string("the file") : name;
-    findings.add(entry.key.place, fmt::format("'{}' is given twice in {}", entry.key.text, where),
+    findings.add("scenario.twice"_code, entry.key.place,
+                 fmt::format("'{}' is given twice in {}", entry.key.text, where),
                  fmt::format("keep one; the first is at line {}", entry.first_line));
   }
 }
@@ -118,7 +119,7 @@ const YamlNode::Entry* MapReader::find(std::string_view key) {
     if (entry.key.text != key) continue;
     if (entry.value.kind != YamlNode::Kind::null) return &entry;
     if (!asked_before) {
-      findings_.add(entry.key.place, fmt::format("{} has no value", full(key)),
+      findings_.add("scenario.no-value"_code, entry.key.place, fmt::format("{} has no value", full(key)),
                     "give it one, or leave the key out");
     }
     return nullptr;
@@ -199,7 +200,8 @@ void MapReader::read_level(const ParameterTable& table, const YamlNode& node, co
       read_parameter(table, *row, entry);
     } else if (!is_group(table, name)) {
       const auto torn = torn_at_comma(node, entry);
-      findings_.add(key.place, fmt::format("unknown key '{}' in {}", key.text, where),
+      findings_.add("scenario.unknown-key"_code, key.place,
+                    fmt::format("unknown key '{}' in {}", key.text, where),
                     torn.empty() ? nearest_row(table, prefix, key.text) : torn);
     } else if (entry.value.kind != YamlNode::Kind::map) {
       refuse_kind(entry.value, full(name), YamlNode::Kind::map, findings_);
@@ -216,7 +218,7 @@ void MapReader::read_parameter(const ParameterTable& table, const ParameterTable
   for (const auto& covered : row.covers.empty() ? std::vector{row.name} : row.covers) {
     for (const auto& [known, place] : *table.places) {
       if (known != covered) continue;
-      findings_.add(entry.key.place, fmt::format("{} is given twice", full(covered)),
+      findings_.add("scenario.twice"_code, entry.key.place, fmt::format("{} is given twice", full(covered)),
                     fmt::format("keep one; the first is at line {}", place.line));
       return;
     }
@@ -225,7 +227,8 @@ void MapReader::read_parameter(const ParameterTable& table, const ParameterTable
   }
   if (entry.value.kind != YamlNode::Kind::null)
     return row.form.read(entry.value, {name, entry.key.place}, findings_);
-  findings_.add(entry.key.place, fmt::format("{} has no value", name), "give it one, or leave the key out");
+  findings_.add("scenario.no-value"_code, entry.key.place, fmt::format("{} has no value", name),
+                "give it one, or leave the key out");
 }
 
 void MapReader::alone(const Form& form) {
@@ -238,12 +241,13 @@ bool MapReader::instead(bool, const Form& form) {
   return is_alone_;
 }
 
-void MapReader::refuse(std::string_view key, std::string what, std::string remedy) {
-  findings_.add(place(key), std::move(what), std::move(remedy));
+void MapReader::refuse(Code code, std::string_view key, std::string what, std::string remedy) {
+  findings_.add(code, place(key), std::move(what), std::move(remedy));
 }
 
 void MapReader::missing(std::string_view key, std::string_view remedy) {
-  findings_.add(node_.text.place, fmt::format("{} is missing", full(key)), meant(remedy));
+  findings_.add("scenario.missing-key"_code, node_.text.place, fmt::format("{} is missing", full(key)),
+                meant(remedy));
 }
 
 // What lacks something and stands beside others of nearly its name was to change one of them.
@@ -266,7 +270,8 @@ void MapReader::require_one(const std::vector<std::string_view>& keys, std::stri
           return reader.has(key) || (!reader.has_table_ && misspells(reader.node_, reader.known_, key));
         }))
       return;
-    reader.findings_.add(reader.place(), fmt::format("{} {}", reader.name(), what), reader.meant(remedy));
+    reader.findings_.add("scenario.missing-key"_code, reader.place(),
+                         fmt::format("{} {}", reader.name(), what), reader.meant(remedy));
   });
 }
 
@@ -282,7 +287,8 @@ bool MapReader::finish() {
     const bool in_expression =
         entry.key.text.find_first_of("()") != std::string::npos;  // max(a, b) in a {...}
     const auto torn = torn_at_comma(node_, entry);
-    findings_.add(entry.key.place, fmt::format("unknown key '{}'{}", entry.key.text, where),
+    findings_.add("scenario.unknown-key"_code, entry.key.place,
+                  fmt::format("unknown key '{}'{}", entry.key.text, where),
                   in_expression   ? "an expression with a comma in it stands in quotes"
                   : !torn.empty() ? torn
                                   : did_you_mean(entry.key.text, known_));

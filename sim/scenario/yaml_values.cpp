@@ -54,16 +54,17 @@ void refuse_unit(const Text& text, const std::string& name, Findings& findings) 
   const auto pointed = with_decimal_point(text.text);
   const bool is_ratio = quantity->unit.starts_with(":");
   if (is_ratio && parsed<double>(std::string_view(quantity->unit).substr(1)))
-    findings.add(text.place,
+    findings.add("scenario.not-a-number"_code, text.place,
                  fmt::format("{}: '{}' is a ratio of two numbers, and one is wanted", name, text.text),
                  fmt::format("write {:.6g}",
                              quantity->number / *parsed<double>(std::string_view(quantity->unit).substr(1))));
   else if (!pointed.empty())
-    findings.add(text.place, fmt::format("{}: '{}' has a decimal comma", name, text.text),
+    findings.add("scenario.not-a-number"_code, text.place,
+                 fmt::format("{}: '{}' has a decimal comma", name, text.text),
                  fmt::format("write {}", pointed));
   else
-    findings.add(text.at(quantity->unit_offset), fmt::format("{}: unknown unit '{}'", name, quantity->unit),
-                 unit_remedy(quantity->unit));
+    findings.add("scenario.unknown-unit"_code, text.at(quantity->unit_offset),
+                 fmt::format("{}: unknown unit '{}'", name, quantity->unit), unit_remedy(quantity->unit));
 }
 
 bool needs_unit(std::string_view unit) {
@@ -73,7 +74,8 @@ bool needs_unit(std::string_view unit) {
 std::optional<Quantity> read_quantity(const Text& text, const std::string& name, Findings& findings) {
   const auto parsed = parse_quantity(text.text);
   if (!parsed) {
-    findings.add(text.place, fmt::format("{}: '{}' is not a number", name, text.text),
+    findings.add("scenario.not-a-number"_code, text.place,
+                 fmt::format("{}: '{}' is not a number", name, text.text),
                  "write a number, with its unit if it has one: 0.5, 60 m/min");
     return {};
   }
@@ -90,13 +92,13 @@ std::optional<double> read_si(const Text& text, const std::string& name, std::st
   if (!quantity) return {};
   if (quantity->unit.empty()) {
     if (!needs_unit(unit)) return quantity->number;
-    findings.add(text.place,
+    findings.add("scenario.wrong-unit"_code, text.place,
                  fmt::format("{}: '{}' has no unit, but this is {}", name, text.text, dimension_name(unit)),
                  fmt::format("write {} {} if that is meant", text.text, unit));
     return {};
   }
   if (!same_dimension(quantity->unit, unit)) {
-    findings.add(text.at(parse_quantity(text.text)->unit_offset),
+    findings.add("scenario.wrong-unit"_code, text.at(parse_quantity(text.text)->unit_offset),
                  fmt::format("{} is {}, not {} ({})", name, dimension_name(unit),
                              dimension_name(quantity->unit), quantity->unit),
                  unit.empty() ? "write a number without unit" : example(unit));
@@ -111,24 +113,25 @@ std::optional<Time> read_time(const Text& text, const std::string& name, Sign si
   const double exact = *value * 1e9;
   const double whole = std::round(exact);
   if (sign == Sign::positive && *value <= 0) {
-    findings.add(text.place, fmt::format("{} is {}; it must be longer than 0", name, text.text),
-                 "for example 2 ms");
+    findings.add("scenario.out-of-range"_code, text.place,
+                 fmt::format("{} is {}; it must be longer than 0", name, text.text), "for example 2 ms");
     return {};
   }
   if (*value < 0) {
-    findings.add(text.place, fmt::format("{} is {}; it must not be negative", name, text.text),
-                 "for example 0 s");
+    findings.add("scenario.out-of-range"_code, text.place,
+                 fmt::format("{} is {}; it must not be negative", name, text.text), "for example 0 s");
     return {};
   }
   if (*value > 1e9) {
-    findings.add(text.place, fmt::format("{} is {}; the clock ends at 1e9 s", name, text.text),
-                 "give a shorter time");
+    findings.add("scenario.out-of-range"_code, text.place,
+                 fmt::format("{} is {}; the clock ends at 1e9 s", name, text.text), "give a shorter time");
     return {};
   }
   const bool none = *value > 0 && whole == 0;
   if (none || std::abs(exact - whole) > 1e-6 + 1e-15 * exact) {
     const auto next = static_cast<Time>(std::max(1.0, whole));
-    findings.add(text.place, fmt::format("{}: {} is no whole number of nanoseconds", name, text.text),
+    findings.add("scenario.not-a-number"_code, text.place,
+                 fmt::format("{}: {} is no whole number of nanoseconds", name, text.text),
                  fmt::format("the nearest is {}", format_time(next)));
     return {};
   }
@@ -141,13 +144,14 @@ std::optional<long long> read_integer(const Text& text, const std::string& name,
   const char* const end = text.text.data() + text.text.size();
   const auto read = std::from_chars(text.text.data(), end, number);
   if (read.ec != std::errc() || read.ptr != end) {
-    findings.add(text.place, fmt::format("{}: '{}' is not a whole number", name, text.text),
+    findings.add("scenario.not-a-number"_code, text.place,
+                 fmt::format("{}: '{}' is not a whole number", name, text.text),
                  fmt::format("{} to {}", min, max));
     return {};
   }
   if (number < min || number > max) {
-    findings.add(text.place, fmt::format("{} is {}, out of range", name, number),
-                 fmt::format("{} to {}", min, max));
+    findings.add("scenario.out-of-range"_code, text.place,
+                 fmt::format("{} is {}, out of range", name, number), fmt::format("{} to {}", min, max));
     return {};
   }
   return number;
@@ -156,7 +160,8 @@ std::optional<long long> read_integer(const Text& text, const std::string& name,
 std::optional<bool> read_switch(const Text& text, const std::string& name, Findings& findings) {
   if (text.text == "on" || text.text == "true") return true;
   if (text.text == "off" || text.text == "false") return false;
-  findings.add(text.place, fmt::format("{}: '{}' is not a switch position", name, text.text),
+  findings.add("scenario.unknown-choice"_code, text.place,
+               fmt::format("{}: '{}' is not a switch position", name, text.text),
                "write on or off (or true, false)");
   return {};
 }
@@ -164,15 +169,15 @@ std::optional<bool> read_switch(const Text& text, const std::string& name, Findi
 bool read_choice(const Text& text, const std::string& name, const std::vector<std::string>& choices,
                  Findings& findings) {
   if (std::find(choices.begin(), choices.end(), text.text) != choices.end()) return true;
-  findings.add(text.place, fmt::format("{}: unknown choice '{}'", name, text.text),
-               did_you_mean(text.text, choices));
+  findings.add("scenario.unknown-choice"_code, text.place,
+               fmt::format("{}: unknown choice '{}'", name, text.text), did_you_mean(text.text, choices));
   return false;
 }
 
 void check_expression(const Text& text, Findings& findings) {
   std::vector<ExpressionFault> faults;
   compile_anything(text, faults);
-  for (const auto& fault : faults) findings.add(text.at(fault.offset), fault.what, fault.remedy);
+  for (const auto& fault : faults) findings.add(fault.code, text.at(fault.offset), fault.what, fault.remedy);
 }
 
 bool has_statistics(const Text& text) {

@@ -96,7 +96,7 @@ void write_record(const record::Record& record, RecordFormat format, const fs::p
 void check_names(const record::Record& record, const fs::path& run, Problems& problems) {
   for (const auto& column : record.recording.columns())
     if (column.name == "." || column.name.find('/') != std::string::npos)
-      problems.push_back({run.string(), 1, 1,
+      problems.push_back({"record.channel-name"_code, run.string(), 1, 1,
                           fmt::format("HDF5 can have no channel {}", in_quotes(column.name)),
                           "rename it, or convert to csv or mcap"});
 }

@@ -26,7 +26,7 @@ std::optional<scenario::Override> halved_step(const scenario::Scenario& scenario
   const auto& scene = scenario.scene;
   if (scene.step % 2 == 0) return scenario::Override{"scene.step", scenario::format_time(scene.step / 2)};
   problems.push_back(scenario::problem_at(
-      scenario, scene.step_place,
+      "scenario.time-grid"_code, scenario, scene.step_place,
       fmt::format("--verify-step: half of scene.step {} is no whole number of nanoseconds",
                   scenario::format_time(scene.step)),
       "choose an even number of nanoseconds"));

@@ -44,12 +44,13 @@ CsvRow::Cell CsvRows::quoted_cell(CsvRow::Cell cell) {
     cell.text += text_[at_];
   }
   if (at_ == text_.size()) {
-    problems_.add(line, cell.column, "the quote is never closed", run_again);
+    problems_.add("record.damaged"_code, line, cell.column, "the quote is never closed", run_again);
     return cell;
   }
   ++at_;
   const auto end = std::min(text_.find_first_of(",\n", at_), text_.size());
-  if (end != at_) problems_.add(line_, cell.column, "text behind the closing quote", run_again);
+  if (end != at_)
+    problems_.add("record.damaged"_code, line_, cell.column, "text behind the closing quote", run_again);
   at_ = end;
   return cell;
 }
@@ -76,7 +77,8 @@ namespace {
 std::optional<double> number_in(const CsvRow::Cell& cell, int line, cams::TableProblems& problems) {
   const auto number = number_of(cell.text);
   if (!number)
-    problems.add(line, cell.column, fmt::format("{} is not a number", in_quotes(cell.text)), run_again);
+    problems.add("record.damaged"_code, line, cell.column,
+                 fmt::format("{} is not a number", in_quotes(cell.text)), run_again);
   return number;
 }
 
@@ -85,14 +87,15 @@ std::optional<Time> time_of(const CsvRow::Cell& cell, int line, cams::TableProbl
   const auto number = number_in(cell, line, problems);
   if (!number) return {};
   if (*number >= 0 && *number < 1e9) return std::llround(*number * static_cast<double>(second));
-  problems.add(line, cell.column, fmt::format("{} is no time of a run", in_quotes(cell.text)), run_again);
+  problems.add("record.damaged"_code, line, cell.column,
+               fmt::format("{} is no time of a run", in_quotes(cell.text)), run_again);
   return {};
 }
 
 bool has_width(const CsvRow& row, std::size_t width, cams::TableProblems& problems) {
   if (row.cells.size() == width) return true;
-  problems.add(row.line, 1, fmt::format("{}, the header has {}", counted(row.cells.size(), "cell"), width),
-               run_again);
+  problems.add("record.damaged"_code, row.line, 1,
+               fmt::format("{}, the header has {}", counted(row.cells.size(), "cell"), width), run_again);
   return false;
 }
 
@@ -100,7 +103,8 @@ bool has_width(const CsvRow& row, std::size_t width, cams::TableProblems& proble
 void add_column(const CsvRow::Cell& cell, record::Recording& recording, cams::TableProblems& problems) {
   const auto open = cell.text.rfind(" [");
   if (open == std::string::npos || open == 0 || !cell.text.ends_with(']')) {
-    problems.add(1, cell.column, fmt::format("{} is no channel with its unit", in_quotes(cell.text)),
+    problems.add("record.damaged"_code, 1, cell.column,
+                 fmt::format("{} is no channel with its unit", in_quotes(cell.text)),
                  "the header has channel [unit], as drycut run writes it");
     recording.add(cell.text, "");
     return;
@@ -109,7 +113,8 @@ void add_column(const CsvRow::Cell& cell, record::Recording& recording, cams::Ta
   if (unit == "-") unit.clear();
   const auto name = cell.text.substr(0, open);
   if (recording.column(name) != nullptr)
-    problems.add(1, cell.column, fmt::format("channel {} stands twice", in_quotes(name)), run_again);
+    problems.add("record.damaged"_code, 1, cell.column,
+                 fmt::format("channel {} stands twice", in_quotes(name)), run_again);
   recording.add(name, std::move(unit));
 }
 
@@ -149,7 +154,8 @@ void take_values(std::string_view rest, record::RecordedEvent& event) {
 
 bool read_header(CsvRows& rows, CsvRow& row, std::string_view wanted, cams::TableProblems& problems) {
   if (rows.next(row) && row.cells[0].text == "time [s]") return true;
-  problems.add(1, 1, "the header does not begin with time [s]", fmt::format("the first line is {}", wanted));
+  problems.add("record.damaged"_code, 1, 1, "the header does not begin with time [s]",
+               fmt::format("the first line is {}", wanted));
   return false;
 }
 
@@ -168,7 +174,8 @@ record::Recording read_trace(std::string_view text, const std::string& file, Pro
   while (!found.full() && rows.next(row)) {
     if (!has_width(row, width, found)) continue;
     const auto time = time_of(row.cells[0], row.line, found);
-    if (time && *time <= last) found.add(row.line, 1, "the time does not rise", run_again);
+    if (time && *time <= last)
+      found.add("record.damaged"_code, row.line, 1, "the time does not rise", run_again);
     for (std::size_t i = 0; i < numbers.size(); ++i)
       numbers[i] = number_in(row.cells[i + 1], row.line, found).value_or(0);
     last = time.value_or(last);

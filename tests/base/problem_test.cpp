@@ -6,12 +6,12 @@ namespace drycut {
 namespace {
 
 TEST(Problem, IsPrintedWithItsPlaceAndRemedy) {
-  EXPECT_EQ(to_string(Problem{"a.cnf", 3, 7, "unknown type 'Q'", "the type is F"}),
-            "a.cnf:3:7: unknown type 'Q'; the type is F");
+  EXPECT_EQ(to_string(Problem{"cnf.unknown-name"_code, "a.cnf", 3, 7, "unknown type 'Q'", "the type is F"}),
+            "a.cnf:3:7: unknown type 'Q'; the type is F [cnf.unknown-name]");
 }
 
 TEST(Problem, WithoutRemedyHasNoSemicolon) {
-  EXPECT_EQ(to_string(Problem{"a", 1, 1, "empty", ""}), "a:1:1: empty");
+  EXPECT_EQ(to_string(Problem{"cnf.syntax"_code, "a", 1, 1, "empty", ""}), "a:1:1: empty [cnf.syntax]");
 }
 
 TEST(Nearest, FindsSlipsOfTheFinger) {

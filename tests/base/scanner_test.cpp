@@ -71,10 +71,10 @@ TEST(Scanner, TokensHaveTheirPlaces) {
 
 // Bytes of one non-ASCII character are one stranger.
 TEST(Scanner, FaultsAreToldWhereTheyAre) {
-  EXPECT_THAT(
-      problems_in("1 \xC3\xA9\n * 101"),
-      ElementsAre("f:1:3: unexpected character '\\xC3\\xA9'; write +",
-                  "f:2:2: unexpected character '*'; write +", "f:2:4: '101' is out of range; 100 at most"));
+  EXPECT_THAT(problems_in("1 \xC3\xA9\n * 101"),
+              ElementsAre("f:1:3: unexpected character '\\xC3\\xA9'; write + [text.unexpected-character]",
+                          "f:2:2: unexpected character '*'; write + [text.unexpected-character]",
+                          "f:2:4: '101' is out of range; 100 at most [text.number-out-of-range]"));
 }
 
 }  // namespace

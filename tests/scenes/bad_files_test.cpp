@@ -1,5 +1,5 @@
 // Every file in tests/scenes/bad is refused by `drycut check`, each fault at its line and column and nothing
-// else. The faults stand in the file itself, "# expect: LINE:COLUMN: words" (";" in CNF and QCL), or, where a
+// else. The faults stand in the file itself, "# expect: LINE:COLUMN: code" (";" in CNF and QCL), or, where a
 // file can carry no comment, in FILE.expect.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -26,7 +26,7 @@ std::vector<std::string> lines_of(const fs::path& file) {
   return lines;
 }
 
-// "LINE:COLUMN: words" of a file.
+// "LINE:COLUMN: code" of a file.
 std::vector<std::string> expectations(const fs::path& file) {
   const auto sidecar = file.string() + ".expect";
   if (fs::exists(sidecar)) return lines_of(sidecar);
@@ -76,11 +76,11 @@ TEST_P(BadFile, NamesEveryFaultAtItsPlace) {
   for (const auto& line : checked.lines) {
     if (line.starts_with(file.string() + ":")) problems.push_back(line.substr(file.string().size() + 1));
   }
-  // "LINE:COLUMN: " must be the very place; the words may stand anywhere behind it.
+  // "LINE:COLUMN: " must be the very place, and the code the line's end.
   const auto matches = [](const std::string& problem, const std::string& expectation) {
     const auto place = expectation.find(": ") + 2;
     return problem.starts_with(expectation.substr(0, place)) &&
-           problem.find(expectation.substr(place), place) != std::string::npos;
+           problem.ends_with(" [" + expectation.substr(place) + "]");
   };
   for (const auto& expectation : expected) {
     EXPECT_TRUE(std::any_of(problems.begin(), problems.end(),

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/loop/simulation.hpp"
+#include "tests/findings.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim {
@@ -61,7 +62,7 @@ struct LineRun {
     return all;
   }
   [[nodiscard]] bool noted(const std::string& words) const {
-    for (const auto& note : simulation->notes())
+    for (const auto& note : sentences(simulation->notes()))
       if (note.find(words) != std::string::npos) return true;
     return false;
   }

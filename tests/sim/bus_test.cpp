@@ -111,22 +111,23 @@ TEST_F(BusTest, PanelHasSwitchesAndLamps) {
 
 TEST_F(BusTest, CounterToOutputIsRefused) {
   connect({{"2.CNT01", "axis.enable"}});
-  EXPECT_EQ(
-      only_problem(),
-      "line.yaml:1:12: 2.CNT01 is a counter, axis.enable is a command; wire it to one of: axis.encoder");
+  EXPECT_EQ(only_problem(),
+            "line.yaml:1:12: 2.CNT01 is a counter, axis.enable is a command; wire it to one of: axis.encoder "
+            "[wiring.kinds-differ]");
 }
 
 TEST_F(BusTest, TwoDriversAreRefused) {
   connect({{"2.OUT01", "axis.enable"}, {"2.OUT02", "axis.enable"}});
-  EXPECT_EQ(
-      only_problem(),
-      "line.yaml:2:12: 2.OUT01 already drives axis.enable; wire 2.OUT02 elsewhere: a plug has one driver");
+  EXPECT_EQ(only_problem(),
+            "line.yaml:2:12: 2.OUT01 already drives axis.enable; wire 2.OUT02 elsewhere: a plug has one "
+            "driver [wiring.twice]");
 }
 
 TEST_F(BusTest, TerminalTwiceInOtherSpellingIsRefused) {
   connect({{"2.INP01", "axis.index"}, {"2.IN1", "panel.start"}});
-  EXPECT_EQ(only_problem(),
-            "line.yaml:2:3: 2.INP01 is wired already; a terminal takes one wire; remove this one");
+  EXPECT_EQ(
+      only_problem(),
+      "line.yaml:2:3: 2.INP01 is wired already; a terminal takes one wire; remove this one [wiring.twice]");
 }
 
 TEST_F(BusTest, UnknownNamesAreNamedWithTheNearest) {
@@ -136,20 +137,22 @@ TEST_F(BusTest, UnknownNamesAreNamedWithTheNearest) {
            {"2.INP01", "axis.idnex"}});
   ASSERT_EQ(problems.size(), 4U);
   EXPECT_EQ(to_string(problems[0]),
-            "line.yaml:1:3: the configuration uses no 2.CNT09; its counter terminals are: 2.CNT01");
+            "line.yaml:1:3: the configuration uses no 2.CNT09; its counter terminals are: 2.CNT01 "
+            "[wiring.no-terminal]");
   EXPECT_EQ(to_string(problems[1]),
             "line.yaml:2:3: '2.FOO1' is not a terminal of the controller; write slot.CNTnn, slot.INPnn, "
-            "slot.OUTnn, slot.ANnn or INTn");
-  EXPECT_EQ(to_string(problems[2]), "line.yaml:3:12: there is no plant 'axsi'; did you mean axis.encoder?");
+            "slot.OUTnn, slot.ANnn or INTn [wiring.no-terminal]");
+  EXPECT_EQ(to_string(problems[2]),
+            "line.yaml:3:12: there is no plant 'axsi'; did you mean axis.encoder? [wiring.no-plug]");
   EXPECT_EQ(to_string(problems[3]),
-            "line.yaml:4:12: plant 'axis' has no plug 'idnex'; did you mean axis.index?");
+            "line.yaml:4:12: plant 'axis' has no plug 'idnex'; did you mean axis.index? [wiring.no-plug]");
 }
 
 TEST_F(BusTest, SimulatedCounterTakesNoWire) {
   connect({{"1.CNT01", "axis.encoder"}});
   EXPECT_EQ(only_problem(),
             "line.yaml:1:3: 1.CNT01 is a simulated counter of the CPU; nothing is wired to slot 1; wire a "
-            "counter of another slot");
+            "counter of another slot [wiring.no-terminal]");
 }
 
 TEST_F(BusTest, PanelTakesNoCounterAndNoNameTwice) {

@@ -294,8 +294,9 @@ TEST_F(ChecksTest, UnknownNamesAreProblems) {
   add(scenario::CheckRequest::Kind::each, "cut", "lenght > 3");
   Checks bad(scenario, watch, names, events, problems);
   ASSERT_EQ(problems.size(), 2U);
-  EXPECT_EQ(to_string(problems[0]),
-            "line.yaml:3:4: nothing here reports an event 'tearr'; did you mean tear?");
+  EXPECT_EQ(
+      to_string(problems[0]),
+      "line.yaml:3:4: nothing here reports an event 'tearr'; did you mean tear? [scenario.unknown-event]");
   EXPECT_EQ(problems[1].line, 5);
   EXPECT_EQ(problems[1].column, 6);
   EXPECT_THAT(problems[1].remedy, testing::HasSubstr("length"));

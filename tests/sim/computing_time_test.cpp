@@ -8,6 +8,7 @@
 #include "sim/loop/names.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "tests/findings.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -90,7 +91,7 @@ TEST(ComputingTime, AnOverrunIsToldOfTheRun) {
   loop::Simulation simulation(scenario, problems);
   ASSERT_TRUE(problems.empty());
   simulation.run();
-  EXPECT_THAT(simulation.notes(), Contains(HasSubstr(": overrun: due every ")));
+  EXPECT_THAT(sentences(simulation.notes()), Contains(HasSubstr(": overrun: due every ")));
 }
 
 // With room to spare in the cycle the shipped lines do their job all the same.

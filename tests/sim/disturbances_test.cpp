@@ -291,30 +291,30 @@ TEST_P(WrongDisturbances, AreToldWithTheirPlace) {
 INSTANTIATE_TEST_SUITE_P(
     All, WrongDisturbances,
     testing::Values(
-        WrongDisturbance{
-            "unknown_name",
-            [](DisturbancesTest& t) {
-              t.add(scenario::Disturbance::Kind::step, "web.sped", t.quantity(1, "m/s"));
-            },
-            "line.yaml:3:4: nothing called 'web.sped' can be disturbed; did you mean web.speed?"},
-        WrongDisturbance{
-            "unknown_fault",
-            [](DisturbancesTest& t) {
-              t.add(scenario::Disturbance::Kind::step, "web.wheel.slipp", t.quantity(1, "%"));
-            },
-            "line.yaml:3:4: nothing called 'web.wheel.slipp' can be disturbed; did you mean web.wheel.slip?"},
+        WrongDisturbance{"unknown_name",
+                         [](DisturbancesTest& t) {
+                           t.add(scenario::Disturbance::Kind::step, "web.sped", t.quantity(1, "m/s"));
+                         },
+                         "line.yaml:3:4: nothing called 'web.sped' can be disturbed; did you mean web.speed? "
+                         "[timeline.nothing-to-set]"},
+        WrongDisturbance{"unknown_fault",
+                         [](DisturbancesTest& t) {
+                           t.add(scenario::Disturbance::Kind::step, "web.wheel.slipp", t.quantity(1, "%"));
+                         },
+                         "line.yaml:3:4: nothing called 'web.wheel.slipp' can be disturbed; did you mean "
+                         "web.wheel.slip? [timeline.nothing-to-set]"},
         WrongDisturbance{
             "of_the_controller",
             [](DisturbancesTest& t) { t.add(scenario::Disturbance::Kind::step, "slLength", t.quantity(1)); },
             "line.yaml:3:4: nothing called 'slLength' can be disturbed; name a plant's setting, live "
             "parameter "
-            "or component.fault: drycut plants lists them"},
+            "or component.fault: drycut plants lists them [timeline.nothing-to-set]"},
         WrongDisturbance{
             "whole_setting",
             [](DisturbancesTest& t) { t.add(scenario::Disturbance::Kind::step, "web.count", t.quantity(1)); },
             "line.yaml:3:4: web.count takes whole numbers: nothing can be added little by little; set it "
             "in the "
-            "timeline"},
+            "timeline [scenario.not-a-number]"},
         WrongDisturbance{
             "switch_of_a_fault",
             [](DisturbancesTest& t) {
@@ -322,28 +322,29 @@ INSTANTIATE_TEST_SUITE_P(
             },
             "line.yaml:3:4: web.wheel.stuck takes whole numbers: nothing can be added little by little; "
             "set it "
-            "in the timeline"},
-        WrongDisturbance{"wrong_unit",
-                         [](DisturbancesTest& t) {
-                           t.add(scenario::Disturbance::Kind::step, "web.speed", t.quantity(1, "kg"));
-                         },
-                         "line.yaml:7:9: web.speed is a speed, 'kg' is not; give it in m/min"},
+            "in the timeline [scenario.not-a-number]"},
+        WrongDisturbance{
+            "wrong_unit",
+            [](DisturbancesTest& t) {
+              t.add(scenario::Disturbance::Kind::step, "web.speed", t.quantity(1, "kg"));
+            },
+            "line.yaml:7:9: web.speed is a speed, 'kg' is not; give it in m/min [scenario.wrong-unit]"},
         WrongDisturbance{
             "no_unit",
             [](DisturbancesTest& t) { t.add(scenario::Disturbance::Kind::step, "web.speed", t.quantity(1)); },
-            "line.yaml:7:9: web.speed needs a unit; write for example 1 m/min"},
+            "line.yaml:7:9: web.speed needs a unit; write for example 1 m/min [scenario.wrong-unit]"},
         WrongDisturbance{
             "band_above_nyquist",
             [](DisturbancesTest& t) {
               t.add(scenario::Disturbance::Kind::noise, 0.1).band = {5, 5000, {4, 5}};
             },
             "line.yaml:4:5: noise up to 5000 Hz has less than two steps a period; less than 5000 Hz, or a "
-            "shorter scene.step"},
+            "shorter scene.step [scenario.time-grid]"},
         WrongDisturbance{
             "sine_above_nyquist",
             [](DisturbancesTest& t) { t.add(scenario::Disturbance::Kind::sine, 0.1).frequency = 6000; },
             "line.yaml:3:4: a sine of 6000 Hz has less than two steps a period; less than 5000 Hz, or a "
-            "shorter scene.step"}),
+            "shorter scene.step [scenario.time-grid]"}),
     [](const auto& info) { return info.param.name; });
 
 }  // namespace

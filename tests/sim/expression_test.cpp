@@ -326,8 +326,10 @@ TEST(Expression, FaultsOfAScenarioStandAtTheirPlaceInTheFile) {
   EXPECT_FALSE(Expression::compile(text, scenario, resolve, {"length"}, problems));
   EXPECT_FALSE(Expression::compile(overridden, scenario, resolve, {"length"}, problems));
   ASSERT_EQ(problems.size(), 2U);
-  EXPECT_EQ(to_string(problems[0]), "line.yaml:7:29: unknown name 'y'; known: length");
-  EXPECT_EQ(to_string(problems[1]), "--set checks.0.expect:1:10: unknown name 'y'; known: length");
+  EXPECT_EQ(to_string(problems[0]),
+            "line.yaml:7:29: unknown name 'y'; known: length [expression.unknown-name]");
+  EXPECT_EQ(to_string(problems[1]),
+            "--set checks.0.expect:1:10: unknown name 'y'; known: length [expression.unknown-name]");
 }
 
 TEST(Expression, NoTextCrashesIt) {

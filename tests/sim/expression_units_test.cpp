@@ -37,7 +37,7 @@ Compiled compile(const std::string& text, const Machine& names = machine) {
   Compiled made;
   made.expression =
       Expression::compile(text, resolve, {"x", "y"}, faults, Expression::Kind::condition, resolve);
-  for (const auto& [offset, what, remedy, of] : faults)
+  for (const auto& [code, offset, what, remedy, of] : faults)
     made.faults += (made.faults.empty() ? "" : " | ") + std::to_string(offset) + ": " + what + "; " + remedy;
   return made;
 }

@@ -129,7 +129,8 @@ TEST_F(Files, WhatIsNoTextIsRefusedInAnyKindOfFileWithItsPlace) {
     folder.file(name, std::string("\xFF\xFEx\0\0\xD8", 6));  // ends in half a character
     EXPECT_EQ(check({file}), cli::bad_input) << name;
     EXPECT_THAT(err,
-                HasSubstr(file.string() + ":1:1: this is broken UTF-16; save it as plain text in UTF-8\n"));
+                HasSubstr(file.string() +
+                          ":1:1: this is broken UTF-16; save it as plain text in UTF-8 [file.not-text]\n"));
   }
 }
 

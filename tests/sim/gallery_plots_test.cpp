@@ -9,6 +9,7 @@
 #include "sim/loop/watch.hpp"
 #include "sim/report/drives.hpp"
 #include "sim/report/gallery.hpp"
+#include "tests/findings.hpp"
 #include "tests/sim/fakes.hpp"
 #include "tests/sim/scenario/fake_plants.hpp"
 
@@ -306,19 +307,19 @@ TEST(PicturesBinding, WhatTheMachineDoesNotHave) {
   const auto plot = [](const std::string& text) {
     return binding_problems("pictures: {plots: [{name: a, " + text + "}]}\n");
   };
-  EXPECT_THAT(
-      plot("panels: [{lanes: [w.speed, w.pieces]}]"),
-      ElementsAre(
-          "line.yaml:3:48: w.speed is a quantity in m/min, not a state; show it in a panel of channels"));
+  EXPECT_THAT(plot("panels: [{lanes: [w.speed, w.pieces]}]"),
+              ElementsAre("line.yaml:3:48: w.speed is a quantity in m/min, not a state; show it in a panel "
+                          "of channels [scenario.wrong-kind]"));
   EXPECT_THAT(plot("panels: [{lanes: [w.sped]}]"),
               ElementsAre(HasSubstr("3:48: there is no channel 'w.sped'; did you mean w.speed?")));
   EXPECT_THAT(plot("marks: [fault, timeline.power, error, faul], panels: [{channels: [w.speed]}]"),
-              ElementsAre("line.yaml:3:68: nothing here reports an event 'faul'; did you mean fault?"));
+              ElementsAre("line.yaml:3:68: nothing here reports an event 'faul'; did you mean fault? "
+                          "[scenario.unknown-event]"));
   EXPECT_THAT(
       plot("panels: [{motor: w}]"),
       ElementsAre(
           "line.yaml:3:47: 'w' is no plant with a drive that has ratings; name a plant with parameters "
-          "servo.rated_torque, servo.peak_torque, ..."));
+          "servo.rated_torque, servo.peak_torque, ... [scenario.unknown-name]"));
   EXPECT_THAT(plot("panels: [{motor: x}]"), ElementsAre(HasSubstr("'x' is no plant with a drive")));
   EXPECT_THAT(plot("panels: [{event: ct, values: [length]}]"),
               ElementsAre(HasSubstr("nothing here reports an event 'ct'")));
@@ -326,8 +327,9 @@ TEST(PicturesBinding, WhatTheMachineDoesNotHave) {
               ElementsAre(HasSubstr("3:30: nothing here reports an event 'ct'")));
   EXPECT_THAT(
       binding_problems("pictures: {frames: {every: 2 ms, slow: 30}}\n"),
-      ElementsAre("line.yaml:3:40: pictures.frames: a frame every 2000000 ns / 30 is not a whole multiple "
-                  "of the step of 100000 ns; choose every = slow x a multiple of the step"));
+      ElementsAre(
+          "line.yaml:3:40: pictures.frames: a frame every 2000000 ns / 30 is not a whole multiple "
+          "of the step of 100000 ns; choose every = slow x a multiple of the step [scenario.time-grid]"));
   EXPECT_THAT(binding_problems("pictures: {frames: {every: 2 ms, slow: 20, around: fault}}\n"), IsEmpty());
 }
 
@@ -341,7 +343,7 @@ TEST(PicturesBinding, FramesAboutAnEventThatNeverComesAreNoted) {
   ASSERT_TRUE(problems.empty()) << to_string(problems.front());
   simulation.run();
   EXPECT_TRUE(simulation.snapshots().empty());
-  EXPECT_THAT(simulation.notes(), ElementsAre("no frames: fault[2] did not happen; 1 did"));
+  EXPECT_THAT(codes(simulation.notes()), ElementsAre("pictures.event-missing"));
 }
 
 }  // namespace

@@ -99,7 +99,8 @@ TEST_F(FiltersTest, ACounterLosesWhatIsBeyondItsFrequency) {
   for (int i = 0; i < 1000; ++i) move(0);
   EXPECT_EQ(move(41), 90);
   EXPECT_EQ(losses().size(), 1U);
-  EXPECT_THAT(bus.lost(), ElementsAre("2.CNT01 lost 46 counts beyond 100000 Hz of one phase"));
+  EXPECT_THAT(record::texts_of(bus.lost()),
+              ElementsAre("2.CNT01 lost 46 counts beyond 100000 Hz of one phase"));
 }
 
 TEST_F(FiltersTest, AnInterruptLatchesWhatTheCardHasCounted) {
@@ -127,7 +128,7 @@ TEST_F(FiltersTest, AShortZeroPulseIsNotSeen) {
   EXPECT_EQ(controller.interrupts.size(), 4U);
   pulse(1e-6);
   EXPECT_EQ(losses().size(), 1U);
-  EXPECT_THAT(bus.lost(), ElementsAre("INT1 lost 3 zero pulses shorter than 20 us"));
+  EXPECT_THAT(record::texts_of(bus.lost()), ElementsAre("INT1 lost 3 zero pulses shorter than 20 us"));
   plant.index.add_edge(true, 0.1);  // of unknown width, from a bench that stands
   plant.index.add_edge(false, 0.1);
   bus.plants_to_inputs();
@@ -175,17 +176,18 @@ INSTANTIATE_TEST_SUITE_P(
         WrongFilter{
             "frequency_of_an_input", [](FiltersTest& t) { t.filter("2.INP01").frequency = 1e5; },
             "line.yaml:5:3: 2.INP01 is a digital input and has no such filter; a counter has a frequency, "
-            "an interrupt line a pulse, a digital input a delay"},
+            "an interrupt line a pulse, a digital input a delay [wiring.kinds-differ]"},
         WrongFilter{
             "delay_of_a_counter", [](FiltersTest& t) { t.filter("2.CNT01").delay = millisecond; },
             "line.yaml:5:3: 2.CNT01 is a counter and has no such filter; a counter has a frequency, an "
-            "interrupt line a pulse, a digital input a delay"},
+            "interrupt line a pulse, a digital input a delay [wiring.kinds-differ]"},
         WrongFilter{
             "pulse_of_an_output", [](FiltersTest& t) { t.filter("2.OUT01").pulse = millisecond; },
             "line.yaml:5:3: 2.OUT01 is a digital output and has no such filter; a counter has a frequency, "
-            "an interrupt line a pulse, a digital input a delay"},
+            "an interrupt line a pulse, a digital input a delay [wiring.kinds-differ]"},
         WrongFilter{"no_terminal", [](FiltersTest& t) { t.filter("9.CNT01").frequency = 1e5; },
-                    "line.yaml:5:3: the configuration uses no 9.CNT01; its counter terminals are: 2.CNT01"},
+                    "line.yaml:5:3: the configuration uses no 9.CNT01; its counter terminals are: 2.CNT01 "
+                    "[wiring.no-terminal]"},
         WrongFilter{
             "no_wire",
             [](FiltersTest& t) {
@@ -194,14 +196,14 @@ INSTANTIATE_TEST_SUITE_P(
             },
             "line.yaml:5:3: no signal of a plant comes to INT1: there is nothing to filter; wire it, or "
             "leave "
-            "the filter out"},
+            "the filter out [wiring.nothing-to-filter]"},
         WrongFilter{"no_zero_pulses",
                     [](FiltersTest& t) {
                       t.filter("INT1").pulse = millisecond;
                       t.scenario.wiring.back().plug.text = "axis.switch";
                     },
                     "line.yaml:5:3: axis.switch gives no zero pulses; a least width is for an index: "
-                    "knife.encoder.index"}),
+                    "knife.encoder.index [wiring.kinds-differ]"}),
     [](const auto& info) { return info.param.name; });
 
 }  // namespace

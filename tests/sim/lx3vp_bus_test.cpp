@@ -106,16 +106,19 @@ TEST_F(Lx3vpBus, WhatDoesNotFitIsTold) {
       ElementsAre(
           std::string("line.yaml:1:3: '2.CNT01") + terminals, std::string("line.yaml:2:3: 'X8") + terminals,
           std::string("line.yaml:3:3: 'C199") + terminals,
-          "line.yaml:4:12: C251 is a counter, axis.enable is a command; wire it to one of: axis.encoder",
-          "line.yaml:5:12: Y5 gives no pulses, axis.pulses is a pulse train; wire it to Y0, Y1, Y2 or Y3",
+          "line.yaml:4:12: C251 is a counter, axis.enable is a command; wire it to one of: axis.encoder "
+          "[wiring.kinds-differ]",
+          "line.yaml:5:12: Y5 gives no pulses, axis.pulses is a pulse train; wire it to Y0, Y1, Y2 or Y3 "
+          "[wiring.kinds-differ]",
           "line.yaml:6:12: Y2 is a digital output, axis.encoder is an encoder; wire it to one of: "
-          "axis.enable",
+          "axis.enable [wiring.kinds-differ]",
           "line.yaml:7:12: Y7 gives no pulses that C235 could count; wire an encoder to it, or a pulse "
-          "output of the controller",
+          "output of the controller [wiring.kinds-differ]",
           std::string("line.yaml:8:3: 'INT1") + terminals,
-          "line.yaml:10:12: Y0 already drives axis.pulses; wire Y1 elsewhere: a plug has one driver",
+          "line.yaml:10:12: Y0 already drives axis.pulses; wire Y1 elsewhere: a plug has one driver "
+          "[wiring.twice]",
           "line.yaml:11:12: X10 is a digital input, axis.pulses is a pulse train; wire it to one of: "
-          "axis.index"));
+          "axis.index [wiring.kinds-differ]"));
 }
 
 }  // namespace

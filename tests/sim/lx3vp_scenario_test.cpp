@@ -7,6 +7,7 @@
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "tests/findings.hpp"
 #include "tests/sim/scenario/folder.hpp"
 
 namespace drycut::sim::loop {
@@ -68,9 +69,10 @@ TEST_F(Lx3vpScenario, RunsAgainstTheBench) {
   const auto value = [&](const char* name) { return simulation.names().reading(name)->read(); };
   EXPECT_EQ(value("C251"), 1000);
   EXPECT_EQ(value("DD8140"), 500);
-  EXPECT_THAT(simulation.warnings(), ElementsAre("X2 is read by the program, and nothing is wired to it",
-                                                 "Y4 is worked by the program, and nothing is wired to it"));
-  EXPECT_EQ(outcome.warnings, simulation.warnings());
+  EXPECT_THAT(sentences(simulation.warnings()),
+              ElementsAre("X2 is read by the program, and nothing is wired to it",
+                          "Y4 is worked by the program, and nothing is wired to it"));
+  EXPECT_EQ(codes(outcome.warnings()), codes(simulation.warnings()));
   std::vector<std::string> names;
   for (const auto& reading : simulation.controller_values()) names.push_back(reading.name);
   EXPECT_THAT(names, Contains("DD2025"));
@@ -85,7 +87,7 @@ controller:
 )");
   const Simulation simulation(scenario, problems);
   EXPECT_THAT(told(), IsEmpty());
-  EXPECT_THAT(simulation.notes_of_setup(),
+  EXPECT_THAT(sentences(simulation.notes_of_setup()),
               ElementsAre(HasSubstr("saw.csv:3:1: DD2006 = 200000, and the program's first scan makes it 7"),
                           HasSubstr("line.yaml:3:66: D100 = 5, and the program's first scan makes it 400")));
 }
@@ -118,7 +120,7 @@ TEST_F(Lx3vpScenario, EveryFaultOfAllFilesIsTold) {
   const auto texts = told();
   EXPECT_THAT(texts, Contains(HasSubstr("saw.il:2:")));
   EXPECT_THAT(texts, Contains(HasSubstr("saw.il:3:1: ")));
-  EXPECT_THAT(texts, Contains("saw.csv:2:4: 'x' is no number; write 5, -5, K5, H1F or 1.5"));
+  EXPECT_THAT(texts, Contains("saw.csv:2:4: 'x' is no number; write 5, -5, K5, H1F or 1.5 [study.argument]"));
 }
 
 TEST_F(Lx3vpScenario, PresetsAreChecked) {
@@ -130,14 +132,15 @@ TEST_F(Lx3vpScenario, PresetsAreChecked) {
   EXPECT_THAT(
       told(),
       ElementsAre(
-          "line.yaml:6:7: D1 does not hold 70000; write -32768 to 65535, or D1:L",
-          "line.yaml:7:7: D2 holds whole numbers, not 1.5; write D2:F for a float",
+          "line.yaml:6:7: D1 does not hold 70000; write -32768 to 65535, or D1:L [controller.value-range]",
+          "line.yaml:7:7: D2 holds whole numbers, not 1.5; write D2:F for a float [controller.value-range]",
           "line.yaml:8:7: the controller has nothing called 'Q7'; name a register: D10, DD10 (32 bit), FD10 "
-          "(float), D10.A, M0, S0, T0 or C0",
+          "(float), D10.A, M0, S0, T0 or C0 [controller.unknown-name]",
           "line.yaml:9:7: 'X2' can only be read; name a register: D10, DD10 (32 bit), FD10 (float), D10.A, "
-          "M0, S0, T0 or C0",
-          "line.yaml:10:7: M0 does not hold 3; write 0 to 1",
-          "line.yaml:11:7: DD4 holds whole numbers, not 1.5; write D4:F for a float"));
+          "M0, S0, T0 or C0 [controller.unknown-name]",
+          "line.yaml:10:7: M0 does not hold 3; write 0 to 1 [controller.value-range]",
+          "line.yaml:11:7: DD4 holds whole numbers, not 1.5; write D4:F for a float "
+          "[controller.value-range]"));
 }
 
 TEST_F(Lx3vpScenario, MissingFilesAreToldAtTheirPlace) {
@@ -158,7 +161,7 @@ TEST_F(Lx3vpScenario, TheStepDividesTheTick) {
   Simulation simulation(scenario, problems);
   EXPECT_THAT(told(),
               Contains("line.yaml:1:15: E-CAM tick of 100000 ns is not a whole multiple of the step of "
-                       "200000 ns; choose a step that divides it"));
+                       "200000 ns; choose a step that divides it [scenario.time-grid]"));
 }
 
 TEST_F(Lx3vpScenario, ErrorsOfTheCamFailTheRun) {
@@ -170,7 +173,7 @@ TEST_F(Lx3vpScenario, ErrorsOfTheCamFailTheRun) {
   EXPECT_FALSE(outcome.passed());
   EXPECT_THAT(outcome.checks.back().name, HasSubstr("program"));
   EXPECT_FALSE(outcome.checks.back().passed);
-  EXPECT_THAT(simulation.notes(),
+  EXPECT_THAT(sentences(simulation.notes()),
               Contains(HasSubstr("saw.il:3: 6781: word 23 (D2023), a term of a ratio, is 0")));
 }
 
@@ -181,7 +184,7 @@ TEST_F(Lx3vpScenario, NoPlantIsCalledAsARegisterIs) {
   const Simulation simulation(scenario, problems);
   EXPECT_THAT(told(),
               ElementsAre("line.yaml:2:10: plants.D300: the controller has D300 too; give the plant a name "
-                          "of its own, or another spelling: knife and Knife"));
+                          "of its own, or another spelling: knife and Knife [controller.twice]"));
 }
 
 TEST_F(Lx3vpScenario, TheRetentiveFileMustBeWritableAtTheEnd) {
@@ -196,8 +199,8 @@ TEST_F(Lx3vpScenario, TheRetentiveFileMustBeWritableAtTheEnd) {
     return told();
   };
   EXPECT_THAT(refused("none/kept.txt"),
-              ElementsAre(testing::MatchesRegex(
-                  "line.yaml:3:50: there is no directory .*/none; make it first, or name another file")));
+              ElementsAre(testing::MatchesRegex("line.yaml:3:50: there is no directory .*/none; make it "
+                                                "first, or name another file [file.not-writable]")));
   std::filesystem::create_directories(folder / "deep");
   EXPECT_THAT(refused("deep"),
               ElementsAre(testing::MatchesRegex("line.yaml:3:50: .*/deep cannot be written at the end of the "
@@ -212,7 +215,7 @@ TEST_F(Lx3vpScenario, InitialValuesOfABlockAreANote) {
   ASSERT_THAT(told(), IsEmpty());
   EXPECT_TRUE(simulation.run().passed());
   EXPECT_THAT(
-      simulation.notes(),
+      sentences(simulation.notes()),
       Contains(HasSubstr("saw.il:3: the block D2000 has the initial values of its words that nothing has "
                          "written: D2006 200000, D2023 1, D2024 1, D2029 1, D2030 1, D2039 40")));
 }

@@ -83,7 +83,7 @@ TEST_F(OutputFolders, WhatStandsUnderItsNamesAndIsNotItsOwnIsRefusedAndLeft) {
   open();
   EXPECT_EQ(told(),
             "--out:1:1: in out stands what no earlier test wrote: a.csv, plots/deep/b.png; name another "
-            "folder, or move it away\n");
+            "folder, or move it away [file.not-ours]\n");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / "out"), {}), 2) << "nothing else was made";
 }
 
@@ -118,7 +118,8 @@ TEST_F(OutputFolders, OneHasItAtATime) {
   EXPECT_THAT(told(), IsEmpty());
   open();
   EXPECT_EQ(told(),
-            "--out:1:1: another drycut is writing into out; let it end first, or name another folder\n");
+            "--out:1:1: another drycut is writing into out; let it end first, or name another folder "
+            "[file.in-use]\n");
 }
 
 TEST_F(OutputFolders, WhatAKilledCommandBeganGoesToo) {

@@ -9,6 +9,7 @@
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "tests/findings.hpp"
 #include "tests/sim/scenario/folder.hpp"
 
 namespace drycut::sim::loop {
@@ -191,44 +192,48 @@ TEST_F(PlcopenScenario, FaultsOfTheAxesAreToldAllAtOnce) {
       told(),
       ElementsAre(
           "line.yaml:6:19: controller.plcopen.axes.Web.kind: unknown choice 'servo'; known: drive, virtual, "
-          "encoder",
+          "encoder [scenario.unknown-choice]",
           "line.yaml:6:32: controller.plcopen.axes.Web.path is not a way and its counts; write [500 mm, "
           "10000]: the "
-          "way of so many counts (x4) of the encoder",
+          "way of so many counts (x4) of the encoder [controller.axis-value]",
           "line.yaml:6:75: controller.plcopen.axes.Web.dynamik.vb_max is a rotational speed, but modulo is a "
           "length; "
-          "an axis measures lengths or angles: give all its quantities in one of them",
-          "line.yaml:7:7: axis web is Web already: names are the same in any case; keep one",
+          "an axis measures lengths or angles: give all its quantities in one of them "
+          "[controller.axis-value]",
+          "line.yaml:7:7: axis web is Web already: names are the same in any case; keep one "
+          "[controller.twice]",
           "line.yaml:8:7: '2x' is no name of an axis; letters, digits and underscores, as the program's "
           "VAR_EXTERNAL "
-          "spells it",
+          "spells it [controller.bad-name]",
           "line.yaml:10:9: unknown key 'v_phasing' in controller.plcopen.axes.Knife; did you mean "
-          "cam_gear.v_phasing?",
-          "line.yaml:11:9: unknown key 'kw' in controller.plcopen.axes.Knife; did you mean kv?",
+          "cam_gear.v_phasing? [scenario.unknown-key]",
+          "line.yaml:11:9: unknown key 'kw' in controller.plcopen.axes.Knife; did you mean kv? "
+          "[scenario.unknown-key]",
           "line.yaml:12:27: controller.plcopen.axes.Knife.dynamik.vb_max is 0 mm/s, out of range; 0.001 mm/s "
           "to "
-          "2147483.647 mm/s",
+          "2147483.647 mm/s [controller.axis-value]",
           "line.yaml:12:45: controller.plcopen.axes.Knife.dynamik.tr_min is a time, not a length (mm); for "
           "example 1 "
-          "us",
+          "us [controller.axis-value]",
           "line.yaml:12:49: unknown key 'a_mx' in controller.plcopen.axes.Knife.dynamik; did you mean "
-          "dynamik.a_max?",
+          "dynamik.a_max? [scenario.unknown-key]",
           "line.yaml:13:9: controller.plcopen.axes.Knife.dynamik.vb_max is given twice; keep one; the first "
           "is at "
-          "line 12",
+          "line 12 [cam.twice]",
           "line.yaml:14:33: controller.plcopen.axes.Knife.cam_gear.filter_cycles is 1.5, not a whole number "
           "of "
-          "cycles; 1 to 1000",
+          "cycles; 1 to 1000 [controller.axis-value]",
           "line.yaml:15:29: controller.plcopen.axes.Knife.cam_gear.is_master: 'yes' is not a switch "
           "position; write "
-          "on or off (or true, false)",
-          "line.yaml:16:9: controller.plcopen.axes.Knife.kv has no value; give it one, or leave the key out",
+          "on or off (or true, false) [scenario.unknown-choice]",
+          "line.yaml:16:9: controller.plcopen.axes.Knife.kv has no value; give it one, or leave the key out "
+          "[cam.missing]",
           "line.yaml:17:25: controller.plcopen.axes.Knife.path_counts is a pure number, not a length (mm); "
           "write a "
-          "number without unit",
+          "number without unit [controller.axis-value]",
           "line.yaml:18:17: controller.plcopen.axes.Knife.modulo is 0.00001 mm, not a whole number of 0.1 "
           "um, 0.0001 "
-          "deg; 0 mm to 214748.3647 mm",
+          "deg; 0 mm to 214748.3647 mm [controller.axis-value]",
           HasSubstr("line.yaml:19:14: controller.plcopen.axes.Other")));
 }
 
@@ -240,13 +245,15 @@ TEST_F(PlcopenScenario, FaultsOfTheSectionAreToldAllAtOnce) {
       told(),
       ElementsAre(
           "line.yaml:4:12: controller.plcopen.cycle 700 us is not a whole multiple of scene.step 500 "
-          "us; for example 500 us or 1 ms",
+          "us; for example 500 us or 1 ms [scenario.time-grid]",
           "line.yaml:5:5: controller.plcopen.task_cycle 1 ms is not a whole multiple of the cycle 700 "
-          "us; for example 700 us",
-          "line.yaml:6:14: controller.plcopen.tables.0.file is missing; add file: cams/knife.tab",
+          "us; for example 700 us [scenario.time-grid]",
+          "line.yaml:6:14: controller.plcopen.tables.0.file is missing; add file: cams/knife.tab "
+          "[plant.motor-incomplete]",
           HasSubstr("line.yaml:6:19: controller.plcopen.tables.0.id is 70000, out of range"),
           HasSubstr("unknown key 'name' in controller.plcopen.tables.x"),
-          "line.yaml:7:5: unknown key 'programm' in controller.plcopen; did you mean program?"));
+          "line.yaml:7:5: unknown key 'programm' in controller.plcopen; did you mean program? "
+          "[scenario.unknown-key]"));
 }
 
 TEST_F(PlcopenScenario, WrittenBackItIsTheSame) {
@@ -292,7 +299,7 @@ TEST_F(PlcopenScenario, WhatTheProgramNamesMustBeThere) {
   EXPECT_THAT(
       build(with("    program: line.st\n    axes: {Line: {kind: virtual}, Knive: {}}\n    tables: []\n")),
       ElementsAre("line.st:2:31: the scenario has no axis 'Knife'; did you mean Knive? Else add it to "
-                  "controller.plcopen.axes",
+                  "controller.plcopen.axes [controller.unknown-name]",
                   HasSubstr("the scenario has no cam table 'cam.csv'; add it to controller.plcopen.tables")));
 }
 
@@ -339,10 +346,11 @@ TEST_F(PlcopenScenario, TablesAreReadAndHaveNamesAndIdsOfTheirOwn) {
                "    tables: [cam.csv, b.csv, {file: other/cam.csv, id: 7}, cam.txt, gone.tab, wrong.tab]\n")),
       testing::AllOf(
           Contains("line.yaml:6:23: b.csv has id 1, as cam.csv has; give one an id of its own: {file: b.csv, "
-                   "id: 2}"),
-          Contains("line.yaml:6:37: two tables are called cam.csv; programs find them by name: rename one"),
+                   "id: 2} [controller.twice]"),
+          Contains("line.yaml:6:37: two tables are called cam.csv; programs find them by name: rename one "
+                   "[controller.twice]"),
           Contains("line.yaml:6:60: 'cam.txt' is no kind of cam table that is known; give a table of the "
-                   "kernel (.tab) or a cam as CSV (.csv)"),
+                   "kernel (.tab) or a cam as CSV (.csv) [controller.cam-kind]"),
           Contains(HasSubstr("line.yaml:6:69: ")), Contains(HasSubstr("wrong.tab:"))));
 }
 
@@ -379,9 +387,10 @@ TEST_F(PlcopenScenario, ValuesBeforePowerUpAreChecked) {
           "50}\n")),
       ElementsAre(
           HasSubstr("line.yaml:7:11: Knife.kv does not hold 1000000000; write 0 to 100000 0.01/s"),
-          "line.yaml:7:26: the controller has nothing called 'spede'; did you mean speed?",
+          "line.yaml:7:26: the controller has nothing called 'spede'; did you mean speed? "
+          "[controller.unknown-name]",
           "line.yaml:7:36: 'CamIn.InSync' can only be read; name a variable of the program, or a value "
-          "or parameter of an axis (drycut devices AXIS)",
+          "or parameter of an axis (drycut devices AXIS) [controller.unknown-name]",
           HasSubstr("line.yaml:7:53: 'Knife.state' can only be read")));
 }
 
@@ -408,7 +417,7 @@ TEST_F(PlcopenScenario, WhatADriveNeedsAndNothingIsWiredToIsAWarning) {
   const auto scenario = read(text);
   Simulation simulation(scenario, problems);
   ASSERT_THAT(told(), IsEmpty());
-  EXPECT_THAT(simulation.warnings(),
+  EXPECT_THAT(sentences(simulation.warnings()),
               ElementsAre("Knife.encoder is counted, and nothing is wired to it",
                           "Knife.reference gives a reference, and nothing is wired to it"));
 }
@@ -425,7 +434,7 @@ TEST_F(PlcopenScenario, ASlaveThatWouldCreepToItsCamIsNoted) {
     EXPECT_THAT(simulation.notes(), testing::IsSupersetOf(simulation.notes_of_setup()));
     const auto again = read(scenario::expand(scenario));
     EXPECT_EQ(Simulation(again, problems).notes(), simulation.notes()) << "as it is written back";
-    return simulation.notes_of_setup();
+    return sentences(simulation.notes_of_setup());
   };
   const std::string told_of =
       ".cam_gear.v_phasing is at its default, 0.001 deg/s: MC_CamIn will hardly reach its cam; give "
@@ -499,8 +508,8 @@ TEST_F(PlcopenScenario, RetainVariablesComeFromTheirFile) {
   EXPECT_EQ(controller->find("starts")->read(), 12);
   write("kept.txt", "stars = 12\n");
   load_controller(scenario, problems);
-  EXPECT_THAT(told(),
-              ElementsAre("kept.txt:1:1: the program has no RETAIN variable 'stars'; remove the line"));
+  EXPECT_THAT(told(), ElementsAre("kept.txt:1:1: the program has no RETAIN variable 'stars'; remove the line "
+                                  "[controller.unknown-retained]"));
 }
 
 struct PlcopenModbus : PlcopenScenario {

@@ -162,7 +162,7 @@ TEST_F(RecorderTest, AFileThatIsNotFinishedIsNeverThere) {
 
 TEST_F(RecorderTest, ReadFileSaysWhatIsWrong) {
   Problems problems;
-  EXPECT_FALSE(read_file(folder / "none.cnf", problems, {"line.yaml", 4, 7, "", ""}));
+  EXPECT_FALSE(read_file(folder / "none.cnf", problems, {"line.yaml", 4, 7}));
   EXPECT_FALSE(read_file(folder, problems));
   ASSERT_EQ(problems.size(), 2U);
   EXPECT_EQ(problems[0].file, "line.yaml");

@@ -9,6 +9,7 @@
 
 #include "sim/loop/simulation.hpp"
 #include "sim/report/film.hpp"
+#include "tests/findings.hpp"
 
 namespace drycut::sim::loop {
 namespace {
@@ -76,12 +77,12 @@ struct Line {
 TEST(Strobe, NoteAndCaptionSaySoWhereItHappensAndNowhereElse) {
   // Pieces of 800 mm at 1 m/s from a drum of one blade: 0.8 s a turn, faster around the cut.
   Line slow("200 ms");
-  EXPECT_THAT(slow.simulation->notes(), Not(Contains(HasSubstr("stroboscopic"))));
+  EXPECT_THAT(codes(slow.simulation->notes()), Not(Contains("pictures.strobe")));
   for (const auto& frame : report::film_of(slow.scenario, *slow.simulation).frames)
     for (const auto& item : frame.caption) EXPECT_NE(item.label, "strobe effect");
 
   Line fast("400 ms", "2.2 s");
-  const auto notes = fast.simulation->notes();
+  const auto notes = sentences(fast.simulation->notes());
   const auto film = report::film_of(fast.scenario, *fast.simulation);
   const auto worst = worst_strobe(fast.simulation->strobes());
   ASSERT_TRUE(worst);

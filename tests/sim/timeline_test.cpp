@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "sim/loop/bus.hpp"
+#include "tests/findings.hpp"
 #include "tests/sim/fakes.hpp"
 
 namespace drycut::sim::loop {
@@ -112,7 +113,8 @@ TEST_F(TimelineTest, ConditionsHaveNumbersWithUnits) {
   make();
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(to_string(problems[0]),
-            "line.yaml:3:21: '1.5 N' is a force, but 'web.speed' is a speed; write it in m/min");
+            "line.yaml:3:21: '1.5 N' is a force, but 'web.speed' is a speed; write it in m/min "
+            "[controller.axis-value]");
 }
 
 TEST_F(TimelineTest, WhatNeverHappensIsTold) {
@@ -130,7 +132,7 @@ TEST_F(TimelineTest, WhatNeverHappensIsTold) {
   ASSERT_TRUE(problems.empty());
   run(timeline, 0, 10 * millisecond);
   EXPECT_THAT(
-      timeline.left_undone(10 * millisecond),
+      sentences(timeline.left_undone(10 * millisecond)),
       testing::ElementsAre("the timeline's entry of line 10 never happened: it is due at 0.05 s, the "
                            "run ended at 0.01 s",
                            "the timeline's entry of line 11 never happened: it is due at 0.023 s, the "
@@ -168,17 +170,21 @@ TEST_F(TimelineTest, NothingIsSetBeyondItsRange) {
   make();
   std::vector<std::string> all;
   for (const auto& problem : problems) all.push_back(to_string(problem));
-  EXPECT_THAT(all, testing::ElementsAre(
-                       "line.yaml:1:20: web.speed does not hold -100000; write 0 to 300 m/min",
-                       "line.yaml:3:20: web.speed does not hold 300.06; write 0 to 300 m/min",
-                       "line.yaml:4:20: slLength holds whole numbers, not 2.7; write a whole number",
-                       "line.yaml:5:20: slLength does not hold 5000000000; write -2147483648 to 2147483647",
-                       "line.yaml:6:20: panel.start does not hold 70000; write 0 to 1",
-                       "line.yaml:7:20: web.speed does not hold 1e+308; write 0 to 300 m/min",
-                       "line.yaml:8:20: web.encoder.lose_counts does not hold 1e+308; write -2147483648 to "
-                       "2147483647",
-                       "line.yaml:9:20: web.encoder.lose_counts holds whole numbers, not 0.5; write a whole "
-                       "number"));
+  EXPECT_THAT(
+      all,
+      testing::ElementsAre(
+          "line.yaml:1:20: web.speed does not hold -100000; write 0 to 300 m/min [controller.value-range]",
+          "line.yaml:3:20: web.speed does not hold 300.06; write 0 to 300 m/min [controller.value-range]",
+          "line.yaml:4:20: slLength holds whole numbers, not 2.7; write a whole number "
+          "[controller.value-range]",
+          "line.yaml:5:20: slLength does not hold 5000000000; write -2147483648 to 2147483647 "
+          "[controller.value-range]",
+          "line.yaml:6:20: panel.start does not hold 70000; write 0 to 1 [controller.value-range]",
+          "line.yaml:7:20: web.speed does not hold 1e+308; write 0 to 300 m/min [controller.value-range]",
+          "line.yaml:8:20: web.encoder.lose_counts does not hold 1e+308; write -2147483648 to "
+          "2147483647 [controller.value-range]",
+          "line.yaml:9:20: web.encoder.lose_counts holds whole numbers, not 0.5; write a whole "
+          "number [controller.value-range]"));
 }
 
 TEST_F(TimelineTest, SaysWhatDoesNotFit) {
@@ -191,18 +197,22 @@ TEST_F(TimelineTest, SaysWhatDoesNotFit) {
   make();
   std::vector<std::string> all;
   for (const auto& problem : problems) all.push_back(to_string(problem));
-  EXPECT_THAT(
-      all,
-      testing::ElementsAre(
-          "line.yaml:1:5: nothing called 'web.sped' can be set; did you mean web.speed?",
-          "line.yaml:7:9: web.speed needs a unit; write for example 1 m/min",
-          "line.yaml:7:9: web.speed is a speed, 'kg' is not; give it in m/min",
-          "line.yaml:7:9: slLength takes a plain number, not 'mm'; write the number of Um without the unit",
-          "line.yaml:7:9: panel.start takes a plain number, not 'mm'; leave the unit away",
-          "line.yaml:5:5: nothing called 'panel.stop' can be set; wire an input to panel.stop first; "
-          "switches: panel.start",
-          "line.yaml:6:20: web.encoder offers no fault 'explode'; web.encoder offers: lose_counts",
-          "line.yaml:8:20: web.motor offers no fault 'stuck'; components with faults: web.encoder"));
+  EXPECT_THAT(all,
+              testing::ElementsAre(
+                  "line.yaml:1:5: nothing called 'web.sped' can be set; did you mean web.speed? "
+                  "[timeline.nothing-to-set]",
+                  "line.yaml:7:9: web.speed needs a unit; write for example 1 m/min [scenario.wrong-unit]",
+                  "line.yaml:7:9: web.speed is a speed, 'kg' is not; give it in m/min [scenario.wrong-unit]",
+                  "line.yaml:7:9: slLength takes a plain number, not 'mm'; write the number of Um without "
+                  "the unit [scenario.wrong-unit]",
+                  "line.yaml:7:9: panel.start takes a plain number, not 'mm'; leave the unit away "
+                  "[scenario.wrong-unit]",
+                  "line.yaml:5:5: nothing called 'panel.stop' can be set; wire an input to panel.stop first; "
+                  "switches: panel.start [timeline.nothing-to-set]",
+                  "line.yaml:6:20: web.encoder offers no fault 'explode'; web.encoder offers: lose_counts "
+                  "[timeline.no-such-fault]",
+                  "line.yaml:8:20: web.motor offers no fault 'stuck'; components with faults: web.encoder "
+                  "[timeline.no-such-fault]"));
 }
 
 }  // namespace

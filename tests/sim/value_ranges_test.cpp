@@ -66,15 +66,20 @@ TEST_F(ValueRanges, APresetOfQmoveIsTakenAsItIsOrRefused) {
       tmWait: -1
       ssReal: 1e300
 )"),
-      ElementsAre("line.yaml:11:7: AxisX.pgain holds whole numbers, not 2.7; write a whole number",
-                  "line.yaml:12:7: AxisX.maxvel does not hold 4294967297; write 0 to 999999 speed",
-                  "line.yaml:13:7: slLength does not hold 3000000000; write -2147483648 to 2147483647",
-                  "line.yaml:14:7: swCount does not hold 40000; write -32768 to 32767",
-                  "line.yaml:15:7: sbByte does not hold -129; write -128 to 127",
-                  "line.yaml:16:7: sfFlag does not hold 2; write 0 to 1",
-                  "line.yaml:17:7: arr[2] holds whole numbers, not 0.5; write a whole number",
-                  "line.yaml:18:7: tmWait does not hold -1; write 0 to 2147483647",
-                  testing::StartsWith("line.yaml:19:7: ssReal does not hold 1e+300; write -3.4028")));
+      ElementsAre(
+          "line.yaml:11:7: AxisX.pgain holds whole numbers, not 2.7; write a whole number "
+          "[controller.value-range]",
+          "line.yaml:12:7: AxisX.maxvel does not hold 4294967297; write 0 to 999999 speed "
+          "[controller.value-range]",
+          "line.yaml:13:7: slLength does not hold 3000000000; write -2147483648 to 2147483647 "
+          "[controller.value-range]",
+          "line.yaml:14:7: swCount does not hold 40000; write -32768 to 32767 [controller.value-range]",
+          "line.yaml:15:7: sbByte does not hold -129; write -128 to 127 [controller.value-range]",
+          "line.yaml:16:7: sfFlag does not hold 2; write 0 to 1 [controller.value-range]",
+          "line.yaml:17:7: arr[2] holds whole numbers, not 0.5; write a whole number "
+          "[controller.value-range]",
+          "line.yaml:18:7: tmWait does not hold -1; write 0 to 2147483647 [controller.value-range]",
+          testing::StartsWith("line.yaml:19:7: ssReal does not hold 1e+300; write -3.4028")));
 }
 
 TEST_F(ValueRanges, APresetInsideItsRangeIsTaken) {
@@ -86,12 +91,12 @@ TEST_F(ValueRanges, AnOverrideIsJudgedAsThePresetIs) {
   EXPECT_THAT(
       built(qmove, {{"controller.qmove.set.AxisX.pgain", "2.7"}, {"plants.web.speed", "1e308 m/min"}}),
       ElementsAre("--set plants.web.speed:1:1: plants.web.speed is 1e+308 m/min, out of range; 0 m/min to "
-                  "1000 m/min"));
+                  "1000 m/min [controller.axis-value]"));
   problems.clear();
   EXPECT_THAT(
       built(qmove, {{"controller.qmove.set.AxisX.pgain", "2.7"}}),
       ElementsAre("--set controller.qmove.set.AxisX.pgain:1:1: AxisX.pgain holds whole numbers, not 2.7; "
-                  "write a whole number"));
+                  "write a whole number [controller.value-range]"));
 }
 
 TEST_F(ValueRanges, TheTimelineKeepsToTheTables) {
@@ -103,26 +108,36 @@ TEST_F(ValueRanges, TheTimelineKeepsToTheTables) {
   - {at: 0.4 s, set: {web.speed: -1000 m/min, bench.input1: on}}
 )"),
       ElementsAre(
-          "line.yaml:11:34: web.speed does not hold -100000; write -1000 to 1000 m/min",
-          "line.yaml:11:59: AxisX.pgain holds whole numbers, not 2.7; write a whole number",
-          "line.yaml:11:74: slLength does not hold 1e+308; write -2147483648 to 2147483647",
-          "line.yaml:12:35: web.speed does not hold 1e+308; write -1000 to 1000 m/min",
+          "line.yaml:11:34: web.speed does not hold -100000; write -1000 to 1000 m/min "
+          "[controller.value-range]",
+          "line.yaml:11:59: AxisX.pgain holds whole numbers, not 2.7; write a whole number "
+          "[controller.value-range]",
+          "line.yaml:11:74: slLength does not hold 1e+308; write -2147483648 to 2147483647 "
+          "[controller.value-range]",
+          "line.yaml:12:35: web.speed does not hold 1e+308; write -1000 to 1000 m/min "
+          "[controller.value-range]",
           "line.yaml:12:69: bench.counter1.rate does not hold 2000000000; write -1000000000 to 1000000000 "
-          "1/s",
-          "line.yaml:13:53: axis.encoder.lose_counts does not hold 1e+308; write -2147483648 to 2147483647",
-          "line.yaml:13:67: axis.encoder.stuck does not hold 2; write 0 to 1",
-          "line.yaml:13:78: axis.encoder.jitter does not hold -1; write 0 to 1000000",
-          "line.yaml:13:101: web.wheel.slip does not hold 101; write -100 to 100 %"));
+          "1/s [controller.value-range]",
+          "line.yaml:13:53: axis.encoder.lose_counts does not hold 1e+308; write -2147483648 to 2147483647 "
+          "[controller.value-range]",
+          "line.yaml:13:67: axis.encoder.stuck does not hold 2; write 0 to 1 [controller.value-range]",
+          "line.yaml:13:78: axis.encoder.jitter does not hold -1; write 0 to 1000000 "
+          "[controller.value-range]",
+          "line.yaml:13:101: web.wheel.slip does not hold 101; write -100 to 100 % "
+          "[controller.value-range]"));
 }
 
 TEST_F(ValueRanges, RegistersAreNotWrapped) {
-  EXPECT_THAT(built("scene: {duration: 1 s}\ncontroller: {lx3vp: {program: saw.il}}\ntimeline:\n"
-                    "  - {at: 0.1 s, set: {D10: 70000, D11: 65535, M3: 2}}\n"
-                    "  - {at: 0.2 s, ramp: {DD20: 5e9, FD30: 1e39}, over: 1 s}\n"),
-              ElementsAre("line.yaml:4:28: D10 does not hold 70000; write -32768 to 65535, or D10:L",
-                          "line.yaml:4:51: M3 does not hold 2; write 0 to 1",
-                          "line.yaml:5:30: DD20 does not hold 5000000000; write -2147483648 to 2147483647",
-                          testing::StartsWith("line.yaml:5:41: FD30 does not hold 1e+39; write -3.4028")));
+  EXPECT_THAT(
+      built("scene: {duration: 1 s}\ncontroller: {lx3vp: {program: saw.il}}\ntimeline:\n"
+            "  - {at: 0.1 s, set: {D10: 70000, D11: 65535, M3: 2}}\n"
+            "  - {at: 0.2 s, ramp: {DD20: 5e9, FD30: 1e39}, over: 1 s}\n"),
+      ElementsAre(
+          "line.yaml:4:28: D10 does not hold 70000; write -32768 to 65535, or D10:L [controller.value-range]",
+          "line.yaml:4:51: M3 does not hold 2; write 0 to 1 [controller.value-range]",
+          "line.yaml:5:30: DD20 does not hold 5000000000; write -2147483648 to 2147483647 "
+          "[controller.value-range]",
+          testing::StartsWith("line.yaml:5:41: FD30 does not hold 1e+39; write -3.4028")));
 }
 
 TEST_F(ValueRanges, EveryValueThatCanBeSetHasARange) {
@@ -181,9 +196,9 @@ TEST_F(ValueRanges, AMaterialGivesItsValuesAndOthersBesideIt) {
   EXPECT_EQ(web.shear_strength, 290e6);
   EXPECT_EQ(web.strip.retardation, 2e-6);
   EXPECT_FALSE(web.strip.on);
-  EXPECT_THAT(
-      built(line + "material: steal}}\n"),
-      ElementsAre("line.yaml:2:37: plants.web.material: unknown choice 'steal'; did you mean steel?"));
+  EXPECT_THAT(built(line + "material: steal}}\n"),
+              ElementsAre("line.yaml:2:37: plants.web.material: unknown choice 'steal'; did you mean steel? "
+                          "[scenario.unknown-choice]"));
 }
 
 TEST_F(ValueRanges, StiffPairsAreJudgedAtTheScenariosStep) {
@@ -192,7 +207,7 @@ TEST_F(ValueRanges, StiffPairsAreJudgedAtTheScenariosStep) {
       built("scene: {duration: 1 s}\n" + web),
       ElementsAre("line.yaml:3:39: web.drive.stiffness: web and line drive oscillate at 1125 Hz, steps of "
                   "100 us cannot follow; scene.step of at most 50 us, or softer, less damped, heavier "
-                  "parts"));
+                  "parts [plant.step-too-long]"));
   problems.clear();
   EXPECT_THAT(built("scene: {duration: 1 s, step: 50 us}\n" + web), IsEmpty());
   EXPECT_THAT(

@@ -12,6 +12,7 @@
 
 #include "base/text.hpp"
 #include "sim/loop/simulation.hpp"
+#include "tests/findings.hpp"
 #include "tests/sim/studies/tune/bench.hpp"
 #include "tests/test_folder.hpp"
 
@@ -50,7 +51,7 @@ std::string cause_of(const std::string& program, const std::string& line = studi
   const auto outcome = outcome_of(
       folder.file("line.yaml", line + "checks:\n  - {name: there, eventually: axis.position > 399}\n"));
   EXPECT_FALSE(outcome.passed());
-  return outcome.cause;
+  return outcome.cause();
 }
 
 TEST(WhyItFailed, AProgramThatWaitsIsNamedWithItsLineAndSinceWhen) {
@@ -90,7 +91,7 @@ TEST(WhyItFailed, AnAxisWithoutLooponComesBeforeItsWarnings) {
   const auto file = folder.file("line.yaml", "extends: " + line.string() +
                                                  "\nscene: {duration: 9 s}\n"
                                                  "controller: {qmove: {tasks: [saw.mod]}}\n");
-  EXPECT_THAT(outcome_of(file).cause,
+  EXPECT_THAT(outcome_of(file).cause(),
               StartsWith("because AxisX is without LOOPON: no program closes its position loop"));
 }
 
@@ -126,7 +127,8 @@ TEST(WhyItFailed, TenVoltsThatAreAnotherSpeedForTheAxisAreTold) {
 TEST(WhyItFailed, AWheelWithOtherLinesThanTheProgramTakesIsTold) {
   const auto outcome = outcome_of(lines / "rotary_knife_qmove.yaml",
                                   {{"plants.web.wheel.lines", "10000"}, {"scene.duration", "8 s"}});
-  EXPECT_THAT(outcome.cause, StartsWith("because AxisX: measurem, pulsem: a unit is 0.025 mm by web.wheel"));
+  EXPECT_THAT(outcome.cause(),
+              StartsWith("because AxisX: measurem, pulsem: a unit is 0.025 mm by web.wheel"));
 }
 
 TEST(WhyItFailed, AParameterThatHardlyAnAxisHasIsTold) {
@@ -146,14 +148,13 @@ TEST(WhyItFailed, AProgramAtARunningTimerDoesNotStand) {
   const auto waits = [](const std::string& time) {
     TestFolder folder;
     folder.file("axis.cnf", replaced(studies::tuning::configuration, "BUS\n", "TIMER\ntmRest\nBUS\n"));
-    folder.file("axis.mod",
-                replaced(studies::tuning::program, "START AxisX\n",
-                         "REST:\ntmRest = " + time + "\nWAIT tmRest\nJUMP REST\nSTART AxisX\n"));
-    return outcome_of(folder.file("line.yaml", replaced(studies::tuning::scenario, "duration: 1 s",
-                                                        "duration: 20 s") +
-                                                   "checks:\n  - {name: there, eventually: "
-                                                   "axis.position > 399}\n"))
-        .cause;
+    folder.file("axis.mod", replaced(studies::tuning::program, "START AxisX\n",
+                                     "REST:\ntmRest = " + time + "\nWAIT tmRest\nJUMP REST\nSTART AxisX\n"));
+    return outcome_of(folder.file("line.yaml",
+                                  replaced(studies::tuning::scenario, "duration: 1 s", "duration: 20 s") +
+                                      "checks:\n  - {name: there, eventually: "
+                                      "axis.position > 399}\n"))
+        .cause();
   };
   EXPECT_THAT(waits("4000"), Not(HasSubstr("WAIT tmRest")));
   EXPECT_THAT(waits("90000"), HasSubstr("WAIT tmRest"));
@@ -166,41 +167,44 @@ std::string cause_of_saw(const std::string& line, const std::string& program, co
   TestFolder folder;
   std::ifstream shipped(lines.parent_path() / "programs" / program);
   folder.file(program, replaced(std::string(std::istreambuf_iterator<char>(shipped), {}), from, to));
-  return outcome_of(folder.file("line.yaml", "extends: " + (lines / line).string() + "\n" + more)).cause;
+  return outcome_of(folder.file("line.yaml", "extends: " + (lines / line).string() + "\n" + more)).cause();
 }
 
 TEST(WhyItFailed, AZeroPulseThatIsNotWiredIsTold) {
   TestFolder folder;
   std::ifstream shipped(lines / "flying_saw_qmove.yaml");
-  auto line = replaced(std::string(std::istreambuf_iterator<char>(shipped), {}), "  INT1: saw.encoder.index\n", "");
+  auto line =
+      replaced(std::string(std::istreambuf_iterator<char>(shipped), {}), "  INT1: saw.encoder.index\n", "");
   for (int i = 0; i < 2; ++i)
     line = replaced(line, "../programs", (lines.parent_path() / "programs").string());
   const auto file = folder.file("line.yaml", line);
-  EXPECT_THAT(outcome_of(file, {{"scene.duration", "4 s"}}).cause,
+  EXPECT_THAT(outcome_of(file, {{"scene.duration", "4 s"}}).cause(),
               StartsWith("because INT1 is the zero pulse that PRESET of AxisX seeks (prsmode 1), and nothing "
                          "is wired to it"));
 }
 
 TEST(WhyItFailed, ASearchThatMeetsTheStopBeforeItsSwitchIsTold) {
-  EXPECT_THAT(cause_of_saw("flying_saw_lx3vp.yaml", "flying_saw.il", "DPLSV   K-2500", "DPLSV   K2500",
-                           "controller: {lx3vp: {program: flying_saw.il}}\n"),
-              ContainsRegex("^because saw at 1[0-9.]+ s: it ran into its end stop at [0-9.]+ mm/s, and saw.home "
-                            "[(]X10[)] was never on: the search went the other way"));
+  EXPECT_THAT(
+      cause_of_saw("flying_saw_lx3vp.yaml", "flying_saw.il", "DPLSV   K-2500", "DPLSV   K2500",
+                   "controller: {lx3vp: {program: flying_saw.il}}\n"),
+      ContainsRegex("^because saw at 1[0-9.]+ s: it ran into its end stop at [0-9.]+ mm/s, and saw.home "
+                    "[(]X10[)] was never on: the search went the other way"));
 }
 
 TEST(WhyItFailed, ADecamThatNeverStartsIsTold) {
-  EXPECT_THAT(cause_of_saw("flying_saw_lx3vp.yaml", "flying_saw.il",
-                           "MOV     K1 D1005            ; cyclic", "MOV     K0 D1005",
+  EXPECT_THAT(cause_of_saw("flying_saw_lx3vp.yaml", "flying_saw.il", "MOV     K1 D1005            ; cyclic",
+                           "MOV     K0 D1005",
                            "scene: {duration: 9 s}\ncontroller: {lx3vp: {program: flying_saw.il}}\n"),
               AllOf(HasSubstr("flying_saw.il stands at line 51, DECAM"),
                     HasSubstr("its word 5, D1005, was never 1 or 2")));
 }
 
 TEST(WhyItFailed, TheLineThatSwitchedALampOnIsTold) {
-  EXPECT_THAT(outcome_of(lines / "flying_saw_qmove.yaml",
-                         {{"controller.qmove.set.slTravel", "700"}, {"scene.duration", "10 s"}})
-                  .cause,
-              ContainsRegex("panel.too_long is on since [0-9.]+ s, by flying_saw.mod:66, ofTooLong = slTravel GT 0"));
+  EXPECT_THAT(
+      outcome_of(lines / "flying_saw_qmove.yaml",
+                 {{"controller.qmove.set.slTravel", "700"}, {"scene.duration", "10 s"}})
+          .cause(),
+      ContainsRegex("panel.too_long is on since [0-9.]+ s, by flying_saw.mod:66, ofTooLong = slTravel GT 0"));
 }
 
 TEST(WhyItFailed, ForwardAndBackwardSwappedAreTold) {
@@ -210,7 +214,7 @@ TEST(WhyItFailed, ForwardAndBackwardSwappedAreTold) {
                                                        "\nvariables: {tours: 1}\nscene: {duration: 6 s}\n"
                                                        "wiring: {2.OUT01: press.drive.backward, "
                                                        "2.OUT02: press.drive.forward}\n");
-  EXPECT_THAT(outcome_of(swapped).cause,
+  EXPECT_THAT(outcome_of(swapped).cause(),
               AllOf(StartsWith("because Axis went 1"), HasSubstr(" counts against its drive from "),
                     HasSubstr(": its forward output 2.OUT01 is wired to press.drive.backward")));
 }
@@ -222,7 +226,7 @@ record::Outcome outcome_of_line(const std::string& name, const std::vector<scena
 TEST(WhyItFailed, WhereNothingCutsWhatStandsIsToldFirst) {
   EXPECT_THAT(outcome_of_line("flying_saw_qmove.yaml",
                               {{"controller.qmove.set.slTravel", "700"}, {"scene.duration", "10 s"}})
-                  .cause,
+                  .cause(),
               AllOf(StartsWith("while "), HasSubstr("panel.too_long is on since "),
                     HasSubstr("never seen on: saw.clamp (2.OUT02), saw.head.plunge (2.OUT03)")));
 }
@@ -231,20 +235,20 @@ TEST(WhyItFailed, OfAMachineThatWorksNothingStands) {
   const auto outcome = outcome_of_line("flying_saw_qmove.yaml",
                                        {{"checks.cut length.at_least", "20"}, {"scene.duration", "12 s"}});
   EXPECT_FALSE(outcome.passed());
-  EXPECT_EQ(outcome.cause, "while nothing but check 'cut length' is amiss");
+  EXPECT_EQ(outcome.cause(), "while nothing but check 'cut length' is amiss");
 }
 
 TEST(WhyItFailed, AnAxisThatCountsAnotherWayThanTheMachineGoesIsTold) {
   const std::vector<scenario::Override> one = {{"variables.tours", "1"}, {"scene.duration", "6 s"}};
   auto scale = one;
   scale.push_back({"plants.press.encoder.lines", "1000"});
-  EXPECT_THAT(outcome_of_line("vertical_press_qmove.yaml", scale).cause,
+  EXPECT_THAT(outcome_of_line("vertical_press_qmove.yaml", scale).cause(),
               ContainsRegex("^because press at [0-9.]+ s: pulled_out: .*; Axis counted [0-9.]+ where "
                             "press.position went [0-9.]+ mm$"));
   auto place = one;
   place.push_back({"plants.press.start", "500 mm"});
   EXPECT_THAT(
-      outcome_of_line("vertical_press_qmove.yaml", place).cause,
+      outcome_of_line("vertical_press_qmove.yaml", place).cause(),
       ContainsRegex("^because press at [0-9.]+ s: pulled_out: .*; Axis stood at 300 when it was driven "
                     "first, and press.position at 5[0-9.]+ mm$"));
 }
@@ -262,7 +266,7 @@ std::vector<std::string> notes_of_saw(const std::string& from, const std::string
   Simulation simulation(scenario, problems);
   for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
   simulation.run();
-  return simulation.notes();
+  return sentences(simulation.notes());
 }
 
 TEST(WhyItFailed, AnotherZeroIsANote) {
@@ -276,7 +280,7 @@ TEST(WhyItFailed, AnotherZeroIsANote) {
 TEST(WhyItFailed, AnAxisThatHuntsIsTold) {
   const auto file = lines.parent_path() / "backlash_motor_encoder.yaml";
   EXPECT_THAT(
-      outcome_of(file, {{"controller.qmove.set.Axis.integt", "1"}}).cause,
+      outcome_of(file, {{"controller.qmove.set.Axis.integt", "1"}}).cause(),
       ContainsRegex("^because Axis hunts from [0-9.]+ s on: it swings by [0-9]+ bits x4, [0-9.]+ times a "
                     "second"));
 }
@@ -287,12 +291,12 @@ std::vector<std::string> warnings_of_watch(bool jumps) {
   std::string program(std::istreambuf_iterator<char>(shipped), {});
   folder.file("watch.mod", jumps ? program : replaced(program, "JUMP LOOK\n", ""));
   const auto press = std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/programs/press.mod";
-  return outcome_of(
-             folder.file("line.yaml", "extends: " + (lines / "vertical_press_qmove.yaml").string() +
-                                          "\nvariables: {tours: 1}\nscene: {duration: 4 s}\nchecks: []\n"
-                                          "controller: {qmove: {tasks: [" +
-                                          press.string() + ", watch.mod]}}\n"))
-      .warnings;
+  return sentences(
+      outcome_of(folder.file("line.yaml", "extends: " + (lines / "vertical_press_qmove.yaml").string() +
+                                              "\nvariables: {tours: 1}\nscene: {duration: 4 s}\nchecks: []\n"
+                                              "controller: {qmove: {tasks: [" +
+                                              press.string() + ", watch.mod]}}\n"))
+          .warnings());
 }
 
 TEST(WhyItFailed, ATaskThatEndsWhereItShouldGoOnIsAWarning) {
@@ -305,8 +309,9 @@ TEST(WhyItFailed, ATaskThatEndsWhereItShouldGoOnIsAWarning) {
 
 TEST(WhyItFailed, AZeroPulseOfAnotherEncoderIsAWarning) {
   const auto warnings = [](const char* plug) {
-    return outcome_of_line("flying_saw_qmove.yaml", {{"wiring.INT1", plug}, {"scene.duration", "8.1 s"}})
-        .warnings;
+    return sentences(
+        outcome_of_line("flying_saw_qmove.yaml", {{"wiring.INT1", plug}, {"scene.duration", "8.1 s"}})
+            .warnings());
   };
   EXPECT_THAT(
       warnings("tube.wheel.index"),
@@ -324,7 +329,7 @@ TEST(WhyItFailed, ALineThatIsRightGoesNowhereAstray) {
     Simulation simulation(scenario, problems);
     for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
     simulation.run();
-    for (const auto& note : simulation.notes())
+    for (const auto& note : sentences(simulation.notes()))
       EXPECT_THAT(note, Not(HasSubstr("against its drive"))) << name;
   }
 }
@@ -343,7 +348,7 @@ TEST(WhyItFailed, ABlockWhoseCommandNeverComesIsNamed) {
   const auto file = folder.file("line.yaml", "extends: " + (lines / "rotary_knife_plcopen.yaml").string() +
                                                  "\nscene: {duration: 8 s}\n"
                                                  "controller: {plcopen: {program: knife.st}}\n");
-  EXPECT_THAT(outcome_of(file).cause,
+  EXPECT_THAT(outcome_of(file).cause(),
               AllOf(HasSubstr("knife.st stands at line " + std::to_string(line) + ", "),
                     HasSubstr("CamIn.Execute=0"), HasSubstr("since 0.0 s")));
 }

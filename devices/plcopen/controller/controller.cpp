@@ -140,7 +140,7 @@ std::variant<Address, TerminalFault> PlcopenController::terminal(const std::stri
   const auto name = parse_terminal(text);
   if (!name)
     return TerminalFault{
-        fmt::format("'{}' is not a terminal of the controller", text),
+        "wiring.no-terminal"_code, fmt::format("'{}' is not a terminal of the controller", text),
         "write axis.encoder, axis.reference, axis.enable, ..., or IX0.0, QX0.7 for a BOOL of the "
         "program"};
   if (!name->axis.empty()) return axis_terminal(*name, text);
@@ -150,7 +150,8 @@ std::variant<Address, TerminalFault> PlcopenController::terminal(const std::stri
   std::vector<std::string> known;
   for (const auto& located : program_.located())
     if (located.address.kind == name->address.kind) known.push_back(located_name(located.address));
-  return TerminalFault{fmt::format("the program has no variable AT %{}", located_name(name->address)),
+  return TerminalFault{"wiring.no-terminal"_code,
+                       fmt::format("the program has no variable AT %{}", located_name(name->address)),
                        fmt::format("its {} are: {}", output ? "outputs" : "inputs", joined(known, "none"))};
 }
 
@@ -162,7 +163,7 @@ std::variant<Address, TerminalFault> PlcopenController::axis_terminal(const Term
     for (const auto& axis : configuration_.axes) axes.push_back(axis.name);
     const auto near = nearest(name.axis, axes);
     return TerminalFault{
-        fmt::format("'{}' is no terminal: there is no axis '{}'", text, name.axis),
+        "wiring.no-terminal"_code, fmt::format("'{}' is no terminal: there is no axis '{}'", text, name.axis),
         near.empty() ? fmt::format("axes: {}", joined(axes, "none")) : fmt::format("did you mean {}?", near)};
   }
   const AxisConfiguration& axis = configuration_.axes[static_cast<std::size_t>(number)];
@@ -174,7 +175,8 @@ std::variant<Address, TerminalFault> PlcopenController::axis_terminal(const Term
   for (const AxisTerminal& candidate : axis_terminal_table())
     if (candidate.offered_by(kind_of(axis)))
       offered.push_back(fmt::format("{}.{}", axis.name, candidate.name));
-  return TerminalFault{fmt::format("{} is {} and has no terminal '{}'", axis.name, kind_text(kind_of(axis)),
+  return TerminalFault{"wiring.no-terminal"_code,
+                       fmt::format("{} is {} and has no terminal '{}'", axis.name, kind_text(kind_of(axis)),
                                    text.substr(name.axis.size() + 1)),
                        fmt::format("it has: {}", joined(offered, "none"))};
 }

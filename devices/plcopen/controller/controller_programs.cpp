@@ -177,8 +177,8 @@ std::vector<ProgramWait> PlcopenController::waits() {
 
 std::vector<Controller::ProgramDoubt> PlcopenController::doubts() const {
   std::vector<ProgramDoubt> found;
-  for (const auto& [line, column, text, value] : program_.compiled().doubts)
-    found.push_back({fmt::format("{}:{}:{}: {}", file_, line, column, text), value});
+  for (const auto& [code, line, column, text, value] : program_.compiled().doubts)
+    found.push_back({code, fmt::format("{}:{}:{}: {}", file_, line, column, text), value});
   return found;
 }
 

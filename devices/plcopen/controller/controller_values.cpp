@@ -184,26 +184,30 @@ void PlcopenController::read_kept(std::string_view line, int number, const std::
                                   Problems& problems) const {
   const std::string_view content = trimmed(line.substr(0, line.find(';')));
   if (content.empty()) return;
-  const auto complain = [&](std::string_view at, std::string what, std::string remedy) {
-    problems.push_back(
-        {file, number, static_cast<int>(at.data() - line.data()) + 1, std::move(what), std::move(remedy)});
+  const auto complain = [&](Code code, std::string_view at, std::string what, std::string remedy) {
+    problems.push_back({code, file, number, static_cast<int>(at.data() - line.data()) + 1, std::move(what),
+                        std::move(remedy)});
   };
   const std::size_t equals = content.find('=');
   const std::string_view name = trimmed(content.substr(0, equals));
   const std::string_view value_text =
       equals == std::string_view::npos ? std::string_view() : trimmed(content.substr(equals + 1));
   if (name.empty() || value_text.empty())
-    return complain(content, fmt::format("'{}' is no value", content), "write: name = value");
+    return complain("controller.retained-value"_code, content, fmt::format("'{}' is no value", content),
+                    "write: name = value");
   const auto found = symbols_.find(lower(name));
   const st::StSymbol* symbol = found == symbols_.end() ? nullptr : &runtime_.symbols()[found->second];
   if (symbol == nullptr || !symbol->retain)
-    return complain(name, fmt::format("the program has no RETAIN variable '{}'", name), "remove the line");
+    return complain("controller.unknown-retained"_code, name,
+                    fmt::format("the program has no RETAIN variable '{}'", name), "remove the line");
   for (const auto& [other, value] : kept)
     if (other == found->second)
-      return complain(name, fmt::format("'{}' is given twice", name), "remove one of the lines");
+      return complain("controller.retained-twice"_code, name, fmt::format("'{}' is given twice", name),
+                      "remove one of the lines");
   const std::optional<double> given = parsed<double>(value_text);
   if (!given || !(*given >= symbol->min && *given <= symbol->max))
-    return complain(value_text, fmt::format("{} cannot be '{}'", symbol->name, value_text),
+    return complain("controller.retained-value"_code, value_text,
+                    fmt::format("{} cannot be '{}'", symbol->name, value_text),
                     fmt::format("write a number from {} to {}", symbol->min, symbol->max));
   kept.emplace_back(found->second, *given);
 }

@@ -104,12 +104,14 @@ double real_result(StOp op, double a, double b) {
   }
 }
 
-NoResult division_by_zero() { return {"division by 0", "test the divisor before"}; }
+NoResult division_by_zero() {
+  return {"st.division-by-zero"_code, "division by 0", "test the divisor before"};
+}
 
 /// Of a function that takes what `taken` says only; no number is not taken either.
 std::optional<NoResult> outside(std::string_view function, double value, bool takes, std::string_view taken) {
   if (takes) return std::nullopt;
-  return NoResult{fmt::format("{} of {}", function, value),
+  return NoResult{"st.no-result"_code, fmt::format("{} of {}", function, value),
                   fmt::format("it takes {}: test the value before", taken)};
 }
 
@@ -137,11 +139,13 @@ std::optional<NoResult> no_result(StOp op, Basic basic, Cell a, Cell b) {
       return outside("ACOS", real_of(a), std::abs(real_of(a)) <= 1, "-1 to 1");
     case StOp::power:
       if (std::isfinite(rounded(basic, std::pow(real_of(a), real_of(b))))) return std::nullopt;
-      return NoResult{fmt::format("{} to the power of {} is no finite number", real_of(a), real_of(b)),
+      return NoResult{"st.no-result"_code,
+                      fmt::format("{} to the power of {} is no finite number", real_of(a), real_of(b)),
                       "test both before"};
     case StOp::exponential:
       if (std::isfinite(rounded(basic, std::exp(real_of(a))))) return std::nullopt;
-      return NoResult{fmt::format("EXP of {} is no finite number", real_of(a)), "test the value before"};
+      return NoResult{"st.no-result"_code, fmt::format("EXP of {} is no finite number", real_of(a)),
+                      "test the value before"};
     default:
       return std::nullopt;
   }

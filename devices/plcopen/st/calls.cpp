@@ -24,7 +24,7 @@ std::vector<const Variable*> inputs_of(const Type& type) {
 int Expressions::assign(const TypedExpression& target, const TypedExpression& value) {
   if (target.unknown()) return -1;
   if (!target.locked.empty() || !target.address) {
-    complain(target.place,
+    complain("st.call"_code, target.place,
              target.locked.empty() ? "this is no variable"
                                    : fmt::format("{} {}", in_quotes(target.name), target.locked),
              target.locked.empty() ? "a variable stands before ':='"
@@ -35,7 +35,8 @@ int Expressions::assign(const TypedExpression& target, const TypedExpression& va
   if ((type.basic == Basic::axis && target.place.line > 0 &&
        find_member(*globals_, target.name) != nullptr) ||
       type.holds_block) {
-    complain(target.place, fmt::format("{} is {} and is not assigned", in_quotes(target.name), type.name),
+    complain("st.call"_code, target.place,
+             fmt::format("{} is {} and is not assigned", in_quotes(target.name), type.name),
              type.basic == Basic::axis    ? "connect it in a call"
              : type.basic == Basic::block ? "assign its inputs"
                                           : "it holds function blocks: assign its other members");
@@ -83,8 +84,8 @@ Expressions::Enable Expressions::take_enable(std::vector<Argument>& given, const
     if (!condition && !is(argument, "ENO", true)) return false;
     const Tree*& taken = condition ? enable.condition : enable.result;
     if (taken != nullptr)
-      give_up(argument.name->place, fmt::format("{} is given twice", in_quotes(argument.name->text)),
-              "once a call");
+      give_up("st.declared-twice"_code, argument.name->place,
+              fmt::format("{} is given twice", in_quotes(argument.name->text)), "once a call");
     taken = argument.tree;
     return true;
   });
@@ -115,7 +116,7 @@ TypedExpression Expressions::enabled(const Enable& enable, TypedExpression value
   else if (basic == Basic::string)
     off = literal_string("", value.place);
   else if (enable.condition != nullptr)
-    give_up(value.place, fmt::format("EN of a function that gives {}", value.type->name),
+    give_up("st.call"_code, value.place, fmt::format("EN of a function that gives {}", value.type->name),
             "IF condition THEN");
   const int condition = enable_condition(enable, value.place);
   const int list = add_list({condition, on, off, enable_store(enable, true), enable_store(enable, false)});
@@ -135,7 +136,7 @@ TypedExpression Expressions::call(const Tree& tree, const Type* wanted) {
     const TypedExpression named = typed(callee);
     if (named.unknown()) return named;
     const bool block = named.type->basic == Basic::block;
-    give_up(name.place,
+    give_up("st.use"_code, name.place,
             fmt::format("{} is {} and cannot be called here", in_quotes(named.name), named.type->name),
             block ? "call it in a statement of its own and read its outputs"
                   : "a variable hides a function of its name: choose another one");
@@ -164,7 +165,7 @@ TypedExpression Expressions::function_call(const StToken& name, const std::vecto
     return names;
   };
   if (told_.insert(lower(name.text)).second)
-    complain(name.place, fmt::format("there is no function {}", in_quotes(name.text)),
+    complain("st.unknown-name"_code, name.place, fmt::format("there is no function {}", in_quotes(name.text)),
              block ? "it is a kind of function block: declare an instance of it in VAR and call that"
                    : suggested(name.text, known, "declare FUNCTION " + std::string(name.text) + " : type"));
   return unknown_at(name.place);
@@ -184,7 +185,7 @@ const Variable* Expressions::pin_of(const Type& type, const StToken& name, bool 
   if (output ? is_output : is_input) return pin;
   if (is_input || is_output) {
     complain(
-        name.place,
+        "st.call"_code, name.place,
         fmt::format("{} is an {} of {}", in_quotes(pin->name), is_output ? "output" : "input", type.name),
         is_output ? fmt::format("{} => variable reads it", pin->name)
                   : fmt::format("{} := value gives it", pin->name));
@@ -194,7 +195,7 @@ const Variable* Expressions::pin_of(const Type& type, const StToken& name, bool 
   const std::vector<std::string> names = pins_of(type, output);
   const std::string all = names.empty() ? fmt::format("it has no {}", output ? "outputs" : "inputs")
                                         : fmt::format("it has {}", listed(names));
-  complain(name.place,
+  complain("st.unknown-name"_code, name.place,
            fmt::format("{} has no {} {}", type.name, output ? "output" : "input", in_quotes(name.text)),
            suggestion(name.text, names, all));
   return nullptr;
@@ -206,7 +207,7 @@ int Expressions::in_out_store(const Type& type, const Variable& pin, const Typed
   // A motion block takes its axes by value: they do not change.
   const bool by_value = type.motion != nullptr;
   if (!value.address || value.bits || !same_type(*value.type, *pin.type)) {
-    complain(value.place,
+    complain("st.type"_code, value.place,
              value.address && !value.bits
                  ? fmt::format("{} is {}, not {}", in_quotes(value.name), value.type->name, pin.type->name)
                  : fmt::format("{} takes a variable", in_quotes(pin.name)),
@@ -214,7 +215,7 @@ int Expressions::in_out_store(const Type& type, const Variable& pin, const Typed
     return -1;
   }
   if (!value.locked.empty()) {
-    complain(value.place, fmt::format("{} {}", in_quotes(value.name), value.locked),
+    complain("st.call"_code, value.place, fmt::format("{} {}", in_quotes(value.name), value.locked),
              fmt::format("{} may write it: connect a variable", in_quotes(pin.name)));
     return -1;
   }
@@ -226,7 +227,8 @@ int Expressions::output_store(const Type& owner, const Variable& pin, const Argu
   const TypedExpression target = typed(*argument.tree);
   if (target.unknown()) return -1;
   if (!target.address) {
-    complain(target.place, fmt::format("the output {} goes into a variable", in_quotes(pin.name)),
+    complain("st.call"_code, target.place,
+             fmt::format("the output {} goes into a variable", in_quotes(pin.name)),
              fmt::format("{} => variable", pin.name));
     return -1;
   }
@@ -237,7 +239,7 @@ void Expressions::input_of(const TypedExpression& instance, const Argument& argu
   const Type& type = *instance.type;
   if (argument.name == nullptr) {
     const std::vector<std::string> inputs = pins_of(type, false);
-    complain(argument.tree->token->place,
+    complain("st.call"_code, argument.tree->token->place,
              fmt::format("an argument of {} without a name", in_quotes(instance.name)),
              inputs.empty() ? fmt::format("{} has no inputs", type.name)
                             : fmt::format("name its input: {} := value", inputs.front()));
@@ -252,7 +254,8 @@ void Expressions::input_of(const TypedExpression& instance, const Argument& argu
     return;
   }
   if (!call.given.insert(pin->name).second) {
-    complain(argument.name->place, fmt::format("{} is given twice", in_quotes(pin->name)), "once a call");
+    complain("st.declared-twice"_code, argument.name->place,
+             fmt::format("{} is given twice", in_quotes(pin->name)), "once a call");
     return;
   }
   const int place = address_plus(instance.node, pin->offset);
@@ -278,7 +281,7 @@ Expressions::BlockCall Expressions::block_arguments(const TypedExpression& insta
     if (member.section == VarClass::in_out && !call.given.contains(member.name))
       missing.push_back(member.name);
   if (!missing.empty() && !call.given.contains("?"))
-    complain(instance.place,
+    complain("st.call"_code, instance.place,
              fmt::format("{} {} not connected in the call of {}", listed(missing),
                          missing.size() == 1 ? "is" : "are", in_quotes(instance.name)),
              fmt::format("each call connects them: {} := variable", missing.front()));
@@ -350,7 +353,7 @@ TypedExpression Expressions::user_call(Unit& unit, const StToken& name, const st
     const bool named = argument.name != nullptr;
     const Place place = argument.tree->token->place;
     if (!named && number >= inputs.size()) {
-      complain(place,
+      complain("st.call"_code, place,
                fmt::format("{} has {} input{}", unit.name.text, inputs.size(), inputs.size() == 1 ? "" : "s"),
                "leave the rest out");
       return unknown;
@@ -358,7 +361,8 @@ TypedExpression Expressions::user_call(Unit& unit, const StToken& name, const st
     const Variable* pin = named ? pin_of(*unit.type, *argument.name, argument.output) : inputs[number++];
     if (pin == nullptr) return unknown;
     if (!connected.insert(pin).second) {
-      complain(place, fmt::format("{} is given twice", in_quotes(pin->name)), "once a call");
+      complain("st.declared-twice"_code, place, fmt::format("{} is given twice", in_quotes(pin->name)),
+               "once a call");
       return unknown;
     }
     if (argument.output) {
@@ -391,13 +395,15 @@ bool Expressions::all_connected(const Unit& unit, const StToken& name, const std
   const std::vector<const Variable*> inputs = inputs_of(*unit.type);
   for (const Variable* input : inputs)
     if (input->section == VarClass::in_out && !connected.contains(input)) {
-      complain(name.place, fmt::format("{} is not connected in the call of {}", input->name, unit.name.text),
+      complain("st.call"_code, name.place,
+               fmt::format("{} is not connected in the call of {}", input->name, unit.name.text),
                fmt::format("{} := variable", input->name));
       return false;
     }
   // All inputs, as IEC 61131-3 lets them be left out only where names are given.
   if (given.empty() || given.front().name != nullptr || number == inputs.size()) return true;
-  complain(name.place, fmt::format("{} has {} inputs, not {}", unit.name.text, inputs.size(), number),
+  complain("st.call"_code, name.place,
+           fmt::format("{} has {} inputs, not {}", unit.name.text, inputs.size(), number),
            fmt::format("{} is missing; by name inputs may be left out", in_quotes(inputs[number]->name)));
   return false;
 }

@@ -228,6 +228,7 @@ struct Compiled {
 
   /// What is no fault and hardly meant.
   struct Doubt {
+    Code code;
     int line = 0;
     int column = 0;
     std::string text;
@@ -252,8 +253,9 @@ Cell apply(StOp op, Basic basic, Cell a, Cell b);
 inline bool is_pure(StOp op) { return op >= StOp::add && op <= StOp::maximum_real; }
 
 struct NoResult {
-  std::string what;
-  std::string remedy;
+  Code code;
+  Prose what;
+  Prose remedy;
 };
 /// Why an operation without effects has no finite result where PLC run-times raise an exception: a division
 /// by 0, SQRT, LN, LOG, ASIN, ACOS outside of what they take, a power or EXP beyond the type `basic`. Sums

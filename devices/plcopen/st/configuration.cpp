@@ -12,7 +12,8 @@ void Compiler::find_configuration() {
   const StToken opening = take();
   const std::size_t first = at_;
   if (configuration_first_ != 0)
-    complain(opening.place, "a second CONFIGURATION", "one CONFIGURATION says what runs on the controller");
+    complain("st.declared-twice"_code, opening.place, "a second CONFIGURATION",
+             "one CONFIGURATION says what runs on the controller");
   while (at_ < stop_ && !peek().word("END_CONFIGURATION")) {
     if (peek().word("VAR_GLOBAL"))
       add_globals();
@@ -22,7 +23,8 @@ void Compiler::find_configuration() {
   configuration_first_ = first;
   configuration_end_ = at_;
   if (accept_word("END_CONFIGURATION")) return;
-  complain(opening.place, "CONFIGURATION has no END_CONFIGURATION", "write END_CONFIGURATION at the end");
+  complain("st.configuration"_code, opening.place, "CONFIGURATION has no END_CONFIGURATION",
+           "write END_CONFIGURATION at the end");
 }
 
 void Compiler::read_configuration() {
@@ -66,7 +68,7 @@ void Compiler::configuration_part(bool tasks, int& resources) {
     skip_to("END_VAR");
   } else if (opening.word("VAR_ACCESS") || opening.word("VAR_CONFIG")) {
     if (tasks)
-      complain(opening.place, upper(opening.text) + " is not known here",
+      complain("st.unknown-name"_code, opening.place, upper(opening.text) + " is not known here",
                "give variables their places and values where they are declared");
     skip_to("END_VAR");
   } else if (accept_word("RESOURCE")) {
@@ -74,7 +76,7 @@ void Compiler::configuration_part(bool tasks, int& resources) {
     expect_word("ON", "RESOURCE name ON type");
     expect_name("the type of the RESOURCE");
     if (tasks && ++resources > 1)
-      complain(opening.place, "a second RESOURCE",
+      complain("st.declared-twice"_code, opening.place, "a second RESOURCE",
                "the controller has one processor: put its tasks into one");
   } else if (accept_word("END_RESOURCE") || accept(";")) {
     return;
@@ -89,7 +91,8 @@ void Compiler::configuration_part(bool tasks, int& resources) {
     else
       declare_instance();
   } else if (tasks) {
-    give_up(opening.place, fmt::format("{} stands in the CONFIGURATION", in_quotes(opening.text)),
+    give_up("st.configuration"_code, opening.place,
+            fmt::format("{} stands in the CONFIGURATION", in_quotes(opening.text)),
             "VAR_GLOBAL, RESOURCE, TASK and PROGRAM do");
   } else {
     take();
@@ -116,22 +119,23 @@ void Compiler::declare_task() {
       const bool plain = signal.address && signal.type->basic == Basic::boolean && !signal.bits &&
                          node(signal.node).op == StOp::address;
       if (!plain && !signal.unknown())
-        give_up(place, "SINGLE is no BOOL of VAR_GLOBAL", "a task runs at the rising edge of one");
+        give_up("st.unknown-name"_code, place, "SINGLE is no BOOL of VAR_GLOBAL",
+                "a task runs at the rising edge of one");
       if (plain) single = static_cast<int>(node(signal.node).imm);
       runs = true;
     } else {
-      give_up(property.place, fmt::format("a task has no {}", in_quotes(property.text)),
-              "INTERVAL, PRIORITY or SINGLE");
+      give_up("st.configuration"_code, property.place,
+              fmt::format("a task has no {}", in_quotes(property.text)), "INTERVAL, PRIORITY or SINGLE");
     }
   } while (accept(","));
   expect(")", "ends the properties of a task");
   expect(";", "ends a TASK");
   if (!runs)
-    complain(name.place, fmt::format("the task {} never runs", in_quotes(name.text)),
+    complain("st.configuration"_code, name.place, fmt::format("the task {} never runs", in_quotes(name.text)),
              "INTERVAL := T#10ms, or SINGLE := a BOOL of VAR_GLOBAL");
   for (const Program::Task& other : code_->tasks)
     if (name.word(other.name))
-      complain(name.place, in_quotes(name.text) + " is declared twice",
+      complain("st.declared-twice"_code, name.place, in_quotes(name.text) + " is declared twice",
                fmt::format("the first one is in line {}", other.line));
   code_->tasks.push_back(std::move(task));
   code_->singles.push_back(single);
@@ -139,7 +143,7 @@ void Compiler::declare_task() {
 
 void Compiler::declare_instance() {
   if (peek().word("RETAIN"))
-    give_up(peek().place, "RETAIN of a whole program",
+    give_up("st.configuration"_code, peek().place, "RETAIN of a whole program",
             "VAR RETAIN ... END_VAR in the PROGRAM names what is kept");
   accept_word("NON_RETAIN");
   const StToken name = expect_name("the name of the program");
@@ -149,7 +153,7 @@ void Compiler::declare_instance() {
     for (std::size_t i = 0; i < code_->tasks.size(); ++i)
       if (with.word(code_->tasks[i].name)) task = static_cast<int>(i);
     if (task < 0)
-      complain(with.place, fmt::format("there is no task {}", in_quotes(with.text)),
+      complain("st.unknown-name"_code, with.place, fmt::format("there is no task {}", in_quotes(with.text)),
                suggestion(with.text, names_of(code_->tasks),
                           "TASK " + std::string(with.text) + "(INTERVAL := T#10ms);"));
   }
@@ -163,7 +167,7 @@ void Compiler::declare_instance() {
         if (other->kind == Unit::Kind::program) names.emplace_back(other->name.text);
       return names;
     };
-    give_up(type.place, fmt::format("there is no PROGRAM {}", in_quotes(type.text)),
+    give_up("st.unknown-name"_code, type.place, fmt::format("there is no PROGRAM {}", in_quotes(type.text)),
             suggested(type.text, known, "PROGRAM " + std::string(type.text) + " ... END_PROGRAM"));
   }
   const std::size_t connections = peek().is("(") ? at_ : 0;
@@ -184,7 +188,7 @@ void Compiler::check_instances() {
   for (const Connections& instance : connections_) {
     const StToken& name = instance.name;
     if (!names.insert(lower(name.text)).second || find_member(*globals_, name.text) != nullptr)
-      complain(name.place, in_quotes(name.text) + " is declared twice",
+      complain("st.declared-twice"_code, name.place, in_quotes(name.text) + " is declared twice",
                "each program of a CONFIGURATION has a name of its own");
   }
   for (std::size_t i = 0; i < code_->located.size(); ++i) {
@@ -193,7 +197,7 @@ void Compiler::check_instances() {
                                      [&](const Compiled::Instance& instance) { return instance.pou == pou; });
     const Program::Located& located = code_->located[i];
     if (pou >= 0 && count > 1)
-      complain({located.line, located.column},
+      complain("st.declared-twice"_code, {located.line, located.column},
                fmt::format("{} is in {} programs at one terminal", in_quotes(located.name), count),
                "declare it in VAR_GLOBAL");
   }
@@ -203,7 +207,7 @@ void Compiler::check_instances() {
                                      [&](const Compiled::Instance& instance) { return instance.pou == pou; });
     const Program::InMemory& variable = code_->in_memory[i];
     if (pou >= 0 && count > 1)
-      complain({variable.line, variable.column},
+      complain("st.declared-twice"_code, {variable.line, variable.column},
                fmt::format("{} is in {} programs at one place in memory", in_quotes(variable.name), count),
                "declare it in VAR_GLOBAL");
   }

@@ -142,7 +142,7 @@ void Declarations::declare_function_result(Unit& unit, Type& type) {
     result.type = parse_type();
     accept(";");
     if (result.type->holds_block || result.type->holds_axis) {
-      complain(place, fmt::format("a FUNCTION does not return {}", result.type->name),
+      complain("st.declaration"_code, place, fmt::format("a FUNCTION does not return {}", result.type->name),
                "it keeps its state: connect it as VAR_IN_OUT");
       result.type = type_of(Basic::unknown);
     }
@@ -189,7 +189,7 @@ bool Declarations::variable_section(Unit& unit, Type& owner) {
     }
   }
   if (!accept_word("END_VAR") && unit.kind != Unit::Kind::globals)
-    complain(opening.place, fmt::format("{} has no END_VAR", upper(opening.text)),
+    complain("st.syntax"_code, opening.place, fmt::format("{} has no END_VAR", upper(opening.text)),
              "write END_VAR behind its last variable");
   return true;
 }
@@ -224,15 +224,17 @@ void Declarations::declare_named(Unit& unit, Type& owner, const VarSection& sect
   std::vector<Cell> initial = type->initial;
   if (accept(":=")) {
     if (section.section == VarClass::in_out)
-      give_up(value.place, "a VAR_IN_OUT has no initial value", "it is the caller's variable");
+      give_up("st.initial-value"_code, value.place, "a VAR_IN_OUT has no initial value",
+              "it is the caller's variable");
     initial = initial_value(*type);
   } else if (section.constant) {
-    complain(names.front().place, in_quotes(names.front().text) + " is a constant without a value",
-             ":= value behind its type");
+    complain("st.initial-value"_code, names.front().place,
+             in_quotes(names.front().text) + " is a constant without a value", ":= value behind its type");
   }
   expect(";", "ends a declaration");
   if ((place.terminal || place.memory) && names.size() > 1) {
-    complain(names[1].place, "two variables at one place", "declare each with its own AT");
+    complain("st.declared-twice"_code, names[1].place, "two variables at one place",
+             "declare each with its own AT");
     place = {};
   }
   for (const StToken& name : names) add_variable(unit, owner, section, name, type, place, initial);
@@ -240,32 +242,37 @@ void Declarations::declare_named(Unit& unit, Type& owner, const VarSection& sect
 
 bool Declarations::check_section(const Unit& unit, const VarSection& section, const StToken& name,
                                  const Type& type, const Location& located) {
-  const auto refuse = [&](std::string what, std::string remedy) {
-    complain(name.place, std::move(what), std::move(remedy));
+  const auto refuse = [&](Code code, std::string what, std::string remedy) {
+    complain(code, name.place, std::move(what), std::move(remedy));
     return false;
   };
   const std::string_view in = section.global ? "VAR_GLOBAL" : name_of(section.section);
   if (type.holds_axis && (section.section != VarClass::in_out || type.basic != Basic::axis))
-    return refuse(fmt::format("the AXIS_REF {} in {} has no axis", in_quotes(name.text), in),
+    return refuse("st.declaration"_code,
+                  fmt::format("the AXIS_REF {} in {} has no axis", in_quotes(name.text), in),
                   "an axis of the configuration is named in VAR_EXTERNAL, a caller's in VAR_IN_OUT");
   const bool keeps = section.section == VarClass::in_out ||
                      (section.section == VarClass::local && unit.kind != Unit::Kind::function);
   if (type.holds_block && (!keeps || section.constant))
-    return refuse(fmt::format("the function block {} cannot be in {} here", in_quotes(name.text), in),
+    return refuse("st.declaration"_code,
+                  fmt::format("the function block {} cannot be in {} here", in_quotes(name.text), in),
                   "it keeps its state: declare it in VAR of a PROGRAM or FUNCTION_BLOCK, or in VAR_GLOBAL");
   if (!located.terminal && !located.memory) return true;
   if (located.terminal && type.basic != Basic::boolean)
-    return refuse(fmt::format("{} at a terminal is a BOOL, not {}", in_quotes(name.text), type.name),
+    return refuse("st.place"_code,
+                  fmt::format("{} at a terminal is a BOOL, not {}", in_quotes(name.text), type.name),
                   "start AT %IX0.0 : BOOL;");
   if ((unit.kind != Unit::Kind::program && unit.kind != Unit::Kind::globals) ||
       section.section != VarClass::local)
-    return refuse(fmt::format("{} cannot have {} here", in_quotes(name.text),
+    return refuse("st.place"_code,
+                  fmt::format("{} cannot have {} here", in_quotes(name.text),
                               located.terminal ? "a terminal" : "a place in memory"),
                   "AT stands in VAR of a PROGRAM or in VAR_GLOBAL");
   if (located.memory) return check_memory(name, type, *located.memory);
   const auto [other, fresh] = terminals_.emplace(*located.terminal, name.text);
   if (!fresh)
     return refuse(
+        "st.declared-twice"_code,
         fmt::format("{} and {} are at one terminal", in_quotes(name.text), in_quotes(other->second)),
         "each terminal has one variable");
   return true;
@@ -275,7 +282,7 @@ bool Declarations::check_memory(const StToken& name, const Type& type, const Mem
   const bool array = type.basic == Basic::array;
   const Basic basic = array ? type.element->basic : type.basic;
   if (!memory_format(place.size, basic)) {
-    complain(name.place,
+    complain("st.place"_code, name.place,
              fmt::format("{} at {} is {}, or an array of them, not {}", in_quotes(name.text),
                          to_string(place), memory_types(place.size), type.name),
              "%MX0.0 has a bit, %MW0 a word, %MD0 two words, %ML0 four");
@@ -287,13 +294,15 @@ bool Declarations::check_memory(const StToken& name, const Type& type, const Mem
   const std::int64_t first = static_cast<std::int64_t>(place.number) * addresses_of(place);
   const std::int64_t end = first + count * addresses_of(place);
   if (end > addresses) {
-    complain(name.place, fmt::format("{} does not end within the memory", in_quotes(name.text)),
+    complain("st.place"_code, name.place,
+             fmt::format("{} does not end within the memory", in_quotes(name.text)),
              fmt::format("it has {} {}", addresses, bits ? "bits" : "words"));
     return false;
   }
   for (const auto& [other_first, other_end, other_bits, other] : occupied_) {
     if (other_bits != bits || first >= other_end || end <= other_first) continue;
-    complain(name.place, fmt::format("{} and {} share memory", in_quotes(name.text), in_quotes(other)),
+    complain("st.declared-twice"_code, name.place,
+             fmt::format("{} and {} share memory", in_quotes(name.text), in_quotes(other)),
              "each place has one variable");
     return false;
   }
@@ -332,7 +341,7 @@ void Declarations::add_variable(Unit& unit, Type& owner, const VarSection& secti
   if (section.constant && (is_elementary(type->basic))) variable.value = initial.front();
   check_size(name.place, type->cells, type->depth);
   if (owner.cells + type->cells > most_cells)
-    give_up(name.place, "the variables take too much memory", "8 MB at most");
+    give_up("st.too-large"_code, name.place, "the variables take too much memory", "8 MB at most");
   const int pou = &owner == globals_ ? -1 : unit.pou;
   if (located.terminal && type->basic == Basic::boolean) {
     variable.reads_terminal = located.terminal->kind == Kind::input;
@@ -350,7 +359,8 @@ bool Declarations::name_is_free(const Unit& unit, const Type& owner, const StTok
   const Variable* other = find_member(owner, name.text);
   if (other == nullptr) return true;
   const bool result = unit.kind == Unit::Kind::function && same_word(unit.name.text, name.text);
-  complain(name.place, in_quotes(name.text) + (result ? " is the function's result" : " is declared twice"),
+  complain("st.declared-twice"_code, name.place,
+           in_quotes(name.text) + (result ? " is the function's result" : " is declared twice"),
            result ? "choose another name" : fmt::format("the first one is in line {}", other->place.line));
   return false;
 }
@@ -360,7 +370,8 @@ void Declarations::external(const StToken& name, const Type* type) {
   if (type->basic == Basic::axis) {
     if (global != nullptr && global->type->basic == Basic::axis) return;
     if (global != nullptr) {
-      complain(name.place, fmt::format("{} is a {} in VAR_GLOBAL", in_quotes(name.text), global->type->name),
+      complain("st.declaration"_code, name.place,
+               fmt::format("{} is a {} in VAR_GLOBAL", in_quotes(name.text), global->type->name),
                "choose another name");
       return;
     }
@@ -371,13 +382,13 @@ void Declarations::external(const StToken& name, const Type* type) {
   }
   if (type->basic == Basic::unknown || (global != nullptr && same_type(*global->type, *type))) return;
   if (global != nullptr) {
-    complain(name.place,
+    complain("st.type"_code, name.place,
              fmt::format("{} is {} here and {} in VAR_GLOBAL", in_quotes(name.text), type->name,
                          global->type->name),
              "declare both alike");
     return;
   }
-  complain(name.place, fmt::format("there is no VAR_GLOBAL {}", in_quotes(name.text)),
+  complain("st.unknown-name"_code, name.place, fmt::format("there is no VAR_GLOBAL {}", in_quotes(name.text)),
            "VAR_EXTERNAL names what VAR_GLOBAL declares, or an AXIS_REF of the configuration");
 }
 
@@ -388,9 +399,9 @@ Declarations::Location Declarations::location() {
     if (const auto place = parse_memory_place(token.text)) return {{}, *place};
   }
   if (upper(token.text).starts_with("%M"))
-    give_up(token.place, in_quotes(token.text) + " is no memory that is known",
+    give_up("st.place"_code, token.place, in_quotes(token.text) + " is no memory that is known",
             "%MX0.0 is a BOOL, %MW0 a word, %MD0 two, %ML0 four: bits and words 0 to 65535");
-  give_up(token.place, in_quotes(token.text) + " is no terminal that is known",
+  give_up("st.place"_code, token.place, in_quotes(token.text) + " is no terminal that is known",
           "%IX0.0 is an input, %QX0.0 an output: byte 0 to 65535 and bit 0 to 7");
 }
 

@@ -80,14 +80,15 @@ bool Compiler::is_initialised(const Variable& variable) const {
 }
 
 void Compiler::doubt_variable(const Variable& variable, const Type& owner, const NameUse& use) {
-  const auto tell = [&](Place place, std::string text) {
-    code_->doubts.push_back({place.line, place.column, std::move(text), variable.name});
+  const auto tell = [&](Code code, Place place, std::string text) {
+    code_->doubts.push_back({code, place.line, place.column, std::move(text), variable.name});
   };
   if (use.read.line == 0) return;
   if (variable.type->basic == Basic::block) {
     if (!use.called && variable.section == VarClass::local)
-      tell(use.read, fmt::format("nothing calls {} ({}): its outputs stay as they are at power-up",
-                                 variable.name, variable.type->name));
+      tell("program.never-called"_code, use.read,
+           fmt::format("nothing calls {} ({}): its outputs stay as they are at power-up", variable.name,
+                       variable.type->name));
     return;
   }
   const bool begins_at_0 =
@@ -98,7 +99,7 @@ void Compiler::doubt_variable(const Variable& variable, const Type& owner, const
                   [&](const Program::InMemory& one) { return one.line == variable.place.line; });
   if (own && !use.written && !variable.constant && !variable.reads_terminal && !located && begins_at_0 &&
       (is_whole(variable.type->basic) || is_real(variable.type->basic)))
-    tell(use.read,
+    tell("program.never-set"_code, use.read,
          fmt::format("{} is read, and nothing sets it: it stays as it is at power-up", variable.name));
 }
 
@@ -153,7 +154,7 @@ void Compiler::doubt_selections(const Unit& unit) {
   for (const AxisPair& pair : axis_pairs(unit, "MC_CamTableSelect"))
     if (pair.master != pair.slave && !has(pair.master, pair.slave) && has(pair.slave, pair.master))
       code_->doubts.push_back(
-          {pair.place.line, pair.place.column,
+          {"cam.swapped-axes"_code, pair.place.line, pair.place.column,
            "MC_CamTableSelect has the Master and the Slave of MC_CamIn the other way round", ""});
 }
 

@@ -128,7 +128,8 @@ TypedExpression Expressions::name_expression(const StToken& name, const Type* wa
   if (told_.insert(lower(name.text)).second) {
     const bool type = find_unit(name.text) != nullptr || elementary_type(name.text) != nullptr ||
                       find_block_type(name.text) != nullptr;
-    complain(name.place, fmt::format("{} is {}", in_quotes(name.text), type ? "no variable" : "not declared"),
+    complain("st.unknown-name"_code, name.place,
+             fmt::format("{} is {}", in_quotes(name.text), type ? "no variable" : "not declared"),
              suggested(
                  name.text, [&] { return known_names(); },
                  type ? "declare an instance of it in VAR" : "declare it in VAR ... END_VAR"));
@@ -149,7 +150,8 @@ TypedExpression Expressions::qualified_enum(const Type& type, const StToken& nam
   for (const EnumValue& value : type.values)
     if (name.word(value.name)) return constant(&type, value.value, name.place);
   const std::vector<std::string> names = names_of(type.values);
-  return refuse(name.place, fmt::format("{} has no value {}", type.name, in_quotes(name.text)),
+  return refuse("st.unknown-name"_code, name.place,
+                fmt::format("{} has no value {}", type.name, in_quotes(name.text)),
                 suggestion(name.text, names, "it has " + listed(names)));
 }
 
@@ -160,7 +162,7 @@ std::optional<TypedExpression> Expressions::enum_value(const StToken& name, cons
     if (value->second.first == wanted || std::next(first) == last)
       return constant(value->second.first, value->second.second, name.place);
   const Type& one = *first->second.first;
-  give_up(name.place,
+  give_up("st.type"_code, name.place,
           fmt::format("{} is a value of {} and of {}", in_quotes(name.text), one.name,
                       std::next(first)->second.first->name),
           fmt::format("write {}#{}", std::next(first)->second.first->name, name.text));
@@ -172,12 +174,13 @@ TypedExpression Expressions::typed_literal(const Tree& tree) {
   if (const Type* type = enumeration(name.text)) return qualified_enum(*type, value);
   const Type* type = elementary_type(name.text);
   if (type == nullptr || !is_elementary(type->basic) || is_clock(type->basic))
-    give_up(name.place, fmt::format("{} is no type of a literal", in_quotes(name.text)),
+    give_up("st.use"_code, name.place, fmt::format("{} is no type of a literal", in_quotes(name.text)),
             "INT#5, WORD#16#FF, LREAL#1.5, T#1s");
   if (type->basic == Basic::boolean && (value.word("TRUE") || value.word("FALSE")))
     return constant(type, value.word("TRUE") ? 1 : 0, name.place);
   if (value.kind != StToken::Kind::number || !is_number(value.basic))
-    give_up(value.place, fmt::format("{}# has no number", upper(name.text)), "INT#5, WORD#16#FF, LREAL#1.5");
+    give_up("st.syntax"_code, value.place, fmt::format("{}# has no number", upper(name.text)),
+            "INT#5, WORD#16#FF, LREAL#1.5");
   TypedExpression number = literal(value);
   if (tree.negative && is_real(number.type->basic))
     number.value = cell_of(-real_of(number.value));
@@ -201,19 +204,21 @@ TypedExpression Expressions::bits_of_number(const Tree& tree, const TypedExpress
     const auto digits =
         parsed<std::int64_t>(std::string_view(text).substr(std::min<std::size_t>(2, text.size())));
     if (kind >= parts.size() || !digits)
-      give_up(token.place, in_quotes(token.text) + " is no part of a number", "%X3 is a bit, %B1 a byte");
+      give_up("st.syntax"_code, token.place, in_quotes(token.text) + " is no part of a number",
+              "%X3 is a bit, %B1 a byte");
     number = *digits;
     part = parts.at(kind);
   }
   const int width = bits_of(part);
   if (!is_integer(basic) || width > bits_of(basic))
-    give_up(token.place,
+    give_up("st.type"_code, token.place,
             fmt::format("{} is {} and has no part {}", in_quotes(owner.name), owner.type->name,
                         in_quotes(token.text)),
             "whole numbers have bits, from 0");
   const int count = bits_of(basic) / width;
   if (number < 0 || number >= count)
-    give_up(token.place, fmt::format("{} has no part {}", owner.type->name, in_quotes(token.text)),
+    give_up("st.out-of-range"_code, token.place,
+            fmt::format("{} has no part {}", owner.type->name, in_quotes(token.text)),
             fmt::format("0 to {}", count - 1));
   TypedExpression result = owner;
   result.bits = Bits{owner.type, static_cast<int>(number) * width, width};
@@ -243,13 +248,13 @@ TypedExpression Expressions::member_of(const Tree& tree) {
       member != nullptr && type.basic == Basic::block && member->section == VarClass::in_out;
   if (connected || inside)
     return refuse(
-        name.place,
+        "st.use"_code, name.place,
         fmt::format("{} of {} is {}", in_quotes(member->name), type.name,
                     inside ? "a variable of its own" : "connected in a call"),
         inside ? "only its pins are seen from outside" : "use the variable that is connected to it");
   if (member == nullptr) return no_member(owner, name);
   if (!owner.address)
-    give_up(name.place, fmt::format("a member of a {} that is no variable", type.name),
+    give_up("st.use"_code, name.place, fmt::format("a member of a {} that is no variable", type.name),
             "assign it to a variable before");
   TypedExpression result = variable_of(*member, address_plus(owner.node, member->offset),
                                        owner.name + "." + member->name, owner.place);
@@ -270,9 +275,10 @@ TypedExpression Expressions::no_member(const TypedExpression& owner, const StTok
         known.section == VarClass::output)
       names.push_back(known.name);
   if (names.empty())
-    return refuse(name.place, fmt::format("{} is {} and has no members", in_quotes(owner.name), type.name),
+    return refuse("st.unknown-name"_code, name.place,
+                  fmt::format("{} is {} and has no members", in_quotes(owner.name), type.name),
                   "use it without '.'");
-  return refuse(name.place,
+  return refuse("st.unknown-name"_code, name.place,
                 fmt::format("{} has no {} {}", type.name, type.basic == Basic::block ? "pin" : "member",
                             in_quotes(name.text)),
                 suggestion(name.text, names, "it has " + listed(names)));
@@ -294,17 +300,19 @@ TypedExpression Expressions::element_at(TypedExpression owner, const TypedExpres
   const Type& type = *owner.type;
   const Place place = index.place;
   if (type.basic != Basic::array)
-    give_up(place, fmt::format("{} is {} and has no elements", in_quotes(owner.name), type.name),
+    give_up("st.use"_code, place,
+            fmt::format("{} is {} and has no elements", in_quotes(owner.name), type.name),
             "only an ARRAY has an index");
   if (!owner.address)
-    give_up(place, fmt::format("an element of an {} that is no variable", type.name),
+    give_up("st.use"_code, place, fmt::format("an element of an {} that is no variable", type.name),
             "assign it to a variable before");
   const bool huge = index.constant && index.value < 0 && is_wide(index.type->basic);  // a ULINT
   const bool outside = index.constant && (huge || index.value < type.low || index.value > type.high);
   if (!is_integer(index.type->basic))
-    complain(place, fmt::format("the index is {}", index.type->name), "an index is a whole number");
+    complain("st.type"_code, place, fmt::format("the index is {}", index.type->name),
+             "an index is a whole number");
   else if (outside)
-    complain(place,
+    complain("st.out-of-range"_code, place,
              fmt::format("the index {} is out of the bounds of {}", whole_text(index), in_quotes(owner.name)),
              fmt::format("{} to {}", type.low, type.high));
   if (!is_integer(index.type->basic) || outside) {

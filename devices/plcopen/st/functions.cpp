@@ -40,7 +40,8 @@ struct StandardCall {
   [[nodiscard]] Basic basic(std::size_t input) const { return inputs[input].type->basic; }
 
   TypedExpression refused(const TypedExpression& value, std::string takes) {
-    return values.refuse(value.place, fmt::format("{} does not take {}", upper(name.text), value.type->name),
+    return values.refuse("st.type"_code, value.place,
+                         fmt::format("{} does not take {}", upper(name.text), value.type->name),
                          std::move(takes), place());
   }
 
@@ -115,7 +116,7 @@ struct StandardCall {
       if (value.unknown()) return std::nullopt;
       const Type* type = common_type(common, value, wanted);
       if (type == nullptr || !is_elementary(type->basic)) {
-        values.complain(value.place,
+        values.complain("st.type"_code, value.place,
                         fmt::format("{} takes values of one type, not {} and {}", upper(name.text),
                                     common.type->name, value.type->name),
                         "convert one: X_TO_Y(...)");
@@ -203,11 +204,11 @@ struct StandardCall {
     if (!common) return unknown_at(place());
     const TypedExpression& which = inputs[0];
     if (!is_integer(basic(0)))
-      values.give_up(which.place, fmt::format("MUX chooses by {}", which.type->name),
+      values.give_up("st.type"_code, which.place, fmt::format("MUX chooses by {}", which.type->name),
                      "by a whole number, from 0");
     const auto count = static_cast<std::int64_t>(common->size());
     if (which.constant && (which.value < 0 || which.value >= count))
-      values.give_up(which.place, fmt::format("MUX has no value {}", which.value),
+      values.give_up("st.out-of-range"_code, which.place, fmt::format("MUX has no value {}", which.value),
                      fmt::format("0 to {}", count - 1));
     const Type* type = chosen_type(*common);
     const std::vector<int> nodes = nodes_of(*common);
@@ -410,23 +411,24 @@ std::vector<const Tree*> in_order(Values& values, const StToken& name, const std
       for (number = 0; number < function.most && !is_called(function.inputs, number, *argument.name);)
         ++number;
     if (argument.output || (argument.name != nullptr && number == function.most))
-      values.give_up(argument.name->place,
+      values.give_up("st.unknown-name"_code, argument.name->place,
                      fmt::format("{} has no {} {}", upper(name.text), argument.output ? "output" : "input",
                                  in_quotes(argument.name->text)),
                      "give the values in their order, without names");
     if (number < trees.size() && trees[number] != nullptr)
-      values.give_up(argument.name->place, fmt::format("{} is given twice", in_quotes(argument.name->text)),
-                     "once a call");
+      values.give_up("st.declared-twice"_code, argument.name->place,
+                     fmt::format("{} is given twice", in_quotes(argument.name->text)), "once a call");
     if (number >= trees.size()) trees.resize(number + 1, nullptr);
     trees[number] = argument.tree;
   }
   const auto count = static_cast<std::size_t>(
       std::count_if(trees.begin(), trees.end(), [](const Tree* tree) { return tree != nullptr; }));
   if (count < function.least || count > function.most || count < trees.size())
-    values.give_up(
-        name.place, fmt::format("{} has {} value{}", upper(name.text), count, count == 1 ? "" : "s"),
-        function.least == function.most ? fmt::format("it takes {}", function.least)
-                                        : fmt::format("it takes {} to {}", function.least, function.most));
+    values.give_up("st.call"_code, name.place,
+                   fmt::format("{} has {} value{}", upper(name.text), count, count == 1 ? "" : "s"),
+                   function.least == function.most
+                       ? fmt::format("it takes {}", function.least)
+                       : fmt::format("it takes {} to {}", function.least, function.most));
   return trees;
 }
 

@@ -24,7 +24,8 @@ void Declarations::initial_into(const Type& type, std::span<Cell> cells) {
       initial_members(type, cells);
       return;
     case Basic::axis:
-      give_up(peek().place, "an AXIS_REF has no initial value", "its axis comes from the configuration");
+      give_up("st.initial-value"_code, peek().place, "an AXIS_REF has no initial value",
+              "its axis comes from the configuration");
     case Basic::unknown:
       throw GiveUp{};
     case Basic::string:
@@ -35,9 +36,11 @@ void Declarations::initial_into(const Type& type, std::span<Cell> cells) {
   }
   const StToken text = take();
   if (text.kind != StToken::Kind::string)
-    give_up(text.place, "a STRING begins with a text, not " + in_quotes(text.text), "'text'");
+    give_up("st.initial-value"_code, text.place, "a STRING begins with a text, not " + in_quotes(text.text),
+            "'text'");
   if (text.string.size() > type.length)
-    give_up(text.place, fmt::format("{} characters do not fit in {}", text.string.size(), type.name),
+    give_up("st.out-of-range"_code, text.place,
+            fmt::format("{} characters do not fit in {}", text.string.size(), type.name),
             fmt::format("{} at most", type.length));
   std::fill(cells.begin(), cells.end(), 0);
   std::memcpy(cells.data(), text.string.data(), text.string.size());
@@ -50,7 +53,8 @@ void Declarations::initial_array(const Type& type, std::span<Cell> cells) {
   const std::size_t count = cells.size() / size;
   std::size_t given = 0;
   const auto too_many = [&](Place place) {
-    give_up(place, fmt::format("more values than the {} elements of the {}", count, type.name),
+    give_up("st.out-of-range"_code, place,
+            fmt::format("more values than the {} elements of the {}", count, type.name),
             "leave the rest out");
   };
   do {
@@ -83,11 +87,13 @@ void Declarations::initial_members(const Type& type, std::span<Cell> cells) {
     if (member == nullptr && type.basic == Basic::block) throw GiveUp{};
     if (member == nullptr) {
       const std::vector<std::string> names = names_of(type.members);
-      give_up(name.place, fmt::format("{} has no member {}", type.name, in_quotes(name.text)),
+      give_up("st.unknown-name"_code, name.place,
+              fmt::format("{} has no member {}", type.name, in_quotes(name.text)),
               suggestion(name.text, names, "it has " + listed(names)));
     }
     if (member->section == VarClass::in_out)
-      give_up(name.place, in_quotes(name.text) + " has no initial value", "it is connected in a call");
+      give_up("st.initial-value"_code, name.place, in_quotes(name.text) + " has no initial value",
+              "it is connected in a call");
     expect(":=", "stands between a member and its value");
     if (&type == cam_ref_ && member == type.members.data()) cam_file(peek());
     initial_into(*member->type, cells.subspan(static_cast<std::size_t>(member->offset),
@@ -101,7 +107,7 @@ Cell Declarations::constant_value(const Type& wanted, const char* what, const ch
   const Place place = peek().place;
   TypedExpression value = expression(&wanted);
   if (value.unknown()) throw GiveUp{};
-  if (!value.constant || !takes(value.type->basic)) give_up(place, what, remedy);
+  if (!value.constant || !takes(value.type->basic)) give_up("st.initial-value"_code, place, what, remedy);
   const std::size_t before = told();
   value = converted(value, wanted);
   if (told() != before) throw GiveUp{};
@@ -113,11 +119,11 @@ std::int64_t Declarations::constant_integer(std::string_view what, const Type* w
   const TypedExpression value = expression(wanted);
   if (value.unknown()) throw GiveUp{};
   if (!value.constant || !is_integer(value.type->basic))
-    give_up(place, fmt::format("{} is not a constant whole number", what),
+    give_up("st.type"_code, place, fmt::format("{} is not a constant whole number", what),
             "give a literal or a VAR CONSTANT of integers");
   if (wanted != nullptr) return literal_as(value, *wanted).value;
   if (value.value < 0 && is_wide(value.type->basic))
-    give_up(place, fmt::format("{} {} is too large", what, whole_text(value)),
+    give_up("st.out-of-range"_code, place, fmt::format("{} {} is too large", what, whole_text(value)),
             "it goes to 9223372036854775807");
   return value.value;
 }

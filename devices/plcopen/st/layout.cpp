@@ -49,7 +49,8 @@ void Compiler::place_memory() {
     if (next > most_cells) return at;
     next += type.cells;
     if (next > most_cells)
-      complain({1, 1}, "the variables take too much memory", "8 MB at most, all programs together");
+      complain("st.too-large"_code, {1, 1}, "the variables take too much memory",
+               "8 MB at most, all programs together");
     return at;
   };
   for (const auto& unit : units_)

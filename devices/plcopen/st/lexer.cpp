@@ -80,7 +80,8 @@ class StLexer : public Lexer<StToken> {
         advance(1);
       }
     }
-    complain(begin, fmt::format("'{}' is never closed", open), fmt::format("end it with '{}'", close));
+    complain("st.syntax"_code, begin, fmt::format("'{}' is never closed", open),
+             fmt::format("end it with '{}'", close));
   }
 
   void next() {
@@ -100,7 +101,7 @@ class StLexer : public Lexer<StToken> {
   void sign() {
     // As other languages begin a comment; a typed value has its type before it: INT#5.
     if (peek() == '#' && (at_ == 0 || !in_name(text_[at_ - 1]))) {
-      complain(place(), "'#' begins no comment", "comments are (* ... *) or // ...");
+      complain("st.syntax"_code, place(), "'#' begins no comment", "comments are (* ... *) or // ...");
       return advance(length([](char x) { return x != '\n'; }));
     }
     constexpr std::array<std::string_view, 7> pairs{":=", "=>", "**", "<=", ">=", "<>", ".."};
@@ -137,7 +138,7 @@ class StLexer : public Lexer<StToken> {
     StToken& token = literal(Basic::lreal, found.whole);
     const std::string digits = without_underscores(token.text);
     if (found.whole != found.size) {
-      complain(token, in_quotes(token.text) + " is neither a number nor a name",
+      complain("st.literal"_code, token, in_quotes(token.text) + " is neither a number nor a name",
                milliseconds(digits) ? fmt::format("a TIME is written T#{}", token.text)
                                     : "names begin with a letter; 16#FF is hexadecimal");
     } else if (found.real) {
@@ -153,7 +154,8 @@ class StLexer : public Lexer<StToken> {
     const std::string base = without_underscores(text_.substr(at_, base_size));
     StToken& token = literal(Basic::lint, length(in_name, base_size + 1));
     if (base != "2" && base != "8" && base != "16")
-      complain(token, in_quotes(token.text) + " has no base that is known", "2#1010, 8#17 or 16#FF");
+      complain("st.literal"_code, token, in_quotes(token.text) + " has no base that is known",
+               "2#1010, 8#17 or 16#FF");
     else
       read_integer(token, without_underscores(token.text.substr(base_size + 1)), std::stoi(base));
   }
@@ -163,11 +165,13 @@ class StLexer : public Lexer<StToken> {
     const char* const end = digits.data() + digits.size();
     const auto [stop, error] = std::from_chars(digits.data(), end, number, base);
     if (digits.empty())
-      complain(token, in_quotes(token.text) + " has no digits", "16#FF");
+      complain("st.literal"_code, token, in_quotes(token.text) + " has no digits", "16#FF");
     else if (error == std::errc::result_out_of_range)
-      complain(token, in_quotes(token.text) + " is out of range", "a ULINT goes to 18446744073709551615");
+      complain("st.literal"_code, token, in_quotes(token.text) + " is out of range",
+               "a ULINT goes to 18446744073709551615");
     else if (stop != end)
-      complain(token, fmt::format("{} has a digit that base {} does not have", in_quotes(token.text), base),
+      complain("st.literal"_code, token,
+               fmt::format("{} has a digit that base {} does not have", in_quotes(token.text), base),
                "2#1010, 8#17 or 16#FF");
     token.value = static_cast<Cell>(number);
     token.basic = token.value < 0 ? Basic::ulint : Basic::lint;
@@ -184,7 +188,7 @@ class StLexer : public Lexer<StToken> {
     else if (const std::optional<std::int64_t> number = clock_number(basic, text))
       token.value = *number;
     else
-      complain(token, in_quotes(token.text) + " is no " + type_of(basic)->name,
+      complain("st.literal"_code, token, in_quotes(token.text) + " is no " + type_of(basic)->name,
                basic == Basic::tod    ? "TOD#00:00:00 to TOD#23:59:59.999"
                : basic == Basic::date ? "D#1970-01-01 to D#2106-02-06"
                                       : "DT#1970-01-01-00:00:00 to DT#2106-02-06-06:28:15");
@@ -193,12 +197,14 @@ class StLexer : public Lexer<StToken> {
   void read_time(StToken& token, std::string_view text) {
     const std::optional<double> ms = milliseconds(text);
     if (!ms)
-      complain(token, in_quotes(token.text) + " is no time",
+      complain("st.literal"_code, token, in_quotes(token.text) + " is no time",
                "parts with d, h, m, s or ms, the largest first: T#1s500ms");
     else if (*ms > std::numeric_limits<std::uint32_t>::max())
-      complain(token, in_quotes(token.text) + " is out of range", "a TIME goes to T#49d17h2m47s295ms");
+      complain("st.literal"_code, token, in_quotes(token.text) + " is out of range",
+               "a TIME goes to T#49d17h2m47s295ms");
     else if (std::abs(*ms - std::round(*ms)) > 1e-6)
-      complain(token, in_quotes(token.text) + " is finer than a TIME", "a TIME counts whole milliseconds");
+      complain("st.literal"_code, token, in_quotes(token.text) + " is finer than a TIME",
+               "a TIME counts whole milliseconds");
     else
       token.value = std::llround(*ms);
   }
@@ -280,7 +286,7 @@ class StLexer : public Lexer<StToken> {
     const std::size_t size = whole - 1;
     StToken& token = add(Kind::string, whole);
     if (!closed) {
-      complain(token, "a string is not closed on its line", "end it with '");
+      complain("st.syntax"_code, token, "a string is not closed on its line", "end it with '");
       return;
     }
     unescape(token, token.text.substr(1, size - 1), begin);
@@ -306,7 +312,8 @@ class StLexer : public Lexer<StToken> {
       } else {
         const Place at{begin.line, begin.column + 1 + static_cast<int>(i)};
         token.kind = Kind::bad;
-        complain(at, "'$' begins no character that is known", "$$, $', $L, $N, $P, $R, $T or $41");
+        complain("st.syntax"_code, at, "'$' begins no character that is known",
+                 "$$, $', $L, $N, $P, $R, $T or $41");
         return;
       }
     }

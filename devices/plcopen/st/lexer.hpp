@@ -97,7 +97,7 @@ class Reader : public TokenReader<StToken> {
  public:
   using TokenReader::TokenReader;
 
-  [[noreturn]] void give_up(Place place, std::string what, std::string remedy);
+  [[noreturn]] void give_up(Code code, Place place, std::string what, std::string remedy);
 
  protected:
   void expect(std::string_view sign, std::string_view where);

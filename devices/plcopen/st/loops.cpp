@@ -14,11 +14,12 @@ int Statements::for_statement() {
   std::vector<int> all;
   try {
     const StToken name = peek();
-    if (name.kind != StToken::Kind::name) give_up(name.place, "FOR counts no variable", "FOR i := 0 TO 9 DO");
+    if (name.kind != StToken::Kind::name)
+      give_up("st.loop"_code, name.place, "FOR counts no variable", "FOR i := 0 TO 9 DO");
     TypedExpression counter = typed(name_tree());
     counter.place = name.place;
     if (!counter.unknown() && !is_integer(counter.type->basic)) {
-      complain(name.place,
+      complain("st.type"_code, name.place,
                fmt::format("FOR counts {}, which is {}", in_quotes(counter.name), counter.type->name),
                "a variable of whole numbers");
       counter = unknown_at(name.place);
@@ -33,7 +34,7 @@ int Statements::for_statement() {
     TypedExpression step = constant(counter.type, 1, place);
     if (accept_word("BY")) step = converted(expression(counter.type), *counter.type);
     if (step.constant && step.value == 0)
-      complain(step.place, "FOR with a step of 0 never ends", "BY 1 or BY -1");
+      complain("st.loop"_code, step.place, "FOR with a step of 0 never ends", "BY 1 or BY -1");
     expect_word("DO", fmt::format("FOR {} := 0 TO 9 DO", name.text));
     if (!counter.unknown() && !to.unknown() && !step.unknown() && counter.address) {
       // The end and the step are computed once.
@@ -85,11 +86,12 @@ int Statements::repeat_statement() {
     const TypedExpression value = expression();
     accept(";");
     if (!value.unknown() && value.type->basic != Basic::boolean)
-      complain(place, fmt::format("the condition is {}, not BOOL", value.type->name), "compare it: <> 0");
+      complain("st.type"_code, place, fmt::format("the condition is {}, not BOOL", value.type->name),
+               "compare it: <> 0");
     else if (!value.unknown())
       test = value_node(value);
   } else if (peek().word("END_REPEAT")) {
-    complain(peek().place, "UNTIL is missing before 'END_REPEAT'",
+    complain("st.syntax"_code, peek().place, "UNTIL is missing before 'END_REPEAT'",
              fmt::format("REPEAT of line {} ends with UNTIL condition END_REPEAT", opened.place.line));
   }
   close(opened, "END_REPEAT");
@@ -99,7 +101,7 @@ int Statements::repeat_statement() {
 int Statements::jump(StOp op) {
   const StToken word = take();
   if (op != StOp::leave_pou && loops_ == 0)
-    complain(word.place, fmt::format("{} stands in no loop", upper(word.text)),
+    complain("st.loop"_code, word.place, fmt::format("{} stands in no loop", upper(word.text)),
              "it leaves or goes on with a FOR, WHILE or REPEAT");
   expect(";", "ends a statement");
   return add_node(op, Basic::unknown, word.place);

@@ -93,13 +93,14 @@ struct Operation {
       if (!e.untyped) return e.type->name;
       return std::string(is_real(e.type->basic) ? "a real number" : "a whole number");
     };
-    return values.refuse(told.place,
+    return values.refuse("st.type"_code, told.place,
                          fmt::format("{} does not go with {} and {}", in_quotes(told.text), name(a), name(b)),
                          remedy);
   }
 
   TypedExpression division_by_zero() {
-    return values.refuse(told.place, "division by the constant 0", "divide by something else");
+    return values.refuse("st.division-by-zero"_code, told.place, "division by the constant 0",
+                         "divide by something else");
   }
 
   /// Both as `type`; two literals stay literals.
@@ -207,8 +208,9 @@ struct Operation {
 
 TypedExpression no_operand(Values& values, const StToken& sign, const TypedExpression& operand,
                            const char* remedy) {
-  return values.refuse(
-      sign.place, fmt::format("{} does not go with {}", in_quotes(sign.text), operand.type->name), remedy);
+  return values.refuse("st.type"_code, sign.place,
+                       fmt::format("{} does not go with {}", in_quotes(sign.text), operand.type->name),
+                       remedy);
 }
 
 }  // namespace
@@ -260,7 +262,7 @@ TypedExpression literal_for_bits(Values& values, TypedExpression value, const Ty
   if (!value.untyped) return value;
   if (wanted != nullptr && is_integer(wanted->basic))
     return values.literal_as(std::move(value), *base_of(wanted));
-  return values.refuse(function.word("NOT") ? function.place : value.place,
+  return values.refuse("st.type"_code, function.word("NOT") ? function.place : value.place,
                        fmt::format("{} of a number without a type", upper(function.text)),
                        "give it one: WORD#16#FF", function.place);
 }

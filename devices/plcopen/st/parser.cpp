@@ -45,7 +45,8 @@ std::vector<Argument> arguments(const Tree& call) {
 Tree Parser::tree() {
   const Nested nested(nesting_);
   if (nesting_ > deepest_tree)
-    give_up(peek().place, "the expression is nested too deeply", "split it up by a variable");
+    give_up("st.too-large"_code, peek().place, "the expression is nested too deeply",
+            "split it up by a variable");
   return tree(0);
 }
 
@@ -68,7 +69,8 @@ Tree Parser::unary_tree() {
   if (call || (!sign.is("-") && !sign.is("+") && !sign.word("NOT"))) return power_tree();
   const Nested nested(nesting_);
   if (nesting_ > deepest_tree)
-    give_up(sign.place, "the expression is nested too deeply", "split it up by a variable");
+    give_up("st.too-large"_code, sign.place, "the expression is nested too deeply",
+            "split it up by a variable");
   take();
   return over(Tree::Kind::sign, sign, unary_tree());
 }
@@ -85,7 +87,8 @@ Tree Parser::power_tree() {
 }
 
 Tree Parser::primary_tree() {
-  if (at_ >= stop_) give_up(behind(), "an expression is missing at the end", "a value stands here");
+  if (at_ >= stop_)
+    give_up("st.syntax"_code, behind(), "an expression is missing at the end", "a value stands here");
   const StToken& token = peek();
   switch (token.kind) {
     case StToken::Kind::number:
@@ -95,16 +98,16 @@ Tree Parser::primary_tree() {
     case StToken::Kind::name:
       return name_tree();
     case StToken::Kind::address:
-      give_up(token.place, in_quotes(token.text) + " stands in an expression",
+      give_up("st.syntax"_code, token.place, in_quotes(token.text) + " stands in an expression",
               "declare a variable at it: start AT %IX0.0 : BOOL;");
     default:
       break;
   }
   if (token.is("=") && at_ > 0 && tokens_[at_ - 1].is("="))
-    give_up(token.place, "there is no '=='", "'=' compares");
+    give_up("st.syntax"_code, token.place, "there is no '=='", "'=' compares");
   if (!accept("("))
-    give_up(token.place, fmt::format("an expression is missing before {}", in_quotes(token.text)),
-            "a value stands here");
+    give_up("st.syntax"_code, token.place,
+            fmt::format("an expression is missing before {}", in_quotes(token.text)), "a value stands here");
   Tree inner = over(Tree::Kind::parenthesised, token, tree());
   expect(")", fmt::format("closes the parenthesis of line {}", token.place.line));
   return inner;
@@ -116,8 +119,8 @@ Tree Parser::name_tree() {
   const bool function =
       peek(1).is("(") && (is_operator_function(name) || (name.word("NOT") && peek(3).is(":=")));
   if (is_keyword(name.text) && !value && !function)
-    give_up(name.place, fmt::format("an expression is missing before {}", in_quotes(name.text)),
-            "a value stands here");
+    give_up("st.syntax"_code, name.place,
+            fmt::format("an expression is missing before {}", in_quotes(name.text)), "a value stands here");
   take();
   if (accept("#")) {
     Tree typed = leaf(Tree::Kind::typed, name);
@@ -128,7 +131,7 @@ Tree Parser::name_tree() {
   Tree result = leaf(Tree::Kind::name, name);
   constexpr int longest = 50;
   for (int parts = 0; at_ < stop_; ++parts) {
-    if (parts > longest) give_up(peek().place, "the name is too long", "split it up");
+    if (parts > longest) give_up("st.too-large"_code, peek().place, "the name is too long", "split it up");
     if (accept("."))
       result = member_tree(std::move(result));
     else if (accept("["))

@@ -88,7 +88,8 @@ bool Pragmas::condition(const std::vector<std::string>& words, std::string_view 
   Condition reader{words, defined_};
   const bool holds = reader.either();
   if (reader.sound && reader.at == words.size()) return holds;
-  complain(place, fmt::format("the condition {} is not known here", in_quotes("{" + std::string(text) + "}")),
+  complain("st.pragma"_code, place,
+           fmt::format("the condition {} is not known here", in_quotes("{" + std::string(text) + "}")),
            "defined(NAME) and hasvalue(NAME, 'text') of {define NAME 'text'}, NOT, AND, OR, parentheses");
   return false;
 }
@@ -97,7 +98,7 @@ void Pragmas::define(const std::vector<std::string>& words, Place place) {
   const bool adds = same_word(words[0], "define");
   const bool named = words.size() > 1 && is_identifier(words[1]);
   if (!named || words.size() > (adds ? 3U : 2U)) {
-    complain(place, fmt::format("{{{}}} names nothing that can be tested", words[0]),
+    complain("st.pragma"_code, place, fmt::format("{{{}}} names nothing that can be tested", words[0]),
              adds ? "{define NAME} or {define NAME 'text'}" : "{undefine NAME}");
   } else if (adds) {
     defined_[lower(words[1])] = words.size() > 2 ? words[2] : "";
@@ -108,12 +109,14 @@ void Pragmas::define(const std::vector<std::string>& words, Place place) {
 
 void Pragmas::next_part(std::string_view word, bool holds, Place place) {
   if (branches_.empty()) {
-    complain(place, fmt::format("{{{}}} without an {{IF}}", upper(word)), "{IF condition} opens it");
+    complain("st.pragma"_code, place, fmt::format("{{{}}} without an {{IF}}", upper(word)),
+             "{IF condition} opens it");
     return;
   }
   Branch& branch = branches_.back();
   if (branch.otherwise)
-    complain(place, fmt::format("{{{}}} behind the {{ELSE}}", upper(word)), "{ELSE} is the last part");
+    complain("st.pragma"_code, place, fmt::format("{{{}}} behind the {{ELSE}}", upper(word)),
+             "{ELSE} is the last part");
   branch.otherwise = same_word(word, "ELSE");
   branch.active = branch.outer && !branch.taken && holds;
   branch.taken = branch.taken || branch.active;
@@ -134,20 +137,21 @@ void Pragmas::read(std::string_view text, Place place) {
     next_part(word, true, place);
   } else if (word == "end_if") {
     if (branches_.empty())
-      complain(place, "{END_IF} without an {IF}", "{IF condition} opens it");
+      complain("st.pragma"_code, place, "{END_IF} without an {IF}", "{IF condition} opens it");
     else
       branches_.pop_back();
   } else if (active() && (word == "define" || word == "undefine")) {
     define(words, place);
   } else if (active() && word == "error") {
-    complain(place, "the program says: " + in_quotes(words.size() > 1 ? words[1].substr(1) : ""),
+    complain("st.pragma"_code, place,
+             "the program says: " + in_quotes(words.size() > 1 ? words[1].substr(1) : ""),
              "compile it under the {define} that it asks for");
   }
 }
 
 void Pragmas::finish() {
   for (const Branch& branch : branches_)
-    complain(branch.opened, "{IF} has no {END_IF}", "{END_IF} ends what it decides on");
+    complain("st.pragma"_code, branch.opened, "{IF} has no {END_IF}", "{END_IF} ends what it decides on");
 }
 
 }  // namespace drycut::devices::plcopen::st

@@ -38,37 +38,39 @@ std::string Reader::suggested(std::string_view word, const std::function<std::ve
   return told() < enough ? suggestion(word, known(), otherwise) : otherwise;
 }
 
-void Reader::give_up(Place place, std::string what, std::string remedy) {
+void Reader::give_up(Code code, Place place, std::string what, std::string remedy) {
   // What the lexer could not read has been told.
-  if (peek().kind != StToken::Kind::bad) complain(place, std::move(what), std::move(remedy));
+  if (peek().kind != StToken::Kind::bad) complain(code, place, std::move(what), std::move(remedy));
   throw GiveUp{};
 }
 
 void Reader::expect(std::string_view sign, std::string_view where) {
   if (accept(sign)) return;
   if (peek().kind == StToken::Kind::bad) throw GiveUp{};
-  if (sign == ":=" && peek().is("=")) give_up(peek().place, "'=' compares", "':=' assigns");
+  if (sign == ":=" && peek().is("=")) give_up("st.syntax"_code, peek().place, "'=' compares", "':=' assigns");
   if (const auto number = decimal_comma(tokens_, at_); !number.empty())
-    give_up(peek().place, "a decimal comma", fmt::format("write {}", number));
+    give_up("st.syntax"_code, peek().place, "a decimal comma", fmt::format("write {}", number));
   // A sign that is missing at a line's end is missing there, not where the next line begins.
   const bool next_line = at_ > 0 && tokens_[at_ - 1].place.line != peek().place.line;
   const std::string what = fmt::format("'{}' is missing before {}", sign, found(peek()));
   const std::string remedy = fmt::format("'{}' {}", sign, where);
-  if (!next_line) give_up(peek().kind == StToken::Kind::end ? behind() : peek().place, what, remedy);
-  complain(behind(), what, remedy);
+  if (!next_line)
+    give_up("st.syntax"_code, peek().kind == StToken::Kind::end ? behind() : peek().place, what, remedy);
+  complain("st.syntax"_code, behind(), what, remedy);
   // The next line is a statement of its own.
   if (sign != ";") throw GiveUp{};
 }
 
 void Reader::expect_word(std::string_view keyword, std::string_view where) {
   if (accept_word(keyword)) return;
-  give_up(peek().place, fmt::format("{} is missing before {}", keyword, found(peek())), std::string(where));
+  give_up("st.syntax"_code, peek().place, fmt::format("{} is missing before {}", keyword, found(peek())),
+          std::string(where));
 }
 
 StToken Reader::expect_name(const std::string& what) {
   const bool keyword = at_word(is_keyword);
   if (at_ < stop_ && peek().kind == StToken::Kind::name && !keyword) return take();
-  give_up(peek().place, fmt::format("{} is missing before {}", what, found(peek())),
+  give_up("st.syntax"_code, peek().place, fmt::format("{} is missing before {}", what, found(peek())),
           keyword ? fmt::format("{} is a word of the language, no name", upper(peek().text))
                   : "a name begins with a letter");
 }

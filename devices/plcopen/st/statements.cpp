@@ -19,7 +19,7 @@ void Statements::compile_body(Unit& unit) {
     if (at_ >= stop_) break;
     const StToken stray = take();
     if (stray.kind == StToken::Kind::bad) continue;
-    complain(stray.place, fmt::format("{} closes nothing", in_quotes(stray.text)),
+    complain("st.syntax"_code, stray.place, fmt::format("{} closes nothing", in_quotes(stray.text)),
              "what it belongs to does not stand before it, or has been closed");
     skip_statement();
   }
@@ -55,7 +55,7 @@ bool Statements::read_as_closer() {
   if (word.word("END") && at_ + 1 < stop_ && is_keyword(peek(1).text)) {
     const auto closer = meant_closer(fmt::format("END{}", peek(1).text));
     if (closer.empty()) return false;
-    complain(word.place, fmt::format("there is no word 'END {}'", peek(1).text),
+    complain("st.unknown-name"_code, word.place, fmt::format("there is no word 'END {}'", peek(1).text),
              fmt::format("did you mean {}?", in_quotes(closer)));
     tokens_[++at_].text = closer;
     return true;
@@ -65,7 +65,7 @@ bool Statements::read_as_closer() {
   const auto meant = used ? std::string_view() : meant_closer(word.text);
   // ELSEIF (a > b) THEN; a call ends with ')'.
   if (meant.empty() || (next.is("(") && meant != "ELSIF")) return false;
-  complain(word.place, fmt::format("there is no word {}", in_quotes(word.text)),
+  complain("st.unknown-name"_code, word.place, fmt::format("there is no word {}", in_quotes(word.text)),
            fmt::format("did you mean {}?", in_quotes(meant)));
   word.text = meant;
   return true;
@@ -77,7 +77,8 @@ int Statements::statement() {
   if (nesting_ > deepest) {
     // Told once a POU.
     if (!told_.insert("#nesting").second) throw GiveUp{};
-    give_up(peek().place, "statements are nested too deeply", "make a FUNCTION of the inner ones");
+    give_up("st.too-large"_code, peek().place, "statements are nested too deeply",
+            "make a FUNCTION of the inner ones");
   }
   const Nested nested(nesting_);
   if (peek().word("IF")) return if_statement();
@@ -95,7 +96,7 @@ int Statements::assignment_or_call() {
   const StToken first = peek();
   if (first.kind != StToken::Kind::name || is_keyword(first.text)) {
     const bool declares = first.kind == StToken::Kind::name && upper(first.text).starts_with("VAR");
-    give_up(first.place, fmt::format("{} begins no statement", in_quotes(first.text)),
+    give_up("st.syntax"_code, first.place, fmt::format("{} begins no statement", in_quotes(first.text)),
             declares ? "variables are declared before the statements"
                      : "a statement is an assignment, a call, IF, CASE, FOR, WHILE or REPEAT");
   }
@@ -136,7 +137,7 @@ int Statements::call_statement(const Tree& call) {
     return -1;
   }
   if (instance.type->basic != Basic::block)
-    give_up(name.place,
+    give_up("st.use"_code, name.place,
             fmt::format("{} is {} and cannot be called", in_quotes(instance.name), instance.type->name),
             "a function block is called by its instance");
   const int node = block_call(instance, call);
@@ -151,14 +152,14 @@ int Statements::condition(std::string_view closing) {
     const TypedExpression value = expression();
     if (!value.unknown() && value.type->basic != Basic::boolean) {
       const bool assigns = peek().is(":=");
-      complain(value.place,
+      complain("st.type"_code, value.place,
                fmt::format("the condition is {}, not BOOL", value.untyped ? "a number" : value.type->name),
                assigns ? "'=' compares" : "compare it: <> 0");
     } else if (!value.unknown()) {
       node = value_node(value);
     }
     if (peek().is(":=") && (value.unknown() || value.type->basic == Basic::boolean))
-      give_up(peek().place, "':=' assigns", "'=' compares");
+      give_up("st.syntax"_code, peek().place, "':=' assigns", "'=' compares");
     expect_word(closing, fmt::format("stands behind the condition of line {}", place.line));
   } catch (const GiveUp&) {
     skip_to([&] {
@@ -177,7 +178,7 @@ void Statements::close(const StToken& opened, std::string_view closing) {
     accept(";");
     return;
   }
-  complain(peek().place,
+  complain("st.syntax"_code, peek().place,
            fmt::format("{} is missing before {}", closing,
                        peek().kind == StToken::Kind::end ? "the end of the file" : in_quotes(peek().text)),
            fmt::format("it closes the {} of line {}", upper(opened.text), opened.place.line));
@@ -210,13 +211,15 @@ std::vector<Subrange> Statements::case_labels(const Type& selector, Labels& labe
     range.low = range.high = case_label(selector);
     if (accept("..")) range.high = case_label(selector);
     if (range.high < range.low)
-      give_up(place, fmt::format("{}..{} is empty", range.low, range.high), "the lower one stands first");
+      give_up("st.out-of-range"_code, place, fmt::format("{}..{} is empty", range.low, range.high),
+              "the lower one stands first");
     // Those before do not overlap: only the last that begins below its end can.
     const auto next = labels.upper_bound(range.high);
     if (next != labels.begin()) {
       const auto& [low, other] = *std::prev(next);
       if (other.first >= range.low)
-        give_up(place, fmt::format("the label {} is there already", std::max(range.low, low)),
+        give_up("st.declared-twice"_code, place,
+                fmt::format("the label {} is there already", std::max(range.low, low)),
                 fmt::format("the first one is in line {}", other.second.line));
     }
     labels.emplace(range.low, std::pair{range.high, place});
@@ -233,7 +236,7 @@ int Statements::case_statement() {
   try {
     const TypedExpression value = expression();
     if (!value.unknown() && !is_integer(value.type->basic) && value.type->basic != Basic::enumeration)
-      complain(value.place, fmt::format("CASE chooses by {}", value.type->name),
+      complain("st.type"_code, value.place, fmt::format("CASE chooses by {}", value.type->name),
                "by a whole number or an enumeration");
     else if (!value.unknown())
       type = value.untyped ? type_of(Basic::lint) : base_of(value.type);

@@ -55,9 +55,11 @@ void Declarations::check_size(Place place, int cells, int depth) {
   constexpr int deepest = 60;
   type_cells_ += cells;
   if (type_cells_ > most_in_all)
-    give_up(place, "the types and variables take too much memory", "128 MB at most, all types together");
+    give_up("st.too-large"_code, place, "the types and variables take too much memory",
+            "128 MB at most, all types together");
   if (depth > deepest)
-    give_up(place, "the types are nested too deeply", fmt::format("{} within each other at most", deepest));
+    give_up("st.too-large"_code, place, "the types are nested too deeply",
+            fmt::format("{} within each other at most", deepest));
 }
 
 void Declarations::declare_type(Unit& unit) {
@@ -75,7 +77,7 @@ void Declarations::declare_type(Unit& unit) {
     }
     if (at_ < stop_) {
       const bool initial = peek().is(":=");
-      give_up(peek().place, in_quotes(peek().text) + " is not expected behind a type",
+      give_up("st.syntax"_code, peek().place, in_quotes(peek().text) + " is not expected behind a type",
               initial ? "give the initial value where a variable is declared" : "a type ends with ';'");
     }
   } catch (const GiveUp&) {
@@ -103,10 +105,12 @@ void Declarations::declare_enumeration(Type& type) {
   do {
     const StToken name = expect_name("the name of a value");
     if (!names.insert(lower(name.text)).second)
-      complain(name.place, in_quotes(name.text) + " is in the enumeration twice", "name each value once");
+      complain("st.declared-twice"_code, name.place, in_quotes(name.text) + " is in the enumeration twice",
+               "name each value once");
     if (accept(":=")) next = constant_value(*type_of(Basic::int_));
     if (next > range_of(Basic::int_).high)
-      give_up(name.place, in_quotes(name.text) + " is above 32767", "an enumeration is kept as an INT");
+      give_up("st.out-of-range"_code, name.place, in_quotes(name.text) + " is above 32767",
+              "an enumeration is kept as an INT");
     enum_values_.emplace(lower(name.text), std::pair{&type, next});
     type.values.push_back({std::string(name.text), next++});
   } while (accept(","));
@@ -119,7 +123,8 @@ const Type* Declarations::parse_type() {
   if (peek().word("ARRAY")) {
     constexpr int deepest = 40;
     if (nesting_ > deepest)
-      give_up(peek().place, "the type is nested too deeply", "give its inner types names");
+      give_up("st.too-large"_code, peek().place, "the type is nested too deeply",
+              "give its inner types names");
     take();
     const Nested nested(nesting_);
     return array_type();
@@ -148,7 +153,8 @@ const Type* Declarations::array_type() {
     expect("..", "stands between the bounds: ARRAY [0..7] OF LREAL");
     bounds.high = constant_integer("a bound");
     if (bounds.high < bounds.low)
-      give_up(bounds.place, fmt::format("an array from {} to {} is empty", bounds.low, bounds.high),
+      give_up("st.out-of-range"_code, bounds.place,
+              fmt::format("an array from {} to {} is empty", bounds.low, bounds.high),
               "the lower bound stands first");
     dimensions.push_back(bounds);
   } while (accept(","));
@@ -156,11 +162,13 @@ const Type* Declarations::array_type() {
   expect_word("OF", "ARRAY [0..7] OF LREAL");
   const Place place = peek().place;
   const Type* element = parse_type();
-  if (element->basic == Basic::axis) give_up(place, "an array of AXIS_REF", "name each axis in VAR_EXTERNAL");
+  if (element->basic == Basic::axis)
+    give_up("st.declaration"_code, place, "an array of AXIS_REF", "name each axis in VAR_EXTERNAL");
   for (auto bounds = dimensions.rbegin(); bounds != dimensions.rend(); ++bounds) {
     const std::int64_t most = most_cells / std::max(element->cells, 1);
     if (bounds->high - bounds->low < 0 || bounds->high - bounds->low >= most)
-      give_up(bounds->place, "the array is too large", fmt::format("{} elements of this type at most", most));
+      give_up("st.too-large"_code, bounds->place, "the array is too large",
+              fmt::format("{} elements of this type at most", most));
     const std::int64_t count = bounds->high - bounds->low + 1;
     Type& type =
         new_type(Basic::array, fmt::format("ARRAY [{}..{}] OF {}", bounds->low, bounds->high, element->name));
@@ -188,7 +196,7 @@ const Type* Declarations::string_type() {
   const std::int64_t length = constant_integer("the length");
   expect(round ? ")" : "]", "closes the length");
   if (length < 1 || length > 255)
-    give_up(place, fmt::format("a STRING of {} characters", length), "1 to 255");
+    give_up("st.out-of-range"_code, place, fmt::format("a STRING of {} characters", length), "1 to 255");
   Type& type = new_type(Basic::string, fmt::format("STRING[{}]", length));
   type.length = static_cast<std::size_t>(length);
   type.cells = string_cells(type.length);
@@ -204,14 +212,14 @@ const Type* Declarations::named_type() {
   if (Unit* unit = find_unit(name.text)) {
     const bool type = unit->kind == Unit::Kind::type || unit->kind == Unit::Kind::function_block;
     if (!type)
-      give_up(name.place, in_quotes(name.text) + " is no type",
+      give_up("st.use"_code, name.place, in_quotes(name.text) + " is no type",
               "a PROGRAM or FUNCTION has no variables of its kind");
     if (unit->state == Unit::State::open)
-      give_up(name.place, in_quotes(name.text) + " contains itself",
+      give_up("st.recursion"_code, name.place, in_quotes(name.text) + " contains itself",
               "a type is made of types that do not need it");
     constexpr int deepest = 100;
     if (open_units_ > deepest)
-      give_up(name.place, "the types are nested too deeply",
+      give_up("st.too-large"_code, name.place, "the types are nested too deeply",
               fmt::format("declare {} before what is made of it", in_quotes(name.text)));
     declare(*unit);
     return unit->type;
@@ -229,7 +237,7 @@ const Type* Declarations::named_type() {
     names.emplace_back("MC_CAM_REF");
     return names;
   };
-  give_up(name.place, fmt::format("there is no type {}", in_quotes(name.text)),
+  give_up("st.unknown-name"_code, name.place, fmt::format("there is no type {}", in_quotes(name.text)),
           suggested(name.text, known, "BOOL, INT, LREAL, TIME, MC_CamIn, TON ..."));
 }
 
@@ -237,14 +245,16 @@ const Type* Declarations::named_type() {
 const Type* Declarations::subrange(const Type& base) {
   const Place place = peek().place;
   if (!is_integer(base.basic))
-    give_up(place, fmt::format("a range of {}", base.name), "whole numbers have ranges: INT (0..9)");
+    give_up("st.type"_code, place, fmt::format("a range of {}", base.name),
+            "whole numbers have ranges: INT (0..9)");
   take();
   const std::int64_t low = constant_integer("a bound", &base);
   expect("..", "stands between the bounds: INT (0..9)");
   const std::int64_t high = constant_integer("a bound", &base);
   expect(")", "closes the bounds");
   if (high < low)
-    give_up(place, fmt::format("a range from {} to {} is empty", low, high), "the lower bound stands first");
+    give_up("st.out-of-range"_code, place, fmt::format("a range from {} to {} is empty", low, high),
+            "the lower bound stands first");
   Type& type = new_type(base.basic, fmt::format("{} ({}..{})", base.name, low, high));
   type.subrange = true;
   type.low = low;

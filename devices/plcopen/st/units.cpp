@@ -81,7 +81,8 @@ void Compiler::find_units(bool standard) {
       add_unit(std::move(unit));
     } else {
       if (opening.kind != StToken::Kind::bad && !opening.is(";"))
-        complain(opening.place, in_quotes(opening.text) + " stands outside of all units",
+        complain("st.declaration"_code, opening.place,
+                 in_quotes(opening.text) + " stands outside of all units",
                  "statements stand in PROGRAM ... END_PROGRAM, variables of all in VAR_GLOBAL ... END_VAR");
       // One complaint a stretch.
       skip_to([&] { return at_word(opens_unit); });
@@ -104,7 +105,7 @@ std::size_t Compiler::end_of_unit(std::size_t opening, std::string_view closing)
   skip_to([&] { return peek().word(closing) || at_word(opens_unit); });
   if (at_ < stop_ && peek().word(closing)) return at_++;
   const StToken& begin = tokens_[opening];
-  complain(begin.place, fmt::format("{} has no {}", upper(begin.text), closing),
+  complain("st.syntax"_code, begin.place, fmt::format("{} has no {}", upper(begin.text), closing),
            at_ < stop_ ? fmt::format("write {} before the {} of line {}", closing, upper(peek().text),
                                      peek().place.line)
                        : fmt::format("write {} at the end", closing));
@@ -156,14 +157,14 @@ void Compiler::add_unit(Unit unit) {
     if (const Unit* other = find_unit(unit.name.text)) {
       // A user's own TON stands instead of the standard one.
       if (!unit.standard)
-        complain(unit.name.place, in_quotes(unit.name.text) + " is declared twice",
+        complain("st.declared-twice"_code, unit.name.place, in_quotes(unit.name.text) + " is declared twice",
                  fmt::format("the first one is in line {}", other->name.place.line));
       return;
     }
     if (!unit.standard && (elementary_type(unit.name.text) != nullptr || find_block_type(unit.name.text) ||
                            same_word(unit.name.text, "MC_CAM_REF"))) {
-      complain(unit.name.place, in_quotes(unit.name.text) + " is a type of the controller",
-               "choose another name");
+      complain("st.declaration"_code, unit.name.place,
+               in_quotes(unit.name.text) + " is a type of the controller", "choose another name");
       return;
     }
   }
@@ -176,7 +177,8 @@ void Compiler::check_programs() {
   const auto is_program = [](const auto& unit) { return unit->kind == Unit::Kind::program; };
   // A PROGRAM that is there but could not be read has been told.
   if (std::none_of(units_.begin(), units_.end(), is_program) && told() == 0)
-    complain({1, 1}, "the file has no PROGRAM", "PROGRAM name ... END_PROGRAM is what the controller runs");
+    complain("st.syntax"_code, {1, 1}, "the file has no PROGRAM",
+             "PROGRAM name ... END_PROGRAM is what the controller runs");
 }
 
 /// No call leads back to where it came from, and none goes deeper than the machine.
@@ -222,7 +224,7 @@ void Compiler::check_calls() {
 }
 
 void Compiler::tell_recursion(const Unit& called, const Unit& caller) {
-  complain(called.name.place, in_quotes(called.name.text) + " calls itself",
+  complain("st.recursion"_code, called.name.place, in_quotes(called.name.text) + " calls itself",
            &called == &caller ? "IEC 61131-3 has no recursion: use a loop"
                               : fmt::format("IEC 61131-3 has no recursion, here by {}: use a loop",
                                             in_quotes(caller.name.text)));
@@ -234,7 +236,7 @@ void Compiler::check_depth() {
   for (const auto& unit : units_) {
     // The first that is too deep is told, not all that call it.
     if (unit->levels <= most_levels || unit->levels_below > most_levels) continue;
-    complain(unit->name.place,
+    complain("st.too-large"_code, unit->name.place,
              fmt::format("the calls, statements and operations of {} go {} levels deep",
                          in_quotes(unit->name.text), unit->levels),
              fmt::format("{} at most: let it call less that calls more", most_levels));

@@ -41,8 +41,8 @@ int depth_over(const std::vector<TypedExpression>& values) {
   return depth;
 }
 
-TypedExpression Values::refuse(Place place, std::string what, std::string remedy, Place of) {
-  complain(place, std::move(what), std::move(remedy));
+TypedExpression Values::refuse(Code code, Place place, std::string what, std::string remedy, Place of) {
+  complain(code, place, std::move(what), std::move(remedy));
   return unknown_at(of);
 }
 
@@ -129,7 +129,8 @@ TypedExpression Values::negated_literal(TypedExpression literal) {
   constexpr Cell lowest = std::numeric_limits<Cell>::min();
   const bool wide = is_wide(literal.type->basic);
   if (wide && literal.value < 0 && literal.value != lowest)
-    return refuse(literal.place, fmt::format("the constant -{} is out of range", whole_text(literal)),
+    return refuse("st.out-of-range"_code, literal.place,
+                  fmt::format("the constant -{} is out of range", whole_text(literal)),
                   fmt::format("a LINT goes down to {}", lowest));
   // The lowest LINT and the ULINT that is as large have the same bits.
   literal.type = type_of(literal.value == lowest && !wide ? Basic::ulint : Basic::lint);
@@ -148,23 +149,25 @@ TypedExpression Values::literal_as(TypedExpression literal, const Type& to) {
                                 : static_cast<double>(literal.value);
     const double kept = rounded(basic, value);
     if (!std::isfinite(kept) && std::isfinite(value))
-      complain(literal.place, fmt::format("the constant {} is out of the range of REAL", value),
+      complain("st.out-of-range"_code, literal.place,
+               fmt::format("the constant {} is out of the range of REAL", value),
                "a REAL goes to 3.4e38, an LREAL to 1.8e308");
     literal.value = cell_of(kept);
   } else if (!real && wide && is_integer(basic)) {
     if (!is_wide(basic))
-      complain(literal.place,
+      complain("st.out-of-range"_code, literal.place,
                fmt::format("the constant {} is out of the range of {}", unsigned_value, to.name),
                fmt::format("{} to {}", range_of(to).low, range_of(to).high));
   } else if (!real && (is_integer(basic) || basic == Basic::boolean)) {
     const Subrange range = range_of(to);
     if (literal.value < range.low || literal.value > range.high)
-      complain(literal.place,
+      complain("st.out-of-range"_code, literal.place,
                fmt::format("the constant {} is out of the range of {}", literal.value, to.name),
                is_wide(basic) && !to.subrange ? "0 to 18446744073709551615"
                                               : fmt::format("{} to {}", range.low, range.high));
   } else if (real && is_integer(basic)) {
-    complain(literal.place, fmt::format("{} is not a whole number for {}", real_of(literal.value), to.name),
+    complain("st.type"_code, literal.place,
+             fmt::format("{} is not a whole number for {}", real_of(literal.value), to.name),
              fmt::format("LREAL_TO_{} rounds, TRUNC cuts off", to.name));
   } else {
     const char* remedy = basic == Basic::time          ? "a TIME is written T#500ms"
@@ -177,7 +180,7 @@ TypedExpression Values::literal_as(TypedExpression literal, const Type& to) {
                                                        : "give a variable of that type";
     const std::string number =
         real ? fmt::format("{}", real_of(literal.value)) : fmt::format("{}", literal.value);
-    complain(literal.place, fmt::format("the number {} is no {}", number, to.name), remedy);
+    complain("st.type"_code, literal.place, fmt::format("the number {} is no {}", number, to.name), remedy);
   }
   literal.type = &to;
   literal.untyped = false;
@@ -196,7 +199,7 @@ TypedExpression Values::converted(TypedExpression expression, const Type& to) {
   // A text that is too long is cut off, as on the machine; a literal is refused.
   if (from.basic == Basic::string && to.basic == Basic::string) {
     if (expression.string && expression.string->size() > to.length)
-      complain(expression.place,
+      complain("st.out-of-range"_code, expression.place,
                fmt::format("{} characters do not fit in {}", expression.string->size(), to.name),
                fmt::format("{} at most", to.length));
     return expression;
@@ -212,7 +215,7 @@ TypedExpression Values::converted(TypedExpression expression, const Type& to) {
   const std::string what = expression.name.empty() ? fmt::format("a value of type {} does not", from.name)
                                                    : fmt::format("{} is {}, which does not",
                                                                  in_quotes(expression.name), from.name);
-  return refuse(expression.place, fmt::format("{} go into {} by itself", what, to.name),
+  return refuse("st.type"_code, expression.place, fmt::format("{} go into {} by itself", what, to.name),
                 casts ? fmt::format("{}_TO_{}(...) converts", from_name, type_of(to.basic)->name)
                       : fmt::format("a value of type {} is wanted", to.name));
 }
@@ -257,7 +260,8 @@ TypedExpression Values::cast(const TypedExpression& expression, Basic to, Place 
 }
 
 TypedExpression Values::folded(StOp op, const Type* type, Place place, Cell a, Cell b, bool untyped) {
-  if (const auto none = no_result(op, type->basic, a, b)) return refuse(place, none->what, none->remedy);
+  if (const auto none = no_result(op, type->basic, a, b))
+    return refuse(none->code, place, none->what, none->remedy);
   return constant(type, apply(op, type->basic, a, b), place, untyped);
 }
 
@@ -272,7 +276,8 @@ TypedExpression Values::apply_op(StOp op, const Type* type, Place place, const T
     return result;
   }
   const int depth = std::max(a.depth, b.depth) + 1;
-  if (depth > deepest) give_up(place, "the expression is too long", "split it up by a variable");
+  if (depth > deepest)
+    give_up("st.too-large"_code, place, "the expression is too long", "split it up by a variable");
   const int first = value_node(a);
   return {type, place, add_node(op, type->basic, place, first, value_node(b)), depth};
 }

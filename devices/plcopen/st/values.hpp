@@ -78,9 +78,9 @@ class Values : public Parser {
   using Parser::Parser;
 
   /// Tells a problem; what it is about is unknown from then on.
-  TypedExpression refuse(Place place, std::string what, std::string remedy, Place of);
-  TypedExpression refuse(Place place, std::string what, std::string remedy) {
-    return refuse(place, std::move(what), std::move(remedy), place);
+  TypedExpression refuse(Code code, Place place, std::string what, std::string remedy, Place of);
+  TypedExpression refuse(Code code, Place place, std::string what, std::string remedy) {
+    return refuse(code, place, std::move(what), std::move(remedy), place);
   }
 
   /// As a value of type `to`, by the conversions that IEC 61131-3 makes by itself.

@@ -48,11 +48,11 @@ class CammingJudge {
   static constexpr std::size_t last = SIZE_MAX;
 
   /// `order`: number of sectors begun before or with it.
-  void add(std::size_t order, Grade grade, int code, int row, int pass, std::string text,
+  void add(Code kind, std::size_t order, Grade grade, int code, int row, int pass, std::string text,
            CamRemedy remedy = {}) {
     if (!told_.emplace(grade, code, row, grade == Grade::error || grade == Grade::warning ? "" : text).second)
       return;
-    found_.push_back({order, {grade, code, where(row, pass), std::move(text), std::move(remedy)}});
+    found_.push_back({order, {kind, grade, code, where(row, pass), std::move(text), std::move(remedy)}});
   }
 
   /// "sector 4 (135 DZC) in pass 2", "" for row 0.
@@ -73,8 +73,8 @@ class CammingJudge {
         visit = &run_.visits[event.visits - 1];
       const int row_before = event.visits > 1 ? run_.visits[event.visits - 2].row : 0;
       auto advice = advice_on(event, visit, row_before, table_, duty_);
-      add(event.visits, event.error ? Grade::error : Grade::warning, event.number, event.row, event.pass,
-          std::move(advice.text), std::move(advice.remedy));
+      add("cam.device"_code, event.visits, event.error ? Grade::error : Grade::warning, event.number,
+          event.row, event.pass, std::move(advice.text), std::move(advice.remedy));
     }
   }
 
@@ -91,11 +91,11 @@ class CammingJudge {
       });
       const auto zero = static_cast<std::ptrdiff_t>(passage.rows.size()) - updates;
       if (zero > most_zero && zero <= error_zero)
-        add(passage.visits, Grade::caution, 0, passage.rows.front(), passage.pass,
+        add("cam.manual-limits"_code, passage.visits, Grade::caution, 0, passage.rows.front(), passage.pass,
             fmt::format("{} rows without master space in sequence", zero),
             fmt::format("the manual's limits (1.10) allow {}", most_zero));
       if (updates > most_updates && updates <= error_updates)
-        add(passage.visits, Grade::caution, 0, passage.rows.front(), passage.pass,
+        add("cam.manual-limits"_code, passage.visits, Grade::caution, 0, passage.rows.front(), passage.pass,
             fmt::format("{} count updates in sequence", updates),
             fmt::format("the manual's limits (1.10) allow {}", most_updates));
     }
@@ -103,11 +103,12 @@ class CammingJudge {
 
   void judge_visit(const CamVisit& visit, std::size_t order) {
     if (visit.waiting) return;
-    const auto tell = [&](Grade grade, int code, std::string text, CamRemedy remedy) {
-      add(order, grade, code, visit.row, visit.pass, std::move(text), std::move(remedy));
+    const auto tell = [&](Code kind, Grade grade, int code, std::string text, CamRemedy remedy) {
+      add(kind, order, grade, code, visit.row, visit.pass, std::move(text), std::move(remedy));
     };
     const auto tell_all = [&](std::vector<CamFinding> passed) {
-      for (auto& limit : passed) tell(limit.grade, 0, std::move(limit.text), std::move(limit.remedy));
+      for (auto& limit : passed)
+        tell(limit.kind, limit.grade, 0, std::move(limit.text), std::move(limit.remedy));
     };
     const double gradient = peak_gradient(visit);
     if (master_ > 0) {
@@ -134,7 +135,7 @@ class CammingJudge {
     }
     if (worst == run_.visits.size()) return;
     const auto& visit = run_.visits[worst];
-    add(worst + 1, Grade::caution, 0, visit.row, visit.pass,
+    add("cam.resolution"_code, worst + 1, Grade::caution, 0, visit.row, visit.pass,
         fmt::format("the slave's transducer gives {} times as many bits as the master's; 1.5 is the most",
                     number(peak_speed(visit) * bits)),
         "use a finer transducer on the master or a coarser one on the slave (manual 1.6)");
@@ -157,7 +158,8 @@ class CammingJudge {
     for (auto& fault : travel_faults(table_.travel, low.slave, high.slave, {"minpos", "maxpos", "Um", ""})) {
       const auto place = (fault.above ? high : low).visit;
       const auto& visit = run_.visits[place];
-      add(place + 1, Grade::limit, 0, visit.row, visit.pass, std::move(fault.text), std::move(fault.remedy));
+      add("cam.travel"_code, place + 1, Grade::limit, 0, visit.row, visit.pass, std::move(fault.text),
+          std::move(fault.remedy));
     }
   }
 
@@ -179,7 +181,7 @@ class CammingJudge {
                               ? static_cast<double>(visit.sector.row.codeQm)
                               : visit.master_length;
     if (length * within >= advance) return;
-    tell(Grade::error, 4,
+    tell("cam.device"_code, Grade::error, 4,
          fmt::format("master space too small: {} Um are over in {} ms, less than a sampling time of {} ms",
                      number(length), number(length / master_ * 1000), table_.TCamp),
          sampling_remedy(visit.sector, length));
@@ -189,10 +191,11 @@ class CammingJudge {
   void judge_change_of_ratio(const Row& row, const Tell& tell) {
     if (row.codeG != 154 && row.codeG != 254) return;
     if (row.codeQma > 4)
-      tell(Grade::caution, 0, fmt::format("codeQma {} softens nothing", row.codeQma),
+      tell("cam.value"_code, Grade::caution, 0, fmt::format("codeQma {} softens nothing", row.codeQma),
            "give 0 for none or 1 to 4 for 1/2 to 1/5 of the smaller sector");
     if (row.codeQsa < 0 || row.codeQsa > 2)
-      tell(Grade::caution, 0, fmt::format("codeQsa {} has no meaning and acts as 0", row.codeQsa),
+      tell("cam.value"_code, Grade::caution, 0,
+           fmt::format("codeQsa {} has no meaning and acts as 0", row.codeQsa),
            "give 0 movement follows, 1 axis stationary next, 2 gearing");
   }
 
@@ -200,12 +203,12 @@ class CammingJudge {
     const std::size_t order = run_.visits.size();
     const int pass = run_.visits.empty() ? 1 : run_.visits.back().pass;
     if (run_.end == CamRun::End::ended && !camming4::is_standstill(run_.end_speed))
-      add(order, Grade::caution, 0, run_.passages.back().rows.back(), pass,
+      add("cam.no-ramp"_code, order, Grade::caution, 0, run_.passages.back().rows.back(), pass,
           fmt::format("releases the slave at ratio {}: it stops without a ramp", number(run_.end_speed)),
           "end the sector before it at standstill (135)");
     const auto grows = [&](double growth, const camming4::GrainResolution& axis, const char* name) {
       if (std::abs(growth) < (1 - 1e-6) / static_cast<double>(axis.pulse)) return;
-      add(last - 1, Grade::caution, 0, 0, pass,
+      add("cam.leaves-range"_code, last - 1, Grade::caution, 0, 0, pass,
           fmt::format("{} grows by {} Um each time round and leaves its range in the end", name,
                       number(growth)),
           "take it off before the jump (139), or end the loop with 138");
@@ -226,7 +229,8 @@ class CammingJudge {
       judge_alone(number);
     }
     if (!rows.empty())
-      add(last, Grade::remark, 0, 0, 1, fmt::format("the cam did not reach sector {}", rows));
+      add("cam.not-judged"_code, last, Grade::remark, 0, 0, 1,
+          fmt::format("the cam did not reach sector {}", rows));
   }
 
   /// What is wrong with a row whatever runs before it.
@@ -242,15 +246,17 @@ class CammingJudge {
       error = make_sector(*code, row, number, table_.settings, {}).error;
     if (error == 0) return;
     auto advice = advice_on({true, error, number, 1, 0, 0}, nullptr, 0, table_, duty_);
-    add(last - 1, Grade::caution, 0, number, 1,
+    add("cam.device"_code, last - 1, Grade::caution, 0, number, 1,
         fmt::format("not reached; it would raise error {}: {}", error, advice.text),
         std::move(advice.remedy));
   }
 
   void remark_on_end() {
-    const auto remark = [&](std::string text) { add(last, Grade::remark, 0, 0, 1, std::move(text)); };
+    const auto remark = [&](std::string text) {
+      add("cam.remark"_code, last, Grade::remark, 0, 0, 1, std::move(text));
+    };
     for (const int row : run_.released)
-      add(last, Grade::remark, 0, row, 1,
+      add("cam.remark"_code, last, Grade::remark, 0, row, 1,
           "a gearing runs until the program writes codeQsa 0 or 1; shown for one lap of codeQm");
     switch (run_.end) {
       case CamRun::End::failed:
@@ -260,7 +266,7 @@ class CammingJudge {
         remark("the cam stays in sector 160 without end; what follows it was not run");
         break;
       case CamRun::End::cut_short:
-        add(last - 1, Grade::caution, 0, 0, 1,
+        add("cam.not-judged"_code, last - 1, Grade::caution, 0, 0, 1,
             fmt::format("the cam was left after {} sectors; what would come after them was not judged",
                         CamRun::most_visits),
             "validate it with fewer jumps in 190");

@@ -17,7 +17,6 @@ namespace drycut::sim::cams {
 namespace {
 
 namespace camming4 = devices::camming4;
-using camming4::Code;
 using camming4::Row;
 using camming4::Use;
 
@@ -106,11 +105,11 @@ class CammingReader {
   }
 
  private:
-  void problem(int line, int column, std::string what, std::string remedy) {
-    told_.add(line, column, std::move(what), std::move(remedy));
+  void problem(Code code, int line, int column, std::string what, std::string remedy) {
+    told_.add(code, line, column, std::move(what), std::move(remedy));
   }
-  void problem(const Cell& cell, std::string what, std::string remedy) {
-    problem(line_, cell.column, std::move(what), std::move(remedy));
+  void problem(Code code, const Cell& cell, std::string what, std::string remedy) {
+    problem(code, line_, cell.column, std::move(what), std::move(remedy));
   }
 
   void read_line(std::string_view line) {
@@ -134,14 +133,16 @@ class CammingReader {
     header_.check_width(cells, line_, told_);
     std::optional<std::int32_t> number;
     if (header_.has(0)) number = integer(header_.cell_of(cells, 0), "sector", {1, camming4::cam_rows});
-    const Code* code = header_.has(1) ? read_code(header_.cell_of(cells, 1)) : nullptr;
-    const auto use = [&](Use Code::*column) { return code != nullptr ? code->*column : Use::unused; };
+    const camming4::Code* code = header_.has(1) ? read_code(header_.cell_of(cells, 1)) : nullptr;
+    const auto use = [&](Use camming4::Code::*column) {
+      return code != nullptr ? code->*column : Use::unused;
+    };
     Row row;
     row.codeG = code != nullptr ? code->code : 0;
-    read_number(cells, 2, use(&Code::qm), row, row.codeQm);
-    read_number(cells, 3, use(&Code::qs), row, row.codeQs);
-    read_number(cells, 4, use(&Code::qma), row, row.codeQma);
-    read_number(cells, 5, use(&Code::qsa), row, row.codeQsa);
+    read_number(cells, 2, use(&camming4::Code::qm), row, row.codeQm);
+    read_number(cells, 3, use(&camming4::Code::qs), row, row.codeQs);
+    read_number(cells, 4, use(&camming4::Code::qma), row, row.codeQma);
+    read_number(cells, 5, use(&camming4::Code::qsa), row, row.codeQsa);
     read_number(cells, 6, Use::unused, row, row.codeM);
     if (number) keep(header_.cell_of(cells, 0), *number, row);
   }
@@ -154,15 +155,16 @@ class CammingReader {
     if (const auto number = integer(cell, name, range_of(name, use, row.codeG))) target = *number;
   }
 
-  const Code* read_code(const Cell& cell) {
+  const camming4::Code* read_code(const Cell& cell) {
     for (const auto& code : camming4::codes) {
       if (cell.text != code.mnemonic) continue;
-      problem(cell, fmt::format("codeG {} is a name, not a number", in_quotes(cell.text)),
+      problem("cam.value"_code, cell, fmt::format("codeG {} is a name, not a number", in_quotes(cell.text)),
               fmt::format("write {}: {} {}", code.code, code.mnemonic, code.meaning));
       return &code;
     }
     if (cell.text.empty()) {
-      problem(cell, "codeG has no value", "write an operating instruction, such as 133; 130 does nothing");
+      problem("cam.missing"_code, cell, "codeG has no value",
+              "write an operating instruction, such as 133; 130 does nothing");
       return nullptr;
     }
     const auto number = integer(cell, "codeG", {0, 32767});
@@ -171,7 +173,7 @@ class CammingReader {
     const auto* nearest = camming4::codes.data();
     for (const auto& code : camming4::codes)
       if (std::abs(code.code - *number) < std::abs(nearest->code - *number)) nearest = &code;
-    problem(cell, fmt::format("there is no codeG {}", *number),
+    problem("cam.unknown-key"_code, cell, fmt::format("there is no codeG {}", *number),
             fmt::format("the nearest is {} {}: {}", nearest->code, nearest->mnemonic, nearest->meaning));
     return nullptr;
   }
@@ -179,7 +181,7 @@ class CammingReader {
   void keep(const Cell& where, int number, const Row& row) {
     auto& sector = table_.sectors[static_cast<std::size_t>(number - 1)];
     if (sector.line > 0) {
-      problem(where, fmt::format("sector {} is given twice", number),
+      problem("cam.twice"_code, where, fmt::format("sector {} is given twice", number),
               fmt::format("it was first given in line {}; number each sector once", sector.line));
       return;
     }
@@ -189,15 +191,17 @@ class CammingReader {
   void check_whole() {
     for (const auto& [ramp, value] : {std::pair{"taccmax", table_.taccmax}, {"tdecmax", table_.tdecmax}}) {
       if (value > 0 && table_.maxvel == 0)
-        problem(settings_.line_of(ramp), 1, fmt::format("{} means nothing without maxvel", ramp),
+        problem("cam.needs-another"_code, settings_.line_of(ramp), 1,
+                fmt::format("{} means nothing without maxvel", ramp),
                 "give the speed at 10 V too: # maxvel: 1000");
     }
     settings_.check_travel();
     if (!header_.is_read()) {
-      problem(std::max(line_, 1), 1, "there is no table: the header is missing",
+      problem("cam.missing"_code, std::max(line_, 1), 1, "there is no table: the header is missing",
               "give the line sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM and a line for each sector");
     } else if (table_.count() == 0 && told_.none()) {
-      problem(line_, 1, "the table has no sector", "give a line for each sector, such as 1,132,100,50");
+      problem("cam.missing"_code, line_, 1, "the table has no sector",
+              "give a line for each sector, such as 1,132,100,50");
     }
     table_.settings = {{measurem_, pulsem_}, {measure_, pulse_}, decpt_};
   }

@@ -29,7 +29,7 @@ class EcamJudge {
     if (table_.is_made() && !table_.made.ok()) {
       const auto error = table_.made.error;
       const auto words = error == EcamError::type ? wrong_words(table_) : std::string();
-      add(Grade::error, "",
+      add("cam.device"_code, Grade::error, "",
           words.empty() ? fmt::format("ECAMTBX makes no table: {}", error_text(error))
                         : fmt::format("ECAMTBX makes no table: there is no {}", words),
           remedy_of(error, table_), static_cast<int>(error));
@@ -50,8 +50,8 @@ class EcamJudge {
   }
 
  private:
-  void add(Grade grade, std::string where, std::string text, CamRemedy remedy = {}, int code = 0) {
-    found_.push_back({grade, code, std::move(where), std::move(text), std::move(remedy)});
+  void add(Code kind, Grade grade, std::string where, std::string text, CamRemedy remedy = {}, int code = 0) {
+    found_.push_back({kind, grade, code, std::move(where), std::move(text), std::move(remedy)});
   }
 
   [[nodiscard]] std::string where(std::size_t row) const {
@@ -62,7 +62,7 @@ class EcamJudge {
   void judge_rows() {
     const auto& rows = table_.rows;
     const auto refuse = [&](std::size_t row, std::string text, std::string remedy) {
-      add(Grade::error, where(row), std::move(text), std::move(remedy), table_error);
+      add("cam.device"_code, Grade::error, where(row), std::move(text), std::move(remedy), table_error);
     };
     if (rows.size() < 2) refuse(0, "a cam of one row has no length", "give at least two rows");
     if (rows.size() > most_rows)
@@ -100,7 +100,7 @@ class EcamJudge {
     }
     if (worst.count == 0) return judge_ratio_of_law();
     const auto row = static_cast<std::size_t>(worst.row);
-    add(Grade::limit, where(row),
+    add("cam.limit"_code, Grade::limit, where(row),
         fmt::format("ratio {} above {}{}", number(ratio(row)), number(*table_.max_ratio),
                     others(worst.count)),
         table_.is_made() ? ratio_remedy() : longer_piece(row));
@@ -118,7 +118,7 @@ class EcamJudge {
     if (!table_.is_made()) return;
     const auto most = peak_of_law(CamOrder::velocity);
     if (most.value <= *table_.max_ratio * of_a_float) return;
-    add(Grade::limit, most.where,
+    add("cam.limit"_code, Grade::limit, most.where,
         fmt::format("ratio {} above {}", number(most.value), number(*table_.max_ratio)), ratio_remedy());
   }
 
@@ -156,7 +156,7 @@ class EcamJudge {
   void judge_limits(CamOrder order, const Peak& most, const std::function<CamRemedy(double)>& of_time) {
     const auto given = table_.time_axis > 0 ? of_time : nullptr;
     for (auto& limit : passed_limits(motion_, order, most.value, given))
-      add(limit.grade, most.where, std::move(limit.text), std::move(limit.remedy));
+      add("cam.limit"_code, limit.grade, most.where, std::move(limit.text), std::move(limit.remedy));
   }
 
   void judge_speed() {
@@ -189,8 +189,9 @@ class EcamJudge {
                                                : ""};
     const auto faults = travel_faults(table_.travel, low->slave, high->slave, words);
     for (const auto& fault : faults)
-      add(Grade::limit, where(static_cast<std::size_t>((fault.above ? high : low) - rows.begin())),
-          fault.text, fault.remedy);
+      add("cam.travel"_code, Grade::limit,
+          where(static_cast<std::size_t>((fault.above ? high : low) - rows.begin())), fault.text,
+          fault.remedy);
     if (faults.empty()) judge_wandering(low->slave, high->slave);
   }
 
@@ -200,7 +201,7 @@ class EcamJudge {
     const auto& end = growth > 0 ? table_.travel.most : table_.travel.least;
     if (!table_.cyclic || table_.made.profile.stops || growth == 0 || !end) return;
     const double room = growth > 0 ? *end - high : low - *end;
-    add(Grade::limit, "",
+    add("cam.leaves-range"_code, Grade::limit, "",
         fmt::format("the slave goes on by {} pulses each cycle and passes {} {} in cycle {:.0f}",
                     number(growth), growth > 0 ? "max_position" : "min_position", number(*end),
                     std::floor(room / std::abs(growth)) + 2),
@@ -222,7 +223,7 @@ class EcamJudge {
     if (most.count == 0) return;
     const auto worst = static_cast<std::size_t>(most.row);
     const auto next = worst == last ? 1 : worst + 1;
-    add(Grade::caution, where(worst),
+    add("cam.jump"_code, Grade::caution, where(worst),
         fmt::format("the ratio jumps from {} to {}{}{}", number(ratio(worst)), number(ratio(next)),
                     worst == last ? " as the cycle begins again" : "", others(most.count)),
         "put rows between, so that the slave can follow");
@@ -239,14 +240,14 @@ class EcamJudge {
       if (wraps && (!table_.cyclic || table_.made.profile.stops)) break;
       const auto& next = pieces[wraps ? 0 : i + 1];
       if (std::abs(ratio_of(next).r0 - ratio_of(pieces[i]).r1) <= same) continue;
-      add(Grade::caution, fmt::format("piece {}", i + 1),
+      add("cam.jump"_code, Grade::caution, fmt::format("piece {}", i + 1),
           fmt::format("the ratio jumps from {} to {}{}", number(ratio_of(pieces[i]).r1),
                       number(ratio_of(next).r0), wraps ? " as the cycle begins again" : ""),
           step_remedy(wraps));
     }
     judge_rest(same);
     if (table_.is_s_curve() && table_.made.speed_reached < table_.s_curve.top_speed)
-      add(Grade::caution, "",
+      add("cam.not-reached"_code, Grade::caution, "",
           fmt::format("reaches {} Hz, not {} Hz: too short for its times", table_.made.speed_reached,
                       table_.s_curve.top_speed),
           "give P4 and P5 less time");
@@ -264,11 +265,11 @@ class EcamJudge {
                  : fmt::format("use {} for the {}", other, ramp == "P4" ? "first cycle" : "last");
     };
     if (!table_.made.profile.stops && std::abs(ratio_of(pieces.front()).r0) > same)
-      add(Grade::caution, "piece 1",
+      add("cam.jump"_code, Grade::caution, "piece 1",
           fmt::format("the ratio jumps from 0 to {} as the cam starts", number(ratio_of(pieces.front()).r0)),
           remedy("P4", "midCAMbegin"));
     if (curve != devices::lx3vp::mid_cam_begin && std::abs(ratio_of(pieces.back()).r1) > same)
-      add(Grade::caution, fmt::format("piece {}", pieces.size()),
+      add("cam.jump"_code, Grade::caution, fmt::format("piece {}", pieces.size()),
           fmt::format("the ratio jumps from {} to 0 at the end of the cam",
                       number(ratio_of(pieces.back()).r1)),
           remedy("P5", "midCAMend"));
@@ -283,7 +284,7 @@ class EcamJudge {
   }
 
   void remarks() {
-    const auto remark = [&](std::string text) { add(Grade::remark, "", std::move(text)); };
+    const auto remark = [&](std::string text) { add("cam.remark"_code, Grade::remark, "", std::move(text)); };
     const auto& law = table_.made.profile;
     if (!table_.is_made() && run_.first_master != 0)
       remark(

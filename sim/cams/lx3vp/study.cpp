@@ -208,7 +208,8 @@ CamCourse run_ecam(const EcamTable& table, const CamDuty& duty, int loops) {
 
 CamStudy study_of(const EcamTable& table, const CamRequest& request, Problems& problems) {
   if (table.time_axis > 0 && request.duty.master_speed)
-    problems.push_back({"--master-speed", 1, 1, "the master is time and has its own speed",
+    problems.push_back({"option.does-not-apply"_code, "--master-speed", 1, 1,
+                        "the master is time and has its own speed",
                         "leave it out, or give another # time_axis"});
   const auto run = run_ecam(table, request.duty, request.loops);
   CamStudy study;

@@ -90,7 +90,8 @@ class EcamReader {
          {EcamType::s_curve_0, EcamType::s_curve_1, EcamType::rotary_saw, EcamType::fly_saw})
       if (number == std::to_string(static_cast<int>(type))) table_.type = type;
     if (!table_.type)
-      told_.add(line, value.column, fmt::format("there is no ecamtbx {}", in_quotes(value.text)),
+      told_.add("cam.unknown-key"_code, line, value.column,
+                fmt::format("there is no ecamtbx {}", in_quotes(value.text)),
                 "write K0 or K1 S-curve, K100 rotary saw, K101 fly saw");
   }
 
@@ -102,7 +103,8 @@ class EcamReader {
     if (cell.text.front() == '#') {
       settings_.read(cell, line_, !rows_.is_read() && !parameters_.is_read());
     } else if (&header == &rows_ && cells.front().text == "parameter") {
-      told_.add(line_, cell.column, "parameters of what?", "say it above: # ecamtbx: K100 (K101, K0, K1)");
+      told_.add("cam.missing"_code, line_, cell.column, "parameters of what?",
+                "say it above: # ecamtbx: K100 (K101, K0, K1)");
       lost_ = true;
     } else if (lost_) {
       return;
@@ -123,7 +125,8 @@ class EcamReader {
     const auto slave = whole_number(rows_.cell_of(cells, 1), line_, "slave", whole_32, told_);
     if (!master || !slave) return;
     if (table_.rows.size() == most_rows_read) {
-      told_.add(line_, 1, fmt::format("more than {} rows", most_rows_read), "a block takes 512");
+      told_.add("cam.out-of-range"_code, line_, 1, fmt::format("more than {} rows", most_rows_read),
+                "a block takes 512");
       lost_ = true;
       return;
     }
@@ -151,7 +154,7 @@ class EcamReader {
     }
     const auto [first, fresh] = given_.emplace(name.text, Given{line_, 0});
     if (!fresh) {
-      told_.add(line_, name.column, fmt::format("{} is given twice", name.text),
+      told_.add("cam.twice"_code, line_, name.column, fmt::format("{} is given twice", name.text),
                 fmt::format("it was first given in line {}; keep one", first->second.line));
       return;
     }
@@ -161,8 +164,8 @@ class EcamReader {
   void refuse_parameter(const Cell& name, const std::vector<EcamParameter>& all) {
     std::string names;
     for (const auto& parameter : all) names += (names.empty() ? "" : ", ") + std::string(parameter.name);
-    told_.add(line_, name.column, fmt::format("there is no parameter {}", in_quotes(name.text)),
-              "there are " + names);
+    told_.add("cam.unknown-key"_code, line_, name.column,
+              fmt::format("there is no parameter {}", in_quotes(name.text)), "there are " + names);
   }
 
   double read_value(const Cell& cell, const EcamParameter& parameter) {
@@ -197,23 +200,25 @@ class EcamReader {
     if (settings_.line_of("ecamtbx") > 0) {
       finish_parameters();
     } else if (!rows_.is_read()) {
-      told_.add(std::max(line_, 1), 1, "there is no table: the header is missing",
+      told_.add("cam.missing"_code, std::max(line_, 1), 1, "there is no table: the header is missing",
                 "give the line master,slave and a line for each row, or # ecamtbx: K100 and parameter,value");
     } else if (table_.rows.empty() && told_.none()) {
-      told_.add(line_, 1, "the table has no row", "give a line for each row, such as 0,0");
+      told_.add("cam.missing"_code, line_, 1, "the table has no row",
+                "give a line for each row, such as 0,0");
     }
   }
 
   void finish_parameters() {
     if (!table_.type) return;
     if (!parameters_.is_read()) {
-      told_.add(std::max(line_, 1), 1, "there are no parameters: the header is missing",
+      told_.add("cam.unknown-key"_code, std::max(line_, 1), 1,
+                "there are no parameters: the header is missing",
                 "give the line parameter,value and a line for each, such as P1,3183");
       return;
     }
     for (const auto& parameter : known())
       if (parameter.needed && !given_.contains(parameter.name))
-        told_.add(line_, 1, fmt::format("{} is missing", parameter.name),
+        told_.add("cam.missing"_code, line_, 1, fmt::format("{} is missing", parameter.name),
                   fmt::format("give a line {},value", parameter.name));
     const auto whole = given_.find("P6");
     const auto low = given_.find("P6L");
@@ -221,7 +226,8 @@ class EcamReader {
     if (!table_.is_s_curve() && whole != given_.end())
       for (const auto& part : {low, high})
         if (part != given_.end())
-          told_.add(part->second.line, 1, fmt::format("{} is a word of P6, which is given too", part->first),
+          told_.add("cam.twice"_code, part->second.line, 1,
+                    fmt::format("{} is a word of P6, which is given too", part->first),
                     "give P6, or P6L (acceleration) and P6H (cam curve)");
     if (told_.none()) take_parameters();
   }

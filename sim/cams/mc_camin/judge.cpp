@@ -29,7 +29,7 @@ class CamInJudge {
 
   std::vector<CamFinding> findings() {
     for (const auto& refusal : run_.refused)
-      add(Grade::error, refusal.row == 0 ? "" : where(static_cast<int>(refusal.row)),
+      add("cam.device"_code, Grade::error, refusal.row == 0 ? "" : where(static_cast<int>(refusal.row)),
           std::string(meaning_of(refusal.error)), refusal.remedy, static_cast<int>(refusal.error));
     if (!run_.runs()) return std::move(found_);
     judge_limits();
@@ -45,14 +45,14 @@ class CamInJudge {
   }
 
  private:
-  void add(Grade grade, std::string where, std::string text, CamRemedy remedy = {}, int id = 0) {
-    found_.push_back({grade, id, std::move(where), std::move(text), std::move(remedy)});
+  void add(Code kind, Grade grade, std::string where, std::string text, CamRemedy remedy = {}, int id = 0) {
+    found_.push_back({kind, grade, id, std::move(where), std::move(text), std::move(remedy)});
   }
   /// Where it is worst, if there are such places at all, and how many there are.
-  void add(Grade grade, const CamWorst& worst, const std::string& text, CamRemedy remedy = {}) {
+  void add(Code kind, Grade grade, const CamWorst& worst, const std::string& text, CamRemedy remedy = {}) {
     if (worst.count == 0) return;
     const auto others = worst.count < 2 ? "" : fmt::format("; so at {} rows", worst.count);
-    add(grade, where(worst.row), text + others, std::move(remedy));
+    add(kind, grade, where(worst.row), text + others, std::move(remedy));
   }
   [[nodiscard]] std::string where(int row) const {
     return fmt::format("row {} (line {})", row, cam_.lines[static_cast<std::size_t>(row) - 1]);
@@ -76,7 +76,7 @@ class CamInJudge {
       if (!passed_limits(motion_, order, peak).empty()) worst.take(peak, piece.row);
     }
     for (auto& limit : passed_limits(motion_, order, worst.value))
-      add(limit.grade, worst, limit.text, std::move(limit.remedy));
+      add("cam.limit"_code, limit.grade, worst, limit.text, std::move(limit.remedy));
     judge_steps(static_cast<int>(order), name);
   }
 
@@ -85,7 +85,8 @@ class CamInJudge {
     for (const CamKnot& knot : run_.knots)
       if (knot.smooth < power - 1)
         worst.take(knot.jumps[static_cast<std::size_t>(knot.smooth) + 1], knot.row);
-    add(Grade::limit, worst, fmt::format("{} without end: what it is the derivative of jumps there", name),
+    add("cam.limit"_code, Grade::limit, worst,
+        fmt::format("{} without end: what it is the derivative of jumps there", name),
         "see the table of knots");
   }
 
@@ -97,7 +98,7 @@ class CamInJudge {
                                     [](const CamPiece& piece) { return std::abs(overshoot_of(piece)) > 1; });
     for (const TravelFault& fault :
          travel_faults(limits_.travel, low, high, {"minpos", "maxpos", unit, "", beyond}))
-      add(Grade::limit, "", fault.text, fault.remedy);
+      add("cam.travel"_code, Grade::limit, "", fault.text, fault.remedy);
   }
 
   void judge_jumps() {
@@ -110,15 +111,15 @@ class CamInJudge {
       if (knot.smooth == 1) acceleration.take(knot.jumps[2], knot.row);
     }
     const bool steps = cam_.interpolation == devices::plcopen::Interpolation::step_direct;
-    add(Grade::caution, position,
+    add("cam.jump"_code, Grade::caution, position,
         fmt::format("the position jumps by {} {}", number_text(position.value / increments_per_unit), unit_),
         turns_on(position.value) ? "it is a turn of the slave: write # endless: positive or negative"
         : steps                  ? "STEP_DIRECT is for switching; LINEAR and POLYNOM_3 have no such jumps"
                                  : "let each row end where the next one begins");
-    add(Grade::caution, velocity,
+    add("cam.jump"_code, Grade::caution, velocity,
         fmt::format("the velocity jumps by {}{}", in_time(velocity.value, 1), velocity_unit()),
         "POLYNOM_3, or POLY5 between lines, has no such jumps");
-    add(Grade::remark, acceleration,
+    add("cam.jump"_code, Grade::remark, acceleration,
         fmt::format("the acceleration jumps by {} {}", in_time(acceleration.value, 2), acceleration_unit()));
   }
 
@@ -148,7 +149,7 @@ class CamInJudge {
         last.master + last.length > run_.law.master_length * within ? begin : last.end().velocity;
     const auto tell = [&](double velocity, const char* place) {
       if (std::abs(velocity) <= 1e-6 * run_.peak(CamOrder::velocity)) return;
-      add(Grade::caution, "",
+      add("cam.no-ramp"_code, Grade::caution, "",
           fmt::format("not periodic, and {} velocity {}{}: the slave {} without a ramp", place,
                       in_time(velocity, 1), velocity_unit(), *place == 'b' ? "starts" : "is stopped"),
           "let the cam begin and end at rest, at master 0");
@@ -166,7 +167,7 @@ class CamInJudge {
       const double way = piece.end().position - piece.begin().position;
       if (piece.master >= 0 && std::abs(way) > cam_.slave_modulo / 2) worst.take(way, piece.row);
     }
-    add(Grade::caution, worst,
+    add("cam.half-turn"_code, Grade::caution, worst,
         fmt::format("goes {} by {} {}, more than half a turn", worst.value < 0 ? "back" : "on",
                     number_text(std::abs(worst.value) / increments_per_unit), unit_),
         "if the slave is to turn on instead, write # endless: positive or negative");
@@ -229,7 +230,7 @@ class CamInJudge {
       if (std::abs(overshoot) > 1) worst.take(overshoot, piece.row);
     }
     if (worst.count > 0)
-      add(Grade::caution, worst,
+      add("cam.overshoot"_code, Grade::caution, worst,
           fmt::format("overshoots its two rows by {} {}", number(std::abs(worst.value) / increments_per_unit),
                       unit_),
           overshoot_remedy(worst.row));
@@ -246,7 +247,7 @@ class CamInJudge {
       const double back = direction > 0 ? v.low : v.high;
       if (direction * back < -rounding) worst.take(back, piece.row);
     }
-    add(Grade::caution, worst,
+    add("cam.turns-back"_code, Grade::caution, worst,
         fmt::format("runs against its direction, at {}{} at most", in_time(worst.value, 1), velocity_unit()),
         "if it must not turn back, bring its rows nearer to a steady rise");
   }
@@ -255,14 +256,14 @@ class CamInJudge {
     if (cam_.slave_modulo <= 0 || cam_.endless != Endless::no) return;
     const auto [low, high] = reach_of(run_.law.pieces);
     if (low >= -1 && high < cam_.slave_modulo + 1) return;
-    add(Grade::caution, "",
+    add("cam.leaves-range"_code, Grade::caution, "",
         fmt::format("the slave leaves its turn: {} to {} of 0 to {} {}", number_text(low), number_text(high),
                     number_text(cam_.slave_modulo), increments_of(unit_)),
         "keep positions inside the turn, or write # endless: positive or negative");
   }
 
   void remarks() {
-    const auto remark = [&](std::string text) { add(Grade::remark, "", std::move(text)); };
+    const auto remark = [&](std::string text) { add("cam.remark"_code, Grade::remark, "", std::move(text)); };
     int smooth = 3;
     for (const CamKnot& knot : run_.knots) smooth = std::min(smooth, knot.smooth);
     if (smooth >= 0) remark(fmt::format("C{} at every knot and where the table closes", smooth));

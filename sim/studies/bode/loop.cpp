@@ -19,7 +19,7 @@ namespace {
 void check_number(const char* option, const std::optional<double>& value, double least, double most,
                   const char* unit, Problems& problems) {
   if (!value || (*value >= least && *value <= most)) return;  // not NaN either
-  problems.push_back({option, 1, 1, fmt::format("{} is out of range", *value),
+  problems.push_back({"option.out-of-range"_code, option, 1, 1, fmt::format("{} is out of range", *value),
                       fmt::format("give {} to {} {}", least, most, unit)});
 }
 
@@ -45,19 +45,20 @@ std::optional<std::size_t> choose_wire(const LoopRequest& request, const scenari
     all += (all.empty() ? "" : ", ") + wire.plug;
   }
   if (wires.empty()) {
-    problems.push_back({scenario.file.string(), 1, 1, "no analogue output is wired",
+    problems.push_back({"bode.no-loop"_code, scenario.file.string(), 1, 1, "no analogue output is wired",
                         "a position loop needs one, such as 2.AN01: knife.servo.reference"});
     return {};
   }
   if (request.wire.empty()) {
     if (wires.size() == 1) return 0;
-    problems.push_back(
-        {"--wire", 1, 1, "the scenario has more than one analogue reference", "give one of: " + all});
+    problems.push_back({"option.missing"_code, "--wire", 1, 1,
+                        "the scenario has more than one analogue reference", "give one of: " + all});
     return {};
   }
   const auto found = std::find(plugs.begin(), plugs.end(), request.wire);
   if (found != plugs.end()) return static_cast<std::size_t>(found - plugs.begin());
-  problems.push_back({"--wire", 1, 1, fmt::format("there is no analogue reference '{}'", request.wire),
+  problems.push_back({"option.unknown-choice"_code, "--wire", 1, 1,
+                      fmt::format("there is no analogue reference '{}'", request.wire),
                       "give one of: " + all});
   return {};
 }
@@ -68,7 +69,8 @@ std::string choose_speed(const LoopRequest& request, const std::string& plug, lo
   auto& names = simulation.names();
   if (!request.speed.empty()) {
     if (names.reading(request.speed)) return request.speed;
-    problems.push_back({"--speed", 1, 1, fmt::format("there is no channel '{}'", request.speed),
+    problems.push_back({"option.unknown-choice"_code, "--speed", 1, 1,
+                        fmt::format("there is no channel '{}'", request.speed),
                         names.suggest_reading(request.speed)});
     return "";
   }
@@ -97,13 +99,13 @@ std::optional<SweepPlan> plan_of(const LoopRequest& request, const scenario::Sce
   const double to = request.to.value_or(highest);
   const double from = request.from.value_or(std::min(1.0, to / 100));
   if (to > highest)
-    problems.push_back({"--to", 1, 1,
+    problems.push_back({"option.out-of-range"_code, "--to", 1, 1,
                         fmt::format("{} Hz is above half the sampling frequency of {} ms", to,
                                     seconds(plan.sampling) * 1000),
                         fmt::format("give at most {} Hz", highest)});
   if (from >= to)
-    problems.push_back(
-        {"--from", 1, 1, fmt::format("{} Hz is not below --to, {} Hz", from, to), "give a lower frequency"});
+    problems.push_back({"option.out-of-range"_code, "--from", 1, 1,
+                        fmt::format("{} Hz is not below --to, {} Hz", from, to), "give a lower frequency"});
   constexpr double window = 2;     // long enough for tens of periods where a loop crosses over [s]
   constexpr double lowest = 0.02;  // a crossover below it takes minutes to measure [Hz]
   if (!request.from) plan.lowest = lowest;
@@ -146,15 +148,15 @@ std::string hertz_text(double frequency) { return fmt::format("{:.4g} Hz", frequ
 
 void check_request(const LoopRequest& request, Problems& problems) {
   if (request.at && !time_of(request))
-    problems.push_back(
-        {"--at", 1, 1, fmt::format("'{}' is no time from 0 to 1e6 s", *request.at), "such as 6 s"});
+    problems.push_back({"option.out-of-range"_code, "--at", 1, 1,
+                        fmt::format("'{}' is no time from 0 to 1e6 s", *request.at), "such as 6 s"});
   check_number("--settle", request.settle, 0, 1000, "s", problems);
   check_number("--amplitude", request.amplitude, 0.001, 10, "V", problems);
   check_number("--from", request.from, 0.001, 1e6, "Hz", problems);
   check_number("--to", request.to, 0.001, 1e6, "Hz", problems);
   if (request.points < 2 || request.points > 1000)
-    problems.push_back(
-        {"--points", 1, 1, fmt::format("{} is out of range", request.points), "give 2 to 1000"});
+    problems.push_back({"option.out-of-range"_code, "--points", 1, 1,
+                        fmt::format("{} is out of range", request.points), "give 2 to 1000"});
 }
 
 void check_loop(const scenario::Scenario& scenario, const LoopRequest& request, Problems& problems) {
@@ -218,28 +220,33 @@ std::optional<LoopResult> measure_both(scenario::Scenario& scenario, const LoopR
   return result;
 }
 
-std::vector<std::string> loop_doubts(const LoopResult& result) {
-  std::vector<std::string> doubts;
-  if (!result.sweep.failure.empty()) doubts.push_back("the simulation stopped: " + result.sweep.failure);
+std::vector<Finding> loop_doubts(const LoopResult& result) {
+  std::vector<Finding> doubts;
+  if (!result.sweep.failure.empty())
+    doubts.emplace_back("run.failed"_code, "the simulation stopped: " + result.sweep.failure);
   if (result.sweep.loop == Sweep::Loop::open)
-    doubts.push_back(
+    doubts.emplace_back(
+        "bode.no-answer"_code,
         fmt::format("{} does not answer to {} V at {} s: either the loop is open there (let the program do "
                     "REGON before, or choose another --at), or the axis sits in play or stiction (a larger "
                     "--amplitude would answer, but it hides the play: see drycut bode --limit-cycle)",
                     result.terminal, result.plan.amplitude, record::seconds_text(result.plan.at)));
   if (result.sweep.loop == Sweep::Loop::restless)
-    doubts.push_back(
+    doubts.emplace_back(
+        "bode.restless"_code,
         fmt::format("the loop has not come to rest within {} s after the push: wait longer (--settle) or "
                     "push harder (--amplitude)",
                     result.sweep.waited));
   if (result.sweep.loop == Sweep::Loop::runaway)
-    doubts.push_back(
+    doubts.emplace_back(
+        "bode.runaway"_code,
         fmt::format("the loop runs away to the limit of {} after a push: look at the directions of count and "
                     "reference",
                     result.terminal));
   if (result.sweep.loop == Sweep::Loop::unstable)
-    doubts.emplace_back("the loop is not stable: after a push it swings on; lower the gain");
-  const auto tell = [&](const std::string& what, const auto& doubted) {
+    doubts.emplace_back("bode.unstable"_code,
+                        "the loop is not stable: after a push it swings on; lower the gain");
+  const auto tell = [&](Code code, const std::string& what, const auto& doubted) {
     int count = 0;
     const BodePoint* first = nullptr;
     for (const auto& point : result.sweep.points) {
@@ -248,17 +255,18 @@ std::vector<std::string> loop_doubts(const LoopResult& result) {
       ++count;
     }
     if (count == 0) return;
-    doubts.push_back(fmt::format("at {} of {} frequencies, the first {}, {}", count,
-                                 result.sweep.points.size(), hertz_text(first->frequency), what));
+    doubts.emplace_back(code, fmt::format("at {} of {} frequencies, the first {}, {}", count,
+                                          result.sweep.points.size(), hertz_text(first->frequency), what));
   };
-  tell(result.terminal + " stood at its limit of 10 V: take less --amplitude",
+  tell("bode.at-limit"_code, result.terminal + " stood at its limit of 10 V: take less --amplitude",
        [](const BodePoint& point) { return point.saturated; });
-  tell(result.terminal +
+  tell("bode.no-answer"_code,
+       result.terminal +
            " does not answer: the motion stays in play or stiction; a larger --amplitude would answer, but "
-           "it hides "
-           "the play: see drycut bode --limit-cycle",
+           "it hides the play: see drycut bode --limit-cycle",
        [](const BodePoint& point) { return point.silent; });
-  tell(fmt::format(
+  tell("bode.lost"_code,
+       fmt::format(
            "the answer is lost in what else moves (error above {:.0f} %): measure while the axis stands or "
            "runs evenly (--at); a line that never stands: a scenario of its own that extends this one, with "
            "timeline: []; else another --amplitude",

@@ -93,6 +93,6 @@ std::optional<LoopResult> measure_loop(const scenario::Scenario& scenario, const
 /// "12.34 Hz".
 std::string hertz_text(double frequency);
 /// What keeps the measurement from being trusted, a line each; empty if nothing does.
-std::vector<std::string> loop_doubts(const LoopResult& result);
+std::vector<Finding> loop_doubts(const LoopResult& result);
 
 }  // namespace drycut::sim::studies

@@ -238,7 +238,7 @@ constexpr std::string_view reading =
 std::string bode_report(const LoopResult& result) {
   auto text = subject(result) + '\n';
   // First what is not to be trusted: no number then stands without its reason.
-  for (const auto& doubt : loop_doubts(result)) text += doubt + '\n';
+  for (const auto& doubt : loop_doubts(result)) text += to_string(doubt) + '\n';
   if (!heard(result).empty()) {
     text += '\n' + table_text(result) + '\n';
     for (const auto& row : margin_rows(result, ", for the reason above"))
@@ -286,9 +286,10 @@ void write_bode_report(const LoopResult& result, const LimitCycle* cycle, const 
   report.facts = {
       {{"measured", subject(result)}}, {{"reading", std::string(reading)}}, {{"drycut", DRYCUT_VERSION}}};
   if (!heard(result).empty()) {
-    report.summary = {{"Margins",
-                       {"", ""},
-                       margin_rows(result, fmt::format(": {}", fmt::join(loop_doubts(result), "; ")))}};
+    report.summary = {
+        {"Margins",
+         {"", ""},
+         margin_rows(result, fmt::format(": {}", fmt::join(record::lines_of(loop_doubts(result)), "; ")))}};
     report.tables = {response_table(result)};
     plots.push_back(bode_plot(result, "bode"));
   }

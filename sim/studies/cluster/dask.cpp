@@ -159,20 +159,21 @@ std::shared_ptr<Engine> open_dask(const std::string& address, Problems& problems
         if (message.contains("workers"))
           return std::make_shared<Dask>(std::move(client), message.at("workers").get<int>());
         if (!message.contains("fatal")) continue;
-        problems.push_back({"--on", 1, 1,
+        problems.push_back({"cluster.not-there"_code, "--on", 1, 1,
                             fmt::format("{}: {}", address, message.at("fatal").get<std::string>()),
                             "start one, such as dask-scheduler --port 8786, or mend the address"});
         return nullptr;
       }
     }
     if (const int status = client->status(); status != no_dask && status >= 0 && status != 127) {
-      problems.push_back({"--on", 1, 1,
+      problems.push_back({"cluster.not-there"_code, "--on", 1, 1,
                           fmt::format("{}: Python's client of Dask ended with status {}", address, status),
                           "what it said is above"});
       return nullptr;
     }
   }
-  problems.push_back({"--on", 1, 1, fmt::format("{}: there is no Python with Dask here", address),
+  problems.push_back({"cluster.not-there"_code, "--on", 1, 1,
+                      fmt::format("{}: there is no Python with Dask here", address),
                       "apt install python3-distributed"});
   return nullptr;
 }

@@ -15,42 +15,44 @@ constexpr int highest_port = 65535;
 
 }  // namespace
 
-std::string engine_fault(const std::string& where) {
-  if (where == slurm_name) return "";
+std::optional<EngineFault> engine_fault(const std::string& where) {
+  if (where == slurm_name) return {};
   if (where.starts_with("slurm:"))
     return where.size() > slurm_name.size() + 1
-               ? ""
-               : "it names no partition; slurm:PARTITION, or slurm for the default one";
+               ? std::optional<EngineFault>()
+               : EngineFault{"it names no partition", "slurm:PARTITION, or slurm for the default one"};
   if (where.starts_with(dask_scheme)) {
     const auto colon = where.rfind(':');
     if (colon <= dask_scheme.size())
-      return fmt::format("'{}' is no scheduler; dask://HOST:PORT, such as dask://127.0.0.1:8786", where);
+      return EngineFault{fmt::format("'{}' is no scheduler", where),
+                         "dask://HOST:PORT, such as dask://127.0.0.1:8786"};
     const auto port = parsed<int>(std::string_view(where).substr(colon + 1));
     if (!port || *port < 1 || *port > highest_port)
-      return fmt::format("'{}' is no port; 1 to {}, 8786 unless the scheduler was told another",
-                         where.substr(colon + 1), highest_port);
-    return "";
+      return EngineFault{fmt::format("'{}' is no port", where.substr(colon + 1)),
+                         fmt::format("1 to {}, 8786 unless the scheduler was told another", highest_port)};
+    return {};
   }
-  return fmt::format("'{}' is no engine; dask://HOST:PORT, slurm or slurm:PARTITION", where);
+  return EngineFault{fmt::format("'{}' is no engine", where), "dask://HOST:PORT, slurm or slurm:PARTITION"};
 }
 
 std::shared_ptr<Engine> open_engine(const std::string& where, const std::filesystem::path& out,
                                     const std::filesystem::path& stage, Problems& problems) {
-  if (const auto fault = engine_fault(where); !fault.empty()) {
-    const auto semicolon = fault.find("; ");
-    problems.push_back({"--on", 1, 1, fault.substr(0, semicolon), fault.substr(semicolon + 2)});
+  if (const auto fault = engine_fault(where)) {
+    problems.push_back({"option.value"_code, "--on", 1, 1, fault->what, fault->remedy});
     return nullptr;
   }
   if (where.starts_with(dask_scheme)) {
     if (stage.empty()) return open_dask(where, problems);
-    problems.push_back({"--stage", 1, 1, "a Dask cluster needs no shared folder", "leave it out"});
+    problems.push_back(
+        {"cluster.not-there"_code, "--stage", 1, 1, "a Dask cluster needs no shared folder", "leave it out"});
     return nullptr;
   }
   const auto partition = where == slurm_name ? "" : where.substr(slurm_name.size() + 1);
   const auto study = std::filesystem::absolute(out).lexically_normal();
   if (stage.empty()) return open_slurm(partition, study / ".drycut-work", problems);
   if (std::error_code ignored; !std::filesystem::is_directory(stage, ignored)) {
-    problems.push_back({"--stage", 1, 1, fmt::format("there is no folder {}", stage.string()),
+    problems.push_back({"cluster.not-there"_code, "--stage", 1, 1,
+                        fmt::format("there is no folder {}", stage.string()),
                         "name one that all machines of the cluster see"});
     return nullptr;
   }

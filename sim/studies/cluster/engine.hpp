@@ -59,8 +59,12 @@ class Engine {
 /// there; then nullptr.
 std::shared_ptr<Engine> open_engine(const std::string& where, const std::filesystem::path& out,
                                     const std::filesystem::path& stage, Problems& problems);
-/// What is wrong with `where` as a text; "" if nothing is.
-std::string engine_fault(const std::string& where);
+/// What is wrong with `where` as a text.
+struct EngineFault {
+  std::string what;
+  std::string remedy;
+};
+std::optional<EngineFault> engine_fault(const std::string& where);
 
 std::shared_ptr<Engine> open_dask(const std::string& address, Problems& problems);
 std::shared_ptr<Engine> open_slurm(const std::string& partition, const std::filesystem::path& folder,

@@ -256,15 +256,16 @@ class Slurm final : public Engine {
 }  // namespace
 
 std::shared_ptr<Engine> open_slurm(const std::string& partition, const fs::path& folder, Problems& problems) {
-  const auto refuse = [&](const std::string& what, const std::string& remedy) {
-    problems.push_back({"--on", 1, 1, what, remedy});
+  const auto refuse = [&](Code code, const std::string& what, const std::string& remedy) {
+    problems.push_back({code, "--on", 1, 1, what, remedy});
     return nullptr;
   };
   std::vector<Partition> known;
   try {
     known = partitions();
   } catch (const renders::HelperFailed& error) {
-    return refuse(fmt::format("slurm: {}", error.what()), "run it on a machine where sinfo answers");
+    return refuse("cluster.not-there"_code, fmt::format("slurm: {}", error.what()),
+                  "run it on a machine where sinfo answers");
   }
   const auto found = std::find_if(known.begin(), known.end(), [&](const Partition& one) {
     return partition.empty() ? one.is_default : one.name == partition;
@@ -272,13 +273,13 @@ std::shared_ptr<Engine> open_slurm(const std::string& partition, const fs::path&
   std::vector<std::string> names;
   for (const auto& one : known) names.push_back(one.name);
   if (found == known.end() && partition.empty())
-    return refuse("slurm: there is no default partition",
+    return refuse("cluster.not-there"_code, "slurm: there is no default partition",
                   fmt::format("name one: slurm:{}", names.empty() ? "PARTITION" : names.front()));
   if (found == known.end())
-    return refuse(fmt::format("slurm: there is no partition '{}'", partition),
+    return refuse("cluster.not-there"_code, fmt::format("slurm: there is no partition '{}'", partition),
                   did_you_mean(partition, names));
   if (!found->up)
-    return refuse(fmt::format("slurm: partition {} is down", found->name),
+    return refuse("cluster.not-there"_code, fmt::format("slurm: partition {} is down", found->name),
                   "choose another, or have it brought up");
   return std::make_shared<Slurm>(*found, folder);
 }

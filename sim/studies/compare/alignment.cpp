@@ -99,7 +99,8 @@ void leave_out(std::vector<ComparedRun>& runs, const std::vector<std::string>& n
     for (const auto& column : run.recording.columns()) known.push_back(column.name);
   for (const auto& name : names)
     if (std::none_of(known.begin(), known.end(), [&](const auto& one) { return is_named(name, one); }))
-      problems.push_back({"--without", 1, 1, fmt::format("no run has a channel '{}'", name),
+      problems.push_back({"compare.tolerance"_code, "--without", 1, 1,
+                          fmt::format("no run has a channel '{}'", name),
                           did_you_mean(name, known, "Axis.* is all of an axis")});
   if (names.empty() || !problems.empty()) return;
   for (auto& run : runs) {
@@ -122,7 +123,7 @@ void align(std::vector<ComparedRun>& runs, const std::string& mark, Problems& pr
     begins.push_back(stretches_of(run, mark));
     if (begins.back().size() > 1 && !run.recording.times().empty()) continue;
     problems.push_back(
-        {"--align", 1, 1,
+        {"compare.unknown-name"_code, "--align", 1, 1,
          fmt::format("'{}' is no event of {}, and no channel that changes there", mark, run.label),
          "name an event, such as cut, or a recorded channel that counts, such as gbPlace"});
   }

@@ -37,16 +37,6 @@ std::optional<double> in_unit(const Allowance& allowance, const std::string& uni
   return slack * scenario::from_si(scenario::to_si(allowance.number, allowance.unit), unit);
 }
 
-/// "abs(length - 800) <= 0.1" speaks of length, not of slope_length.
-bool speaks_of(const std::string& text, const std::string& name) {
-  const auto part = [](char c) { return in_name(c) || c == '.'; };
-  for (auto at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
-    const auto end = at + name.size();
-    if ((at == 0 || !part(text[at - 1])) && (end == text.size() || !part(text[end]))) return true;
-  }
-  return false;
-}
-
 /// Something that an allowance can be for.
 struct ComparedQuantity {
   std::string name;
@@ -89,7 +79,7 @@ std::optional<Allowance> read_value(const std::string& text, std::size_t at, Pro
   const auto quantity = scenario::parse_quantity(trimmed(value));
   if (!quantity || !std::isfinite(quantity->number) || quantity->number < 0 ||
       (percent && !quantity->unit.empty())) {
-    problems.push_back({option, 1, static_cast<int>(at) + 1,
+    problems.push_back({"compare.tolerance"_code, option, 1, static_cast<int>(at) + 1,
                         fmt::format("{} is no tolerance", in_quotes(std::string_view(text).substr(at))),
                         "0 or more: with a unit, as 0.01mm, or of the largest value, as 0.1% or 1e-6"});
     return {};
@@ -128,7 +118,7 @@ double Allowances::of_margin(const record::CheckResult& check, const ComparedRun
     if (const auto allowed = in_unit(*own, check.unit, margin)) return *allowed;
   std::optional<double> widest;
   for (const auto& one : named) {
-    if (!speaks_of(check.expectation, one.name)) continue;
+    if (std::ranges::find(check.names, one.name) == check.names.end()) continue;
     const auto allowed = in_unit(one, check.unit, one.relative ? largest_of(first, one.name, check.unit) : 0);
     if (allowed) widest = std::max(widest.value_or(0), *allowed);
   }
@@ -143,15 +133,15 @@ Allowances read_allowances(const std::vector<std::string>& texts, Problems& prob
     const auto at = equals == std::string::npos ? 0 : equals + 1;
     auto read = read_value(text, at, problems);
     if (!read) continue;
-    const auto refuse = [&](std::string what, std::string remedy) {
-      problems.push_back({option, 1, 1, std::move(what), std::move(remedy)});
+    const auto refuse = [&](Code code, std::string what, std::string remedy) {
+      problems.push_back({code, option, 1, 1, std::move(what), std::move(remedy)});
     };
     if (equals == std::string::npos) {
       if (!read->relative)
-        refuse(fmt::format("{} is for nothing that has a name", in_quotes(text)),
+        refuse("compare.tolerance"_code, fmt::format("{} is for nothing that has a name", in_quotes(text)),
                "write NAME=VALUE, or for everything else a part of the largest value: 1e-6");
       else if (usual_given)
-        refuse("there are two tolerances without a name", "keep one");
+        refuse("study.twice"_code, "there are two tolerances without a name", "keep one");
       else
         allowances.usual = *read;
       usual_given = true;
@@ -159,9 +149,10 @@ Allowances read_allowances(const std::vector<std::string>& texts, Problems& prob
     }
     read->name = trimmed(std::string_view(text).substr(0, equals));
     if (read->name.empty())
-      refuse(fmt::format("{} names nothing", in_quotes(text)), "write NAME=VALUE, as length=0.01mm");
+      refuse("compare.tolerance"_code, fmt::format("{} names nothing", in_quotes(text)),
+             "write NAME=VALUE, as length=0.01mm");
     else if (allowances.find(read->name) != nullptr)
-      refuse(fmt::format("there are two tolerances of {}", read->name), "keep one");
+      refuse("study.twice"_code, fmt::format("there are two tolerances of {}", read->name), "keep one");
     else
       allowances.named.push_back(std::move(*read));
   }
@@ -188,10 +179,11 @@ void check_allowances(const Allowances& allowances, const std::vector<ComparedRu
       good = good || one.relative || fits(one.unit, quantity.unit);
     }
     if (units.empty())
-      problems.push_back({option, 1, 1, fmt::format("there is no {} in these runs", in_quotes(one.name)),
+      problems.push_back({"compare.unknown-name"_code, option, 1, 1,
+                          fmt::format("there is no {} in these runs", in_quotes(one.name)),
                           did_you_mean(one.name, names)});
     else if (!good)
-      problems.push_back({option, 1, one.column,
+      problems.push_back({"study.wrong-unit"_code, option, 1, one.column,
                           fmt::format("{} is {}, not in {}", one.name, fmt::join(units, " or "), one.unit),
                           "give it in that unit, or as a part of the largest value: 0.1%"});
   }

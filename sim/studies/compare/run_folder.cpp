@@ -50,7 +50,8 @@ class MappedFile {
 };
 
 void refuse_file(const fs::path& file, Problems& problems) {
-  problems.push_back({file.string(), 1, 1, "the file cannot be read, or is empty", run_again});
+  problems.push_back(
+      {"record.damaged"_code, file.string(), 1, 1, "the file cannot be read, or is empty", run_again});
 }
 
 constexpr std::uintmax_t largest_record = std::uintmax_t{1} << 40U;  // [bytes]
@@ -76,13 +77,15 @@ std::string nearest_run(const fs::path& folder) {
 
 bool is_run(const fs::path& folder, Problems& problems) {
   std::error_code ignored;
-  const auto refuse = [&](std::string what, std::string remedy) {
-    problems.push_back({folder.string(), 1, 1, std::move(what), std::move(remedy)});
+  const auto refuse = [&](Code code, std::string what, std::string remedy) {
+    problems.push_back({code, folder.string(), 1, 1, std::move(what), std::move(remedy)});
     return false;
   };
-  if (!fs::exists(folder, ignored)) return refuse("there is no such folder", "check the path");
+  if (!fs::exists(folder, ignored))
+    return refuse("record.no-run"_code, "there is no such folder", "check the path");
   if (!fs::is_directory(folder, ignored))
-    return refuse("it is not a folder", "name a folder that drycut run made of a scenario");
+    return refuse("record.no-run"_code, "it is not a folder",
+                  "name a folder that drycut run made of a scenario");
   std::vector<const char*> files = {report::checks_file, report::scenario_file};
   if (!fs::is_regular_file(folder / report::hdf5_file, ignored))
     files.insert(files.begin(), {report::trace_file, report::events_file});
@@ -92,8 +95,9 @@ bool is_run(const fs::path& folder, Problems& problems) {
   if (missing.empty()) return true;
   const auto what = fmt::format("it is not the folder of a run: there is no {}", fmt::join(missing, ", "));
   // A folder of an older drycut has all but the scenario.
-  return refuse(what, missing.size() < 4 ? "run the scenario again: drycut run writes all of them"
-                                         : nearest_run(folder));
+  return refuse(
+      "record.no-run"_code, what,
+      missing.size() < 4 ? "run the scenario again: drycut run writes all of them" : nearest_run(folder));
 }
 
 void place_of(const std::string& text, std::size_t byte, int& line, int& column) {
@@ -114,11 +118,11 @@ void read_checks_json(const std::string& text, const std::string& file, Compared
     int line = 1;
     int column = 1;
     place_of(text, error.byte == 0 ? 0 : error.byte - 1, line, column);
-    problems.push_back({file, line, column, "this is no JSON", run_again});
+    problems.push_back({"record.damaged"_code, file, line, column, "this is no JSON", run_again});
   } catch (const nlohmann::json::exception& error) {
     const std::string what = error.what();
     const auto bracket = what.find("] ");
-    problems.push_back({file, 1, 1,
+    problems.push_back({"record.damaged"_code, file, 1, 1,
                         fmt::format("a check's result is missing or of another kind: {}",
                                     bracket == std::string::npos ? what : what.substr(bracket + 2)),
                         run_again});
@@ -278,7 +282,7 @@ record::Record read_record(const fs::path& run, Problems& problems) {
   const auto file = is_folder ? run / report::trace_file : run;
   record::Record record;
   if (is_folder && !fs::exists(file, ignored)) {
-    problems.push_back({run.string(), 1, 1,
+    problems.push_back({"record.no-run"_code, run.string(), 1, 1,
                         fmt::format("it is not the folder of a run: there is no {}, no {}",
                                     report::trace_file, report::hdf5_file),
                         nearest_run(run)});
@@ -317,7 +321,8 @@ std::vector<std::string> labels_of(const std::vector<fs::path>& folders, Problem
   for (const auto& folder : folders) {
     const auto place = (folder / "").lexically_normal().parent_path();
     if (!seen.insert(place).second)
-      problems.push_back({folder.string(), 1, 1, "the folder is given twice", "give each run once"});
+      problems.push_back(
+          {"study.twice"_code, folder.string(), 1, 1, "the folder is given twice", "give each run once"});
     auto& own = parts.emplace_back();
     for (const auto& part : place) own.push_back(part.string());
   }

@@ -46,9 +46,13 @@ struct ComparisonScene {
   };
   std::vector<Check> checks;
 
-  [[nodiscard]] Problem problem(const scenario::ScenePlace& place, std::string what,
+  [[nodiscard]] Problem problem(Code code, const scenario::ScenePlace& place, std::string what,
                                 std::string remedy) const {
-    return {sources.at(static_cast<std::size_t>(place.source)), place.line, place.column, std::move(what),
+    return {code,
+            sources.at(static_cast<std::size_t>(place.source)),
+            place.line,
+            place.column,
+            std::move(what),
             std::move(remedy)};
   }
 };

@@ -20,7 +20,8 @@ void require_name(const scenario::Text& name, const std::string& what, scenario:
   const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
   const bool begins = !name.text.empty() && std::isdigit(static_cast<unsigned char>(name.text[0])) == 0;
   if (begins && std::all_of(name.text.begin(), name.text.end(), fits)) return;
-  findings.add(name.place, fmt::format("{} '{}' is no name for an expression", what, name.text),
+  findings.add("scenario.bad-name"_code, name.place,
+               fmt::format("{} '{}' is no name for an expression", what, name.text),
                "letters, digits and underscores, a letter first: MC_CamIn");
 }
 
@@ -33,12 +34,12 @@ void judge_members(scenario::MapReader& reader, std::vector<ComparisonScene::Mem
     if (name.text.empty()) name = {std::filesystem::path(scenario.text).stem().string(), scenario.place};
     if (!scenario.text.empty()) require_name(name, full + ":", reader.findings());
     if (name.text == "plots")
-      reader.findings().add(name.place,
+      reader.findings().add("scenario.bad-name"_code, name.place,
                             fmt::format("{}: 'plots' is the folder of the comparison's own plots", full),
                             "give the run another name");
   }
   if (members.size() < 2)
-    reader.refuse("scenarios", "compare.scenarios needs two scenarios at least",
+    reader.refuse("compare.runs"_code, "scenarios", "compare.scenarios needs two scenarios at least",
                   "write scenarios: [rotary_knife.yaml, rotary_knife_lx3vp.yaml]");
   scenario::refuse_same_name(members, "runs", same_name_remedy, reader.findings());
 }
@@ -118,12 +119,12 @@ void visit(scenario::Archive& archive, OverlayRequest& request) {
   archive.judge([&request](scenario::MapReader& reader) {
     const auto& panels = request.plot.panels;
     if (std::any_of(panels.begin(), panels.end(), [](const auto& panel) { return panel.has_own_x(); }))
-      reader.findings().add(reader.place(),
+      reader.findings().add("scenario.does-not-go-together"_code, reader.place(),
                             fmt::format("{}: a path, a histogram or a motor is not overlaid", reader.name()),
                             "write panels of channels, of lanes or of an event");
     for (const auto* key : {"from", "until", "against"}) {
       if (!request.around || !reader.has(key)) continue;
-      reader.findings().add(reader.value_place(key),
+      reader.findings().add("scenario.does-not-go-together"_code, reader.value_place(key),
                             fmt::format("{} does not go with around", reader.full(key)),
                             "write before and after");
     }
@@ -193,7 +194,8 @@ scenario::Scenario read_member(const ComparisonScene& scene, const ComparisonSce
   all.insert(all.end(), overrides.begin(), overrides.end());
   const auto path = scene.file.parent_path() / member.scenario.text;
   if (!std::filesystem::exists(path)) {
-    problems.push_back(scene.problem(member.scenario.place, fmt::format("there is no file {}", path.string()),
+    problems.push_back(scene.problem("file.missing"_code, member.scenario.place,
+                                     fmt::format("there is no file {}", path.string()),
                                      "check the path; it is relative to the file that names it"));
     return {};
   }
@@ -204,8 +206,8 @@ void place_in_scene(const ComparisonScene& scene, const ComparisonScene::Member&
   for (auto& problem : problems) {
     for (const auto& [override, place] : member.set) {
       if (problem.file != "--set " + override.path) continue;
-      problem = scene.problem({place.line, place.column + problem.column - 1, place.source}, problem.what,
-                              problem.remedy);
+      problem = scene.problem(problem.code, {place.line, place.column + problem.column - 1, place.source},
+                              problem.what, problem.remedy);
       break;
     }
   }

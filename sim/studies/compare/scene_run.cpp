@@ -32,11 +32,8 @@ void tell(const ComparisonScene& scene, const scenario::Text& text,
           const std::vector<scenario::ExpressionFault>& faults, const std::string& prefix,
           Problems& problems) {
   for (const auto& fault : faults) {
-    auto problem = scene.problem(text.at(fault.offset), prefix + fault.what, fault.remedy);
-    const bool said = std::any_of(problems.begin(), problems.end(), [&](const Problem& other) {
-      return to_string(other) == to_string(problem);
-    });
-    if (!said) problems.push_back(std::move(problem));
+    auto problem = scene.problem(fault.code, text.at(fault.offset), prefix + fault.what, fault.remedy);
+    if (std::ranges::find(problems, problem) == problems.end()) problems.push_back(std::move(problem));
   }
 }
 
@@ -90,7 +87,7 @@ void check_channels(const ComparisonScene& scene, const ComparisonScene::Member&
   for (const auto& channel : member.channels) {
     if (unit_of(names.channels, channel.name.text) != nullptr) {
       problems.push_back(
-          scene.problem(channel.name.place,
+          scene.problem("scenario.twice"_code, channel.name.place,
                         fmt::format("{} records a channel {} already", member.name.text, channel.name.text),
                         "give it another name"));
     }
@@ -123,7 +120,7 @@ void check_figures(const ComparisonScene& scene, const ComparisonScene::Member& 
     if (!metric) continue;
     for (const auto& name : metric->names()) {
       if (!name.event.empty() || unit_of(channels, name.text) != nullptr) continue;
-      problems.push_back(scene.problem(figure.of.at(name.offset),
+      problems.push_back(scene.problem("compare.unknown-name"_code, figure.of.at(name.offset),
                                        fmt::format("{} does not record {}", member.name.text, name.text),
                                        not_recorded(member)));
     }
@@ -143,7 +140,7 @@ void check_panel(const ComparisonScene& scene, const ComparisonScene::Member& me
   for (const auto* list : {&panel.channels, &panel.lanes}) {
     for (const auto& name : *list) {
       if (unit_of(channels, name.text) != nullptr) continue;
-      problems.push_back(scene.problem(name.place,
+      problems.push_back(scene.problem("compare.unknown-name"_code, name.place,
                                        fmt::format("{} does not record {}", member.name.text, name.text),
                                        not_recorded(member)));
     }
@@ -151,7 +148,7 @@ void check_panel(const ComparisonScene& scene, const ComparisonScene::Member& me
   for (const auto& value : panel.values) {
     if (has_value(names, panel.event.text, value.text)) continue;
     problems.push_back(scene.problem(
-        value.place,
+        "compare.unknown-name"_code, value.place,
         fmt::format("{} has no event {} with a value {}", member.name.text, panel.event.text, value.text),
         "drycut plants lists the events of a plant"));
   }
@@ -163,7 +160,7 @@ void check_plots(const ComparisonScene& scene, const ComparisonScene::Member& me
     for (const auto& panel : request.plot.panels) check_panel(scene, member, names, panel, problems);
     if (request.around && !has_value(names, request.around->event.text, ""))
       problems.push_back(
-          scene.problem(request.around->event.place,
+          scene.problem("compare.unknown-name"_code, request.around->event.place,
                         fmt::format("{} has no event {}", member.name.text, request.around->event.text),
                         "drycut plants lists the events of a plant"));
   }

@@ -35,7 +35,7 @@ std::optional<double> whole_units(const char* option, double metres, double unit
   const double whole = std::round(number);
   if (std::abs(number - whole) <= 1e-7 * std::max(1.0, std::abs(number))) return whole;
   problems.push_back(
-      {option, 1, 1,
+      {"design.impossible"_code, option, 1, 1,
        fmt::format("{} is no whole number of {}: what is left would add up", length_text(metres), name),
        fmt::format("the nearest is {}", length_text(whole * unit))});
   return {};

@@ -40,7 +40,8 @@ std::optional<UmJob> in_um(const DesignJob& job, const DesignAxes& axes, Problem
                                    um.um, unit.c_str(), here);
     for (const auto& [option, number] : {std::pair{"--length", length}, {"--circumference", slave}})
       if (number && *number > most_space)
-        here.push_back({option, 1, 1, fmt::format("{:.0f} Um are more than a sector takes", *number),
+        here.push_back({"design.impossible"_code, option, 1, 1,
+                        fmt::format("{:.0f} Um are more than a sector takes", *number),
                         fmt::format("give {} at most{}", length_text(most_space * um.um),
                                     decpt > 1 ? ", or a lower --decpt" : "")});
     if (!here.empty()) {
@@ -159,7 +160,8 @@ bool set(devices::camming4::GrainResolution& resolution, const PulseWay& way, in
     resolution.pulse = static_cast<std::int32_t>(std::round(count));
     return true;
   }
-  problems.push_back({option, 1, 1, "no whole numbers of Um and counts up to 999999 have this ratio",
+  problems.push_back({"design.impossible"_code, option, 1, 1,
+                      "no whole numbers of Um and counts up to 999999 have this ratio",
                       "give the way of more counts, such as 600 mm/40960"});
   return false;
 }
@@ -259,7 +261,7 @@ std::optional<DeviceCam> fit_camming4(const DesignJob& job, const DesignAxes& ax
   }
   if (job.thickness > 0)
     problems.push_back(
-        {"--thickness", 1, 1,
+        {"design.impossible"_code, "--thickness", 1, 1,
          "a synchronous sector of CAMMING4 is straight: it cannot follow the swing of the blade",
          fmt::format("leave it out: the blade comes into {} of material {:.2g} % slower than the web",
                      length_text(job.thickness), 100 * job.thickness / job.radius())});
@@ -284,7 +286,7 @@ std::optional<DeviceCam> fit_camming4(const DesignJob& job, const DesignAxes& ax
     return made.has_value();
   });
   if (!made)
-    problems.push_back({"--device", 1, 1, "no sectors of CAMMING4 keep the limits",
+    problems.push_back({"design.impossible"_code, "--device", 1, 1, "no sectors of CAMMING4 keep the limits",
                         "give the limits a little more room, or a finer unit by --decpt"});
   return made;
 }

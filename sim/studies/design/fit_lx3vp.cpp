@@ -52,11 +52,11 @@ std::optional<PulseJob> in_pulses(const DesignJob& job, const DesignAxes& axes, 
   constexpr double most = 1e9;
   for (const auto& number : {master, slave})
     if (number && *number > most)
-      problems.push_back({"--length", 1, 1,
+      problems.push_back({"design.impossible"_code, "--length", 1, 1,
                           fmt::format("{:.0f} pulses are more than registers hold", *number),
                           "give longer ways a pulse: --master-pulse, --slave-pulse"});
   if (master && *master < least)
-    problems.push_back({"--master-pulse", 1, 1,
+    problems.push_back({"design.impossible"_code, "--master-pulse", 1, 1,
                         fmt::format("a piece of {:.0f} pulses is too coarse", *master),
                         fmt::format("give {} at most", length_text(job.length / least))});
   if (!problems.empty()) return {};
@@ -222,7 +222,7 @@ std::optional<DeviceCam> fit_lx3vp(const DesignJob& job, const DesignAxes& axes,
     return fitted.has_value();
   });
   if (!fitted) {
-    problems.push_back({"--device", 1, 1, "no rows of whole pulses keep the limits",
+    problems.push_back({"design.impossible"_code, "--device", 1, 1, "no rows of whole pulses keep the limits",
                         "give the limits a little more room, or shorter ways a pulse: --slave-pulse"});
     return {};
   }

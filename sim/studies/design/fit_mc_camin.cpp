@@ -130,11 +130,13 @@ std::optional<DeviceCam> fit_mc_camin(const DesignJob& job, const DesignAxes& ax
   if (job.kind == DesignKind::feed) whole_units("--feed", job.slave, increment, "0.1 um", problems);
   for (const auto& [option, way] : {std::pair{"--length", job.length * job.blades}, {"--feed", job.slave}})
     if (way / increment > most_modulo)
-      problems.push_back({option, 1, 1, fmt::format("a cycle of {} is more than a turn", length_text(way)),
+      problems.push_back({"design.impossible"_code, option, 1, 1,
+                          fmt::format("a cycle of {} is more than a turn", length_text(way)),
                           "give 214.7 m at most"});
   const auto rows = rows_of(job);
   if (rows.all == 0)
-    problems.push_back({"--sync", 1, 1, "too little of the piece is left for the rows of a table",
+    problems.push_back({"design.impossible"_code, "--sync", 1, 1,
+                        "too little of the piece is left for the rows of a table",
                         fmt::format("give {} at most", length_text(0.98 * job.length))});
   if (!problems.empty()) return {};
 
@@ -152,7 +154,8 @@ std::optional<DeviceCam> fit_mc_camin(const DesignJob& job, const DesignAxes& ax
       },
       grid);
   if (!made)
-    problems.push_back({"--sync", 1, 1, fmt::format("no cam of {} rows keeps the limits", rows.all),
+    problems.push_back({"design.impossible"_code, "--sync", 1, 1,
+                        fmt::format("no cam of {} rows keeps the limits", rows.all),
                         "give the limits a little more room"});
   return made;
 }

@@ -84,7 +84,7 @@ void add_limits(const DesignJob& job, Problems& problems) {
   const bool any = job.max_velocity || job.max_acceleration || job.max_travel;
   if (!any || job.is_steady()) {
     if (job.max_velocity && job.ratio() * *job.speed > *job.max_velocity)
-      problems.push_back({"--max-velocity", 1, 1,
+      problems.push_back({"design.impossible"_code, "--max-velocity", 1, 1,
                           fmt::format("{} is less than the web's speed", velocity_text(*job.max_velocity)),
                           fmt::format("give {} at least", velocity_text(*job.speed))});
     return;
@@ -100,11 +100,13 @@ void add_limits(const DesignJob& job, Problems& problems) {
     const auto needed = least(job, bound);
     if (!needed) continue;
     told = true;
-    problems.push_back({bound.option, 1, 1, fmt::format("{} is too little for this job", bound.text(*given)),
+    problems.push_back({"design.impossible"_code, bound.option, 1, 1,
+                        fmt::format("{} is too little for this job", bound.text(*given)),
                         fmt::format("give {} at least{}", bound.text(roomy(*needed)), slower)});
   }
   if (told) return;
-  problems.push_back({"--max-velocity", 1, 1, "no one of the limits alone keeps the job from being done",
+  problems.push_back({"design.impossible"_code, "--max-velocity", 1, 1,
+                      "no one of the limits alone keeps the job from being done",
                       "raise several of them" + slower});
 }
 
@@ -116,18 +118,18 @@ void add_thickness(const DesignJob& job, Problems& problems) {
   const double most = 2 * most_along * job.radius();
   if (job.thickness > job.radius() / 2) {
     problems.push_back(
-        {"--thickness", 1, 1,
+        {"design.impossible"_code, "--thickness", 1, 1,
          fmt::format("{} are too much for blades on a radius of {}", length_text(job.thickness),
                      length_text(std::round(job.radius() * 1e4) / 1e4)),
          fmt::format("give {} at most", length_text(std::floor(job.radius() * 5e3) / 1e4))});
   } else if (job.sync < least - 1e-9) {
     problems.push_back(
-        {"--sync", 1, 1,
+        {"design.impossible"_code, "--sync", 1, 1,
          fmt::format("{} is less than the way on which the blade is in {} of material", length_text(job.sync),
                      length_text(job.thickness)),
          fmt::format("give {} at least, or leave it out", length_text(std::ceil(least * 1e4) / 1e4))});
   } else if (job.sync > most || job.sync_slave() >= job.slave) {
-    problems.push_back({"--sync", 1, 1,
+    problems.push_back({"design.impossible"_code, "--sync", 1, 1,
                         fmt::format("on {} the blade would swing too far out of the web to keep its speed",
                                     length_text(job.sync)),
                         fmt::format("leave it out for the {} on which the blade is in the material",
@@ -185,12 +187,12 @@ MoveProblem move_of(const DesignJob& job) {
 Problems hindrances(const DesignJob& job) {
   Problems problems;
   if (job.sync >= job.length)
-    problems.push_back({"--sync", 1, 1,
+    problems.push_back({"design.impossible"_code, "--sync", 1, 1,
                         fmt::format("{} leaves nothing of the {} of a piece", length_text(job.sync),
                                     length_text(job.length)),
                         fmt::format("give less than {}", length_text(job.length))});
   if (job.kind == DesignKind::rotary_knife && job.sync >= job.slave)
-    problems.push_back({"--sync", 1, 1,
+    problems.push_back({"design.impossible"_code, "--sync", 1, 1,
                         fmt::format("{} is longer than the way of {} from blade to blade",
                                     length_text(job.sync), length_text(job.slave)),
                         fmt::format("give less than {}", length_text(job.slave))});

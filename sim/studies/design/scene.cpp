@@ -49,8 +49,8 @@ class SceneMaker {
   const Section* section(const char* device) const {
     return sheet_.device_name == device ? controllers::controller_of<Section>(scene_) : nullptr;
   }
-  void refuse(std::string what, std::string remedy) {
-    problems_.push_back({"--scene", 1, 1, std::move(what), std::move(remedy)});
+  void refuse(Code code, std::string what, std::string remedy) {
+    problems_.push_back({code, "--scene", 1, 1, std::move(what), std::move(remedy)});
   }
   std::string content(const scenario::Text& file) { return content_of(file, scene_, problems_); }
 
@@ -76,10 +76,12 @@ class SceneMaker {
     const auto configuration = content(section.configuration);
     const auto axes = found_in(configuration, R"(^\s*(\w+)\s+CAMMING4\b)");
     if (axes.size() != 1)
-      return refuse(fmt::format("its configuration has {} axes with CAMMING4", axes.size()),
+      return refuse("design.scene"_code,
+                    fmt::format("its configuration has {} axes with CAMMING4", axes.size()),
                     "name a scene with one");
     if (found_in(configuration, R"(^\s*(slZone)\s+L\b)").empty())
-      return refuse("its program takes no cam: there is no slZone to tell it that one is given",
+      return refuse("design.scene"_code,
+                    "its program takes no cam: there is no slZone to tell it that one is given",
                     "give it one, as in scenes/programs/rotary_knife.mod");
     const auto& axis = axes.front();
     std::vector<std::string> values;
@@ -108,11 +110,13 @@ class SceneMaker {
     const auto program = content(section.program);
     const auto blocks = found_in(program, R"(^\s*DECAM\s+\S+\s+D(\d+)\b)");
     if (blocks.size() != 1)
-      return refuse(fmt::format("its program has {} DECAM", blocks.size()), "name a scene with one");
+      return refuse("design.scene"_code, fmt::format("its program has {} DECAM", blocks.size()),
+                    "name a scene with one");
     const int block = std::stoi(blocks.front());
     const auto rows = static_cast<int>(cam.rows.size());
     if (block + word::table + devices::lx3vp::row_words * rows - 1 > devices::lx3vp::last_block_word)
-      return refuse(fmt::format("{} rows behind D{} reach into the special registers", rows, block),
+      return refuse("design.scene"_code,
+                    fmt::format("{} rows behind D{} reach into the special registers", rows, block),
                     "let the block begin lower");
     made_.registers_file = table_.parent_path() / (table_.stem().string() + "_registers.csv");
     auto& text = made_.registers;
@@ -147,11 +151,13 @@ class SceneMaker {
 
   void take(const controllers::PlcopenSection& section) {
     if (section.tables.size() != 1)
-      return refuse(fmt::format("it has {} cam tables", section.tables.size()), "name a scene with one");
+      return refuse("design.scene"_code, fmt::format("it has {} cam tables", section.tables.size()),
+                    "name a scene with one");
     const auto& old = section.tables.front();
     const auto program = content(section.program);
     if (!found_in(program, R"(\b(File)\s*:=)").empty())
-      return refuse("its program asks for its table by the name of the file", "let it ask by ID");
+      return refuse("design.scene"_code, "its program asks for its table by the name of the file",
+                    "let it ask by ID");
     const auto present = present_table(scene_, problems_);
     if (!present) return;
     const auto table = fmt::format("{{file: {}, id: {}}}", scenario::yaml_text(table_.filename().string()),

@@ -126,8 +126,8 @@ class AxesReader {
   }
 
  private:
-  void refuse(const char* option, std::string what, std::string remedy) {
-    problems_.push_back({option, 1, 1, std::move(what), std::move(remedy)});
+  void refuse(Code code, const char* option, std::string what, std::string remedy) {
+    problems_.push_back({code, option, 1, 1, std::move(what), std::move(remedy)});
   }
 
   /// The device whose cams the scene plays, "" = it plays none.
@@ -146,12 +146,12 @@ class AxesReader {
   bool plays_the_device() {
     const auto plays = device_of_scene();
     if (plays.empty())
-      refuse("--scene",
+      refuse("design.scene"_code, "--scene",
              fmt::format("{} plays no cam: it has no axis of CAMMING4, no DECAM and no table of MC_CamIn",
                          scene_.file.string()),
              "name a scene that has one; drycut new --list tells which lines play a cam");
     else if (plays != device_)
-      refuse("--scene", fmt::format("{} does not run {}", scene_.file.string(), device_),
+      refuse("design.scene"_code, "--scene", fmt::format("{} does not run {}", scene_.file.string(), device_),
              fmt::format("give --device {}, or another scene", plays));
     return plays == device_;
   }
@@ -176,7 +176,7 @@ class AxesReader {
     if (!known) {
       // The program counts pulses of the scene's machine.
       if (!given && device_ == "lx3vp")
-        refuse(option, "it is not given, and the scene does not say what a pulse is",
+        refuse("option.missing"_code, option, "it is not given, and the scene does not say what a pulse is",
                fmt::format("such as {}", option == std::string_view("--master-pulse")
                                              ? R"(--master-pulse "0.05 mm")"
                                              : R"(--slave-pulse "600 mm/20000")"));
@@ -184,7 +184,7 @@ class AxesReader {
     }
     if (!given) way = *known;
     if (given && std::abs(given->metres() / known->metres() - 1) > 1e-9)
-      refuse(option,
+      refuse("option.does-not-apply"_code, option,
              fmt::format("{} a pulse; {} has {} at {}", length_text(given->metres()), scene_.file.string(),
                          length_text(known->metres()), terminal),
              "leave it out");
@@ -201,14 +201,15 @@ class AxesReader {
     const auto* own = knife ? "rotary_knife" : "flying_saw";
     const auto* other = knife ? "flying_saw" : "rotary_knife";
     if (!has(own) && has(other))
-      refuse("--scene", fmt::format("{} has a {}, the job is one of a {}", scene_.file.string(), other, own),
+      refuse("design.scene"_code, "--scene",
+             fmt::format("{} has a {}, the job is one of a {}", scene_.file.string(), other, own),
              fmt::format("drycut design {}, or another scene", other));
     if (!knife) return;
     const double wanted = job_.slave * job_.blades;
     for (const auto& plant : scene_.plants) {
       const double drum = parameter(plant, "circumference");
       if (drum == 0 || std::abs(drum - wanted) <= 1e-9) continue;
-      refuse("--scene",
+      refuse("design.scene"_code, "--scene",
              fmt::format("{} has a drum of {}, the job one of {}", scene_.file.string(), length_text(drum),
                          length_text(wanted)),
              fmt::format("--circumference \"{}\", or another scene", length_text(drum)));
@@ -220,7 +221,7 @@ class AxesReader {
     for (const auto& plant : scene_.plants) {
       const double thickness = plant.type.text == "web" ? parameter(plant, "thickness") : 0;
       if (thickness == 0 || std::abs(thickness - job_.thickness) <= 1e-9) continue;
-      refuse("--thickness",
+      refuse("design.scene"_code, "--thickness",
              fmt::format("{} are not those of {}: {}", length_text(job_.thickness), scene_.file.string(),
                          length_text(thickness)),
              fmt::format("--thickness \"{}\", or another scene", length_text(thickness)));

@@ -202,17 +202,19 @@ class CandidateMaker {
     const double makers = si_of(motor, "largest_inertia_ratio");
     if (choices_.most_inertia_ratio) {
       made.most_inertia_ratio = *choices_.most_inertia_ratio;
-      made.ratio_from = from_option;
+      made.limit_from = Candidate::LimitFrom::option;
     } else if (makers > 0) {
       made.most_inertia_ratio = makers;
-      made.ratio_from = from_maker;
+      made.limit_from = Candidate::LimitFrom::maker;
     } else if (choices_.drive.is_servo()) {
       made.most_inertia_ratio = usual_inertia_ratio;
-      made.ratio_from = from_usage;
+      made.limit_from = Candidate::LimitFrom::usage;
     }
+    constexpr const char* said[] = {"", "is asked for", "is what its maker allows",
+                                    "is usual, and the catalogue has no value of its maker"};
     if (made.unfit.empty() && made.is_too_heavy())
       made.unfit = fmt::format("load over rotor inertia {:.3g}, at most {:.3g} {}", made.inertia_ratio,
-                               made.most_inertia_ratio, made.ratio_from);
+                               made.most_inertia_ratio, said[static_cast<std::size_t>(made.limit_from)]);
   }
 
   static double number_of_text(const std::string& text) { return scenario::parse_quantity(text)->number; }
@@ -309,7 +311,7 @@ void check_ratios(const SweepAxis& axis, Problems& problems) {
   for (const auto& value : axis.values) {
     const auto ratio = scenario::parse_quantity(value);
     if (!ratio || !ratio->unit.empty() || ratio->number <= 0)
-      problems.push_back({axis.parameter.option, 1, axis.parameter.low_column,
+      problems.push_back({"study.argument"_code, axis.parameter.option, 1, axis.parameter.low_column,
                           fmt::format("'{}' is no gear ratio", value),
                           "turns of the motor for one of the load, above 0: 5..20:16 or 5,7,10"});
   }
@@ -320,7 +322,7 @@ void check_count(const SizeChoices& choices, Problems& problems) {
   const auto resistors = std::max<std::size_t>(1, choices.resistors.size());
   const auto count = static_cast<double>(choices.motors.size() * resistors) * static_cast<double>(gears);
   if (count > static_cast<double>(most_candidates))
-    problems.push_back({"--gears", 1, 1,
+    problems.push_back({"study.out-of-range"_code, "--gears", 1, 1,
                         fmt::format("{} motors x {} gears x {} brake resistors are {:.0f} candidates",
                                     choices.motors.size(), gears, resistors, count),
                         fmt::format("at most {}", most_candidates)});
@@ -334,7 +336,7 @@ void check_gear_tie(const SizeChoices& choices, const PointQuestion& question, P
     ratios.push_back(probe_machine(question, choices.drive, overrides_of(choices.gears, {value})).ratio);
   if (axis.values.size() > 1 && ratios.front() && ratios.front() == ratios.back())
     problems.push_back(
-        {"--gears", 1, 1,
+        {"option.does-not-apply"_code, "--gears", 1, 1,
          fmt::format("{} does not change {}", axis.parameter.path, choices.drive.path("gear.ratio")),
          "tie it in the scenario, gear: {ratio: \"${gear}\"}, or write the ratios alone: --gears 5,7,10"});
 }
@@ -347,7 +349,8 @@ void check_resistors(const SizeChoices& choices, const PointQuestion& question, 
     if (resistor.ohm) overrides.push_back({supply + "resistor", number_text(*resistor.ohm) + " ohm"});
     if (resistor.power) overrides.push_back({supply + "resistor_power", number_text(*resistor.power) + " W"});
     for (auto& problem : probe_machine(question, choices.drive, overrides).problems)
-      problems.push_back({"--resistors", 1, 1, std::move(problem.what), std::move(problem.remedy)});
+      problems.push_back(
+          {problem.code, "--resistors", 1, 1, std::move(problem.what), std::move(problem.remedy)});
   }
 }
 
@@ -372,7 +375,8 @@ std::vector<Candidate> candidates_of(SizeChoices& choices, const PointQuestion& 
   check_resistors(choices, question, problems);
   if (problems.size() != before) return {};
   CandidateMaker maker(choices, question, scenario);
-  if (auto note = maker.misfit_note(); !note.empty()) choices.notes.push_back(std::move(note));
+  if (auto note = maker.misfit_note(); !note.empty())
+    choices.notes.emplace_back("size.gear-unfit"_code, std::move(note));
   return maker.run();
 }
 

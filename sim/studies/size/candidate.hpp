@@ -23,16 +23,11 @@ struct Candidate {
   plants::DriveRatings ratings;
   double inertia_ratio = 0;                                             ///< load over rotor
   double most_inertia_ratio = std::numeric_limits<double>::infinity();  ///< that is taken
-  std::string ratio_from = {};                                          ///< who says so: one of these
+  enum class LimitFrom { nobody, option, maker, usage } limit_from = LimitFrom::nobody;
   [[nodiscard]] bool is_too_heavy() const { return inertia_ratio > most_inertia_ratio; }
   std::vector<scenario::Override> overrides;
   std::string unfit;  ///< why it cannot be set up at all; "" = it can be run
 };
-
-// Who says how large the inertia ratio may be, as a sentence about the limit ends.
-inline constexpr std::string_view from_option = "is asked for";
-inline constexpr std::string_view from_maker = "is what its maker allows";
-inline constexpr std::string_view from_usage = "is usual, and the catalogue has no value of its maker";
 
 /// "HG-SR202, gear 7, 13 ohm 100 W": without what stays as it is.
 std::string name_of(const Candidate& candidate);

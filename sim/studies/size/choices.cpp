@@ -75,14 +75,15 @@ std::optional<SizedDrive> read_drive(const std::string& text, const scenario::Sc
     if (drive.full_name() == text || (text.empty() && drives.size() == 1)) return drive;
   constexpr auto* option = "--drive";
   if (drives.empty())
-    problems.push_back(
-        {option, 1, 1, "no drive of the scenario has a motor of the catalogue", types_with_motors()});
+    problems.push_back({"study.unknown-name"_code, option, 1, 1,
+                        "no drive of the scenario has a motor of the catalogue", types_with_motors()});
   else if (text.empty())
-    problems.push_back({option, 1, 1, fmt::format("the scenario has {} drives", drives.size()),
+    problems.push_back({"option.missing"_code, option, 1, 1,
+                        fmt::format("the scenario has {} drives", drives.size()),
                         fmt::format("name one: {}", fmt::join(names, ", "))});
   else
-    problems.push_back(
-        {option, 1, 1, fmt::format("there is no drive '{}'", text), did_you_mean(text, names)});
+    problems.push_back({"study.unknown-name"_code, option, 1, 1, fmt::format("there is no drive '{}'", text),
+                        did_you_mean(text, names)});
   return {};
 }
 
@@ -91,7 +92,7 @@ void check_shared(const SizedDrive& drive, const scenario::Scenario& scenario, P
   for (const auto& plant : scenario.plants)
     if (word_in(plant, "drive") == "shared" && word_in(plant, "shared.drive") == drive.plant)
       problems.push_back(
-          {"--drive", 1, 1,
+          {"option.does-not-apply"_code, "--drive", 1, 1,
            fmt::format("{} drives the motor of {} by turns", drive.full_name(), plant.name.text),
            "motors on one drive are alike: size them with a scenario of each"});
 }
@@ -106,7 +107,7 @@ void check_motor_values(const SizedDrive& drive, const std::vector<scenario::Mot
     if (std::any_of(motors.begin(), motors.end(),
                     [&](const auto& motor) { return motor.find(name) != nullptr; }))
       problems.push_back(scenario::problem_at(
-          scenario, place,
+          "option.does-not-apply"_code, scenario, place,
           fmt::format("{} is given: every motor that is tried would keep it", drive.path(parameter)),
           fmt::format("leave it out; {} says it", drive.path(prefix + "model"))));
   }
@@ -136,7 +137,7 @@ std::vector<scenario::MotorModel> read_motors_of(const std::string& text, const 
     if (any) continue;
     const auto near = nearest(items[i], names);
     problems.push_back(
-        {"--motors", 1, static_cast<int>(columns[i]),
+        {"study.unknown-name"_code, "--motors", 1, static_cast<int>(columns[i]),
          items[i].empty() ? "a motor without a name"
                           : fmt::format("there is no motor '{}' for {}", items[i], drive.full_name()),
          near.empty() ? "all, NAME or a pattern such as 'HG-SR*'; drycut plants --motors lists them"
@@ -157,14 +158,14 @@ void read_gears(const std::string& text, const scenario::Scenario& scenario, Siz
   choices.gear_is_tied = text.find('=') != std::string::npos;
   if (!number_in(plant, "gear.ratio")) {
     problems.push_back(
-        {option, 1, 1,
+        {"option.does-not-apply"_code, option, 1, 1,
          fmt::format("{} has no gear.ratio: plants of type {} have none", drive.plant, plant.type.text),
          "leave --gears out"});
     return;
   }
   if (!drive.is_servo() && !choices.gear_is_tied) {
     problems.push_back(
-        {option, 1, 1,
+        {"option.does-not-apply"_code, option, 1, 1,
          fmt::format("the speeds of {} are its frequencies, which go with the gear", drive.full_name()),
          "tie them to a variable in the scenario and write --gears variables.gear=5,7,10"});
     return;
@@ -220,7 +221,7 @@ class ResistorReader {
     good =
         good && power && power->number > 0 && scenario::is_unit(unit) && scenario::same_dimension(unit, "W");
     if (!good) {
-      problems_.push_back({"--resistors", 1, static_cast<int>(column),
+      problems_.push_back({"study.argument"_code, "--resistors", 1, static_cast<int>(column),
                            fmt::format("'{}' is no brake resistor", item),
                            "such as \"100,200 W\", \"13 ohm 100 W, 6.7 ohm 3 kW\" or none"});
       return {};
@@ -242,7 +243,7 @@ void read_resistors(const std::string& text, const scenario::Scenario& scenario,
   const auto& drive = choices.drive;
   if (!drive.is_servo() && word_in(plant_of(drive, scenario), "drive") != "inverter") {
     problems.push_back(
-        {"--resistors", 1, 1,
+        {"option.does-not-apply"_code, "--resistors", 1, 1,
          fmt::format("{} has no DC link: contactors feed back into the mains", drive.full_name()),
          "leave --resistors out"});
     return;
@@ -260,7 +261,8 @@ void read_inertia_ratio(const std::string& text, SizeChoices& choices, Problems&
   if (ratio && ratio->unit.empty() && ratio->number > 0)
     choices.most_inertia_ratio = ratio->number;
   else
-    problems.push_back({"--inertia-ratio", 1, 1, fmt::format("'{}' is no ratio of inertias", text),
+    problems.push_back({"study.argument"_code, "--inertia-ratio", 1, 1,
+                        fmt::format("'{}' is no ratio of inertias", text),
                         "load over rotor, above 0, such as 15; off: it is not judged"});
 }
 

@@ -54,7 +54,7 @@ struct SizeChoices {
   /// Load over rotor inertia; a candidate with more is ruled out. Infinity: any. None: what its maker says,
   /// else the usual one.
   std::optional<double> most_inertia_ratio;
-  std::vector<std::string> notes = {};  ///< on gears that cannot be tried as the machine is: candidates_of()
+  std::vector<Finding> notes = {};  ///< on gears that cannot be tried as the machine is: candidates_of()
 };
 
 struct SizeTexts {

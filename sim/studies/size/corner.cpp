@@ -43,13 +43,13 @@ void read_corner(const std::string& text, std::vector<Corner>& corners, Problems
     const auto equals = item.find('=');
     const std::string path(trimmed(std::string_view(item).substr(0, equals)));
     if (equals == std::string::npos || path.empty())
-      problems.push_back({at_option, 1, static_cast<int>(at) + 1,
+      problems.push_back({"study.argument"_code, at_option, 1, static_cast<int>(at) + 1,
                           fmt::format("'{}' is no PATH=VALUE", trimmed(item)),
                           "such as --at \"variables.length=500 mm,plants.web.speed=120 m/min\""});
     else if (std::any_of(corner.overrides.begin(), corner.overrides.end(),
                          [&](const auto& other) { return other.path == path; }))
-      problems.push_back(
-          {at_option, 1, static_cast<int>(at) + 1, fmt::format("{} is given twice", path), "keep one"});
+      problems.push_back({"study.twice"_code, at_option, 1, static_cast<int>(at) + 1,
+                          fmt::format("{} is given twice", path), "keep one"});
     else
       corner.overrides.push_back({path, std::string(trimmed(std::string_view(item).substr(equals + 1)))});
     at = comma;
@@ -83,7 +83,8 @@ void read_envelope(const std::filesystem::path& file, const std::string& scene, 
   const auto verdict = any ? find("verdict") : 0;
   const bool has_stretch = find("holds from") < heading.size() || find("holds to") < heading.size();
   if (verdict == 0 || verdict >= heading.size() || !has_stretch) {
-    if (broken.none()) broken.add(1, 1, "this is no envelope.csv", "drycut envelope writes one");
+    if (broken.none())
+      broken.add("file.other-kind"_code, 1, 1, "this is no envelope.csv", "drycut envelope writes one");
     return;
   }
   const std::size_t first = heading.front().text == "scene" ? 1 : 0;
@@ -92,7 +93,8 @@ void read_envelope(const std::filesystem::path& file, const std::string& scene, 
   while (rows.next(row)) {
     const auto& cells = row.cells;
     if (cells.size() != heading.size()) {
-      broken.add(row.line, 1, fmt::format("{} cells, where the heading has {}", cells.size(), heading.size()),
+      broken.add("record.damaged"_code, row.line, 1,
+                 fmt::format("{} cells, where the heading has {}", cells.size(), heading.size()),
                  "run the envelope again: it writes the file");
       continue;
     }
@@ -103,7 +105,7 @@ void read_envelope(const std::filesystem::path& file, const std::string& scene, 
     for (std::size_t i = first; i < verdict; ++i) {
       const auto [path, unit] = path_and_unit(heading[i].text);
       if (cells[i].text.empty())
-        broken.add(row.line, cells[i].column, fmt::format("{} has no value", path),
+        broken.add("record.damaged"_code, row.line, cells[i].column, fmt::format("{} has no value", path),
                    "a number, as the envelope found it");
       corner.overrides.push_back({path, unit.empty() ? cells[i].text : cells[i].text + " " + unit});
     }
@@ -111,10 +113,11 @@ void read_envelope(const std::filesystem::path& file, const std::string& scene, 
     add_corner(std::move(corner), corners);
   }
   if (own == 0 && broken.none())
-    broken.add(1, 1, fmt::format("it has no points of the scene {}", scene),
+    broken.add("study.unknown-name"_code, 1, 1, fmt::format("it has no points of the scene {}", scene),
                "the envelope of this scenario, or the scenario of this envelope");
   else if (taken == 0 && broken.none())
-    broken.add(1, 1, "at none of its points everything holds", "an envelope with a point at which it does");
+    broken.add("study.argument"_code, 1, 1, "at none of its points everything holds",
+               "an envelope with a point at which it does");
 }
 
 /// What the scenario says against it; an override's problems come under the corner's name.
@@ -124,7 +127,8 @@ void check_corner(const Corner& corner, const std::string& from, const PointQues
     const bool is_sized = std::any_of(sized.begin(), sized.end(),
                                       [&](const auto& begin) { return override.path.starts_with(begin); });
     if (is_sized)
-      problems.push_back({from, 1, 1, fmt::format("{} is what is sized", override.path),
+      problems.push_back({"option.does-not-apply"_code, from, 1, 1,
+                          fmt::format("{} is what is sized", override.path),
                           "a corner says what the line must do; --set is for what stays as it is"});
   }
   auto point = read_point(question, corner.overrides);

@@ -302,7 +302,7 @@ renders::Report size_page(const SizeResult& page, const record::Verdict& verdict
       {{"as the scenario has it", "stiffness, play and friction of the gear, with every candidate"}},
       {{"drycut", DRYCUT_VERSION}}};
   report::add_overrides(page.question.set, report);
-  report.notes = size_notes(page);
+  report.notes = record::lines_of(size_notes(page));
   report.summary = {fitting > 0 ? what_fits(page, false) : what_does_not_fit(page, false)};
   if (fitting > 0) report.tables.push_back(what_fits(page, true));
   if (fitting < page.sized.size()) report.tables.push_back(what_does_not_fit(page, true));

@@ -74,7 +74,7 @@ class CornerJudge {
     for (std::size_t i = 0; i < ratings.size(); ++i) {
       if (needs_ && (*needs_)[i].share > needed.share) needed = {(*needs_)[i].share, i};
       const double share = used_share(candidate_, i, drive_.figures[i].share);
-      if ((is_measured() || !is_mean(ratings[i].name)) && share > used.share) used = {share, i};
+      if ((is_measured() || !ratings[i].mean) && share > used.share) used = {share, i};
     }
     return needed.share > 1 || used.share < needed.share ? needed : used;
   }
@@ -94,7 +94,7 @@ class CornerJudge {
     std::vector<std::pair<double, std::string>> over;
     for (std::size_t i = 0; i < ratings.size(); ++i) {
       const auto& figure = drive_.figures[i];
-      if (figure.share > 1 && (is_measured() || !is_mean(ratings[i].name)))
+      if (figure.share > 1 && (is_measured() || !ratings[i].mean))
         over.emplace_back(-figure.share, figure_text(i, figure));
     }
     std::stable_sort(over.begin(), over.end(),
@@ -110,11 +110,6 @@ class CornerJudge {
   }
 
  private:
-  /// Over machine cycles.
-  static bool is_mean(std::string_view rating) {
-    return rating.starts_with("rms ") || rating == "brake resistor" || rating == "time at the torque limit";
-  }
-
   static std::string figure_text(std::size_t rating, const RatedDrive::Figure& figure) {
     return fmt::format("{} {:.3g} {} ({:.0f} %)", ratings[rating].name, figure.value, ratings[rating].unit,
                        whole_percent * figure.share);

@@ -40,9 +40,9 @@ std::string inertia_note(const SizeResult& result) {
   std::set<std::string> usual;
   std::size_t heavy = 0;
   for (const auto& candidate : result.candidates) {
-    if (candidate.ratio_from.empty()) continue;
+    if (candidate.limit_from == Candidate::LimitFrom::nobody) continue;
     motors.insert(candidate.motor);
-    if (candidate.ratio_from == from_usage) usual.insert(candidate.motor);
+    if (candidate.limit_from == Candidate::LimitFrom::usage) usual.insert(candidate.motor);
     if (candidate.is_too_heavy()) ++heavy;
   }
   if (usual.empty() && heavy == 0) return "";
@@ -85,14 +85,15 @@ std::string candidate_words(const Candidate& candidate, const Sized& one) {
                      one.reason);
 }
 
-std::vector<std::string> size_notes(const SizeResult& result) {
+std::vector<Finding> size_notes(const SizeResult& result) {
   auto notes = result.choices.notes;
-  if (auto inertia = inertia_note(result); !inertia.empty()) notes.push_back(std::move(inertia));
+  if (auto inertia = inertia_note(result); !inertia.empty())
+    notes.emplace_back("size.inertia-limit"_code, std::move(inertia));
   if (!result.choices.gears.empty())
     notes.emplace_back(
+        "size.gear-unchanged"_code,
         "stiffness, play and friction are those of the scenario behind every gear: a gear of another ratio "
-        "has "
-        "its own");
+        "has its own");
   return notes;
 }
 

@@ -29,6 +29,6 @@ std::string best_words(const SizeResult& result);
 std::string candidate_words(const Candidate& candidate, const Sized& one);
 /// What a reader should know besides: whose inertia ratio was judged, gears that are left out, what a gear's
 /// ratio does not change.
-std::vector<std::string> size_notes(const SizeResult& result);
+std::vector<Finding> size_notes(const SizeResult& result);
 
 }  // namespace drycut::sim::studies

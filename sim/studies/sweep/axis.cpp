@@ -32,7 +32,7 @@ class AxisReader {
     const auto colon = rest.rfind(':');
     if (colon != std::string::npos && sampled_) {
       return refuse(
-          colon,
+          "study.argument"_code, colon,
           fmt::format("'{}' says how many values a grid has, and a sample has none", rest.substr(colon)),
           "leave it out");
     }
@@ -41,21 +41,22 @@ class AxisReader {
       if (!axis.steps) return {};
       rest.resize(colon);
     } else if (!sampled_) {
-      return refuse(text_.size(), fmt::format("'{}' does not say how many values", text_),
+      return refuse("study.argument"_code, text_.size(),
+                    fmt::format("'{}' does not say how many values", text_),
                     "add their number: 20..300 m/min:57");
     }
     auto parameter = parse_parameter(rest, option_, false, problems_);
     if (!parameter) return {};
     if (axis.logarithmic && !(parameter->low > 0))
-      return refuse(static_cast<std::size_t>(parameter->low_column - 1), "a logarithmic range begins above 0",
-                    "or leave :log out");
+      return refuse("study.argument"_code, static_cast<std::size_t>(parameter->low_column - 1),
+                    "a logarithmic range begins above 0", "or leave :log out");
     axis.parameter = std::move(*parameter);
     return axis;
   }
 
  private:
-  std::nullopt_t refuse(std::size_t offset, std::string what, std::string remedy) {
-    problems_.push_back({option_, 1, static_cast<int>(offset) + 1, std::move(what), std::move(remedy)});
+  std::nullopt_t refuse(Code code, std::size_t offset, std::string what, std::string remedy) {
+    problems_.push_back({code, option_, 1, static_cast<int>(offset) + 1, std::move(what), std::move(remedy)});
     return std::nullopt;
   }
 
@@ -65,9 +66,11 @@ class AxisReader {
     const auto read = std::from_chars(text.data() + from, end, number);
     const bool too_large = read.ec == std::errc::result_out_of_range || number > most_steps;
     if (read.ptr != end || (read.ec != std::errc() && !too_large))
-      return refuse(from, fmt::format("'{}' is no number of values", text.substr(from)), "such as :26");
+      return refuse("study.out-of-range"_code, from,
+                    fmt::format("'{}' is no number of values", text.substr(from)), "such as :26");
     if (number < 2 || too_large)
-      return refuse(from, fmt::format("{} values from end to end", text.substr(from)),
+      return refuse("study.out-of-range"_code, from,
+                    fmt::format("{} values from end to end", text.substr(from)),
                     fmt::format("2 to {}", most_steps));
     return number;
   }
@@ -76,7 +79,7 @@ class AxisReader {
   std::optional<SweepAxis> list() {
     const auto equals = text_.find('=');
     if (equals == std::string::npos || equals == 0)
-      return refuse(0, fmt::format("'{}' gives no values to a path", text_),
+      return refuse("study.argument"_code, 0, fmt::format("'{}' gives no values to a path", text_),
                     "write PATH=A..B UNIT:N, such as variables.length=500..3000 mm:26");
     SweepAxis axis;
     axis.parameter.option = option_;
@@ -84,9 +87,9 @@ class AxisReader {
     axis.parameter.low_column = axis.parameter.high_column = static_cast<int>(equals) + 2;
     const auto items = items_from(equals + 1);
     for (const auto& [item, at] : items) {
-      if (item.empty()) return refuse(at, "an empty value", "write PATH=1,2,5 mm");
+      if (item.empty()) return refuse("study.argument"_code, at, "an empty value", "write PATH=1,2,5 mm");
       if (std::find(axis.values.begin(), axis.values.end(), item) != axis.values.end())
-        return refuse(at, fmt::format("{} is given twice", item), "keep one");
+        return refuse("study.twice"_code, at, fmt::format("{} is given twice", item), "keep one");
       axis.values.push_back(item);
     }
     const auto is_number = [](const Item& item) { return quantity_in(item.text).has_value(); };
@@ -96,20 +99,22 @@ class AxisReader {
       return axis;
     }
     if (word != items.end())
-      return refuse(word->at, fmt::format("'{}' is no number as the others are", word->text),
+      return refuse("study.argument"_code, word->at,
+                    fmt::format("'{}' is no number as the others are", word->text),
                     "numbers with one unit, or words");
     axis.parameter.unit = quantity_in(items.back().text)->unit;
     for (std::size_t i = 0; i < items.size(); ++i) {
       const auto quantity = *quantity_in(items[i].text);
       const auto& unit = quantity.unit;
       if (!unit.empty() && unit != axis.parameter.unit)
-        return refuse(equals + 1, fmt::format("values in {} and {}", unit, axis.parameter.unit),
+        return refuse("study.wrong-unit"_code, equals + 1,
+                      fmt::format("values in {} and {}", unit, axis.parameter.unit),
                       "give all of them in one unit");
       const auto value = number_text(quantity.number);
       const auto same =
           std::find(axis.values.begin(), axis.values.begin() + static_cast<std::ptrdiff_t>(i), value);
       if (same != axis.values.begin() + static_cast<std::ptrdiff_t>(i))
-        return refuse(items[i].at, fmt::format("{} is given twice", value), "keep one");
+        return refuse("study.twice"_code, items[i].at, fmt::format("{} is given twice", value), "keep one");
       axis.values[i] = value;
     }
     return axis;
@@ -171,7 +176,7 @@ void fill_axis(SweepAxis& axis, Problems& problems) {
     axis.values.push_back(number_text(value));
     if (!axis.parameter.integer || value == std::rint(value)) continue;
     problems.push_back(
-        {axis.parameter.option, 1, axis.parameter.low_column,
+        {"study.argument"_code, axis.parameter.option, 1, axis.parameter.low_column,
          fmt::format("{} is a whole number, and {} is none", axis.parameter.path, axis.values.back()),
          "another number of values, or a list: 1,2,5"});
     return;

@@ -176,7 +176,7 @@ std::optional<BoundRequest> parse_bound(const std::string& text, const std::stri
     request.tolerance = given->number;
     return request;
   }
-  problems.push_back({option, 1, static_cast<int>(colon) + 2,
+  problems.push_back({"study.out-of-range"_code, option, 1, static_cast<int>(colon) + 2,
                       fmt::format("'{}' is no tolerance", text.substr(colon + 1)),
                       fmt::format("above 0 and less than the range of {:.6g}, in its unit: :{:.3g}", width,
                                   request.tolerance)});

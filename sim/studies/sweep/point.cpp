@@ -37,8 +37,8 @@ std::vector<Metric> metrics_of(const PointQuestion& question, Problems& problems
                                     return {};
                                   });
     for (auto& fault : faults)
-      problems.push_back(
-          {figure_option, 1, static_cast<int>(name.size() + 1 + fault.offset) + 1, fault.what, fault.remedy});
+      problems.push_back({fault.code, figure_option, 1, static_cast<int>(name.size() + 1 + fault.offset) + 1,
+                          fault.what, fault.remedy});
     if (metric) metrics.push_back(std::move(*metric));
   }
   return metrics;

@@ -78,7 +78,7 @@ std::string failed_rating(const std::vector<record::DriveVerdict>& drives) {
 
 std::vector<std::string> rated_columns(const std::string& drive) {
   std::vector<std::string> columns;
-  for (const auto& [name, unit] : ratings) {
+  for (const auto& [name, unit, mean] : ratings) {
     columns.push_back(fmt::format("{} {} [{}]", drive, name, unit));
     columns.push_back(fmt::format("{} {}, share", drive, name));
   }

@@ -15,17 +15,18 @@ namespace drycut::sim::studies {
 struct RatingName {
   std::string_view name;
   std::string_view unit;
+  bool mean = false;  ///< over machine cycles
 };
-inline constexpr std::array<RatingName, 10> ratings = {{{"rms torque", "N m"},
+inline constexpr std::array<RatingName, 10> ratings = {{{"rms torque", "N m", true},
                                                         {"peak torque", "N m"},
                                                         {"largest speed", "rpm"},
-                                                        {"rms current, for the winding", "A"},
+                                                        {"rms current, for the winding", "A", true},
                                                         {"winding temperature rise, so far", "K"},
-                                                        {"rms current, for the amplifier", "A"},
+                                                        {"rms current, for the amplifier", "A", true},
                                                         {"amplifier's I2t, so far", "%"},
                                                         {"DC link above rectified mains", "V"},
-                                                        {"brake resistor", "W"},
-                                                        {"time at the torque limit", "%"}}};
+                                                        {"brake resistor", "W", true},
+                                                        {"time at the torque limit", "%", true}}};
 /// The place of a rating in that list. Throws std::logic_error if there is none of that name.
 std::size_t rating_index(std::string_view name);
 

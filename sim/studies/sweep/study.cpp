@@ -24,7 +24,7 @@ bool has_own_dimension(const TunedParameter& parameter, const scenario::Scenario
         scenario::same_dimension(present->unit, parameter.unit))
       continue;
     problems.push_back(
-        {parameter.option, 1, parameter.high_column,
+        {"study.wrong-unit"_code, parameter.option, 1, parameter.high_column,
          fmt::format("{} is {}, not {}", parameter.path, scenario::dimension_name(present->unit),
                      parameter.unit.empty() ? "a pure number" : scenario::dimension_name(parameter.unit)),
          fmt::format("its value is {}", variable.value.text)});
@@ -60,7 +60,7 @@ bool begins_with_section(const TunedParameter& parameter, const scenario::Scenar
                                    "timeline",  "disturbances", "record", "drives",     "checks"};
   const auto first = parameter.path.substr(0, parameter.path.find('.'));
   if (std::find(sections.begin(), sections.end(), first) != sections.end()) return true;
-  problems.push_back({parameter.option, 1, 1,
+  problems.push_back({"study.unknown-name"_code, parameter.option, 1, 1,
                       fmt::format("the scenario has no {}", in_quotes(parameter.path)),
                       did_you_mean(parameter.path, known_paths(scenario),
                                    fmt::format("a path begins with {}", fmt::join(sections, ", ")))});
@@ -74,7 +74,7 @@ void try_words(const SweepAxis& axis, const PointQuestion& question, Problems& p
     if (told.empty()) continue;
     const auto path = with_check_names(question, axis.parameter.path);
     problems.push_back(
-        {axis.parameter.option, 1, axis.word_columns[i],
+        {"study.out-of-range"_code, axis.parameter.option, 1, axis.word_columns[i],
          fmt::format("{} cannot be {}: {}", path, in_quotes(axis.values[i]), told.front().what),
          told.front().remedy});
   }
@@ -126,15 +126,16 @@ bool says_its_unit(const SweepAxis& axis, const scenario::Scenario& scenario, Pr
   const auto kind = scenario::dimension_name(known.unit);
   const auto first = axis.is_range() ? number_text(known.low) : axis.values.front();
   if (!axis.is_range() && !scenario::parse_quantity(first))
-    problems.push_back({known.option, 1, known.low_column,
+    problems.push_back({"study.wrong-unit"_code, known.option, 1, known.low_column,
                         fmt::format("{} is {}, not '{}'", known.path, kind, first),
                         fmt::format("numbers, and behind the last the unit: 1,2 {}", known.unit)});
   else
-    problems.push_back(
-        {known.option, 1, known.low_column, fmt::format("{} is {}, and no unit is given", known.path, kind),
-         axis.is_range() ? fmt::format("such as {}..{} {}{}", first, number_text(known.high), known.unit,
-                                       axis.steps ? fmt::format(":{}", *axis.steps) : "")
-                         : fmt::format("such as {} {}", first, known.unit)});
+    problems.push_back({"study.wrong-unit"_code, known.option, 1, known.low_column,
+                        fmt::format("{} is {}, and no unit is given", known.path, kind),
+                        axis.is_range()
+                            ? fmt::format("such as {}..{} {}{}", first, number_text(known.high), known.unit,
+                                          axis.steps ? fmt::format(":{}", *axis.steps) : "")
+                            : fmt::format("such as {} {}", first, known.unit)});
   return false;
 }
 
@@ -145,7 +146,8 @@ void check_axes(SweepAxes& axes, const PointQuestion& question, Problems& proble
     auto& parameter = axis->parameter;
     const auto same = [&](const SweepAxis& other) { return other.parameter.path == parameter.path; };
     if (std::any_of(axes.begin(), axis, same)) {
-      problems.push_back({parameter.option, 1, 1, parameter.path + " is given twice", "keep one"});
+      problems.push_back(
+          {"study.twice"_code, parameter.option, 1, 1, parameter.path + " is given twice", "keep one"});
       continue;
     }
     if (!begins_with_section(parameter, scenario, problems)) continue;
@@ -168,7 +170,7 @@ void refuse_too_many(const SweepAxes& axes, Problems& problems) {
     counts.push_back(fmt::format("{}", count));
     size *= static_cast<double>(count);
   }
-  problems.push_back({axes.front().parameter.option, 1, 1,
+  problems.push_back({"study.out-of-range"_code, axes.front().parameter.option, 1, 1,
                       fmt::format("{} are {:.3g} points", fmt::join(counts, " x "), size),
                       fmt::format("at most {}: fewer values an axis, or --sample sobol:1000", most_points)});
 }

@@ -50,15 +50,16 @@ class Metric::Compiler {
     if (!metric_.formula_) return {};
     for (const auto& statistic : metric_.formula_->statistics()) add_term(statistic);
     if (metric_.terms_.empty() && metric_.figures_.empty())
-      fault(0, "nothing recorded is in it", "for example rms(AxisX.follerr), sd(cut.length)");
+      fault("expression.kind"_code, 0, "nothing recorded is in it",
+            "for example rms(AxisX.follerr), sd(cut.length)");
     if (kind_ == Kind::number && faults_.size() == before) refuse_comparison();
     if (faults_.size() != before) return {};
     return std::move(metric_);
   }
 
  private:
-  void fault(std::size_t offset, std::string what, std::string remedy) {
-    faults_.push_back({offset, std::move(what), std::move(remedy)});
+  void fault(Code code, std::size_t offset, std::string what, std::string remedy) {
+    faults_.push_back({code, offset, std::move(what), std::move(remedy)});
   }
 
   scenario::Expression::Operand outside(const std::string& name) {
@@ -66,17 +67,18 @@ class Metric::Compiler {
       if (figure != name) continue;
       if (kind_ == Kind::number)
         return scenario::Expression::Operand::refused(
-            fmt::format("{} is measured for constraints only", name), "put a limit into --constraint");
+            "expression.not-here"_code, fmt::format("{} is measured for constraints only", name),
+            "put a limit into --constraint");
       return {&metric_.figures_.emplace_back(Figure{member, 0}).number, unit};
     }
     return scenario::Expression::Operand::refused(
-        fmt::format("'{}' stands outside a term", name),
+        "expression.not-here"_code, fmt::format("'{}' stands outside a term", name),
         fmt::format("write max({0}), min({0}), mean({0}), rms({0}), sd({0}) or settling({0}, band)", name));
   }
 
   scenario::Expression::Operand inside(const std::string& text) {
     const auto [name, unit, fault] = named(text);
-    if (fault) return scenario::Expression::Operand::refused(fault->what, fault->remedy);
+    if (fault) return scenario::Expression::Operand::refused(fault->code, fault->what, fault->remedy);
     const auto slot = std::find_if(metric_.slots_.begin(), metric_.slots_.end(),
                                    [&](const Slot& known) { return known.name.text == text; });
     auto& of_name = slot == metric_.slots_.end() ? metric_.slots_.emplace_back(Slot{name, 0}) : *slot;
@@ -103,7 +105,7 @@ class Metric::Compiler {
       if (a_plant || !text.starts_with(event.name + ".")) continue;
       return {{},
               {},
-              scenario::ExpressionFault{0,
+              scenario::ExpressionFault{"scenario.unknown-event"_code, 0,
                                         fmt::format("the event {} has no value '{}'", event.name,
                                                     text.substr(event.name.size() + 1)),
                                         "its values: " + list_of_values(event)}};
@@ -120,7 +122,8 @@ class Metric::Compiler {
         term.push_back(&slot);
       }
       if (term.back()->name.event != term.front()->name.event)
-        fault(offset, fmt::format("{} and {} do not happen together", term.front()->name.text, text),
+        fault("expression.kind"_code, offset,
+              fmt::format("{} and {} do not happen together", term.front()->name.text, text),
               "a term looks at channels, or at the values of one event");
     }
   }
@@ -130,7 +133,8 @@ class Metric::Compiler {
       if (!scenario::is_relation(token.text) && token.text != "==" && token.text != "&&" &&
           token.text != "||")
         continue;
-      return fault(token.offset, "a metric is a number, not a comparison", "put limits into --constraint");
+      return fault("expression.kind"_code, token.offset, "a metric is a number, not a comparison",
+                   "put limits into --constraint");
     }
   }
 

@@ -27,7 +27,7 @@ class VaryReader {
   std::optional<TunedParameter> run(bool relative) {
     const auto equals = text_.find('=');
     if (equals == std::string::npos || equals == 0) {
-      return refuse(0, fmt::format("'{}' gives no range to a path", text_),
+      return refuse("study.argument"_code, 0, fmt::format("'{}' gives no range to a path", text_),
                     "write PATH=LO..HI, such as controller.qmove.set.AxisX.pgain=1..100");
     }
     TunedParameter made;
@@ -43,8 +43,8 @@ class VaryReader {
   }
 
  private:
-  std::nullopt_t refuse(std::size_t offset, std::string what, std::string remedy) {
-    problems_.push_back({option_, 1, static_cast<int>(offset) + 1, std::move(what), std::move(remedy)});
+  std::nullopt_t refuse(Code code, std::size_t offset, std::string what, std::string remedy) {
+    problems_.push_back({code, option_, 1, static_cast<int>(offset) + 1, std::move(what), std::move(remedy)});
     return std::nullopt;
   }
 
@@ -60,7 +60,8 @@ class VaryReader {
     const auto number = scenario::parse_quantity(rest);
     if (!is_percent || !number || !number->unit.empty() || !(number->number > 0) ||
         !std::isfinite(number->number)) {
-      return refuse(offset, fmt::format("'{}' is no spread", range), "write ±30% or LO..HI");
+      return refuse("study.argument"_code, offset, fmt::format("'{}' is no spread", range),
+                    "write ±30% or LO..HI");
     }
     made.relative = number->number / 100;
     made.low_column = made.high_column = static_cast<int>(offset) + 1;
@@ -71,26 +72,30 @@ class VaryReader {
                                        bool relative) {
     const auto dots = range.find("..");
     if (dots == std::string_view::npos) {
-      return refuse(offset, fmt::format("'{}' is no range", range),
+      return refuse("study.argument"_code, offset, fmt::format("'{}' is no range", range),
                     relative ? "write ±30% or LO..HI" : "write LO..HI, such as 1..100 or 100..400 rad/s");
     }
     const auto high_at = offset + dots + 2;
     const auto low = scenario::parse_quantity(trimmed(range.substr(0, dots)));
     const auto high = scenario::parse_quantity(trimmed(range.substr(dots + 2)));
     if (!low || !std::isfinite(low->number))
-      return refuse(offset, fmt::format("'{}' is no number", range.substr(0, dots)), "such as 1 or 0.5");
+      return refuse("study.argument"_code, offset, fmt::format("'{}' is no number", range.substr(0, dots)),
+                    "such as 1 or 0.5");
     if (!high || !std::isfinite(high->number))
-      return refuse(high_at, fmt::format("'{}' is no number", range.substr(dots + 2)),
+      return refuse("study.argument"_code, high_at, fmt::format("'{}' is no number", range.substr(dots + 2)),
                     "such as 100 or 400 rad/s");
     made.unit = high->unit.empty() ? low->unit : high->unit;
     if (!low->unit.empty() && low->unit != made.unit)
-      return refuse(offset, fmt::format("the ends are in {} and {}", low->unit, made.unit),
+      return refuse("study.wrong-unit"_code, offset,
+                    fmt::format("the ends are in {} and {}", low->unit, made.unit),
                     "give both ends in one unit");
     if (!(low->number < high->number))
-      return refuse(offset, fmt::format("the range {} is empty", range), "the lower end comes first");
+      return refuse("study.argument"_code, offset, fmt::format("the range {} is empty", range),
+                    "the lower end comes first");
     const bool whole = low->number == std::rint(low->number) && high->number == std::rint(high->number);
     if (made.integer && !whole)
-      return refuse(offset, fmt::format("{} does not end at whole numbers", range), "it is an integer");
+      return refuse("study.argument"_code, offset, fmt::format("{} does not end at whole numbers", range),
+                    "it is an integer");
     made.low = low->number;
     made.high = high->number;
     made.low_column = static_cast<int>(offset) + 1;
@@ -235,7 +240,7 @@ void check_against_controller(TunedParameter& parameter, const scenario::Scenari
   for (const bool upper : {false, true}) {
     const auto fault = value->misfit(upper ? parameter.high : parameter.low);
     const int column = upper ? parameter.high_column : parameter.low_column;
-    if (fault) problems.push_back({parameter.option, 1, column, fault->what, fault->remedy});
+    if (fault) problems.push_back({fault->code, parameter.option, 1, column, fault->what, fault->remedy});
   }
 }
 
@@ -246,8 +251,8 @@ void refuse_overwritten(const TunedParameter& parameter, const std::string& low,
   if (!preset) return;
   for (const auto& value : {low, high}) {
     const auto told = loop::overwritten(scenario_with(value), preset->value);
-    if (told.empty()) continue;
-    problems.push_back({parameter.option, 1, 1, told,
+    if (!told) continue;
+    problems.push_back({"controller.value-overwritten"_code, parameter.option, 1, 1, told->text,
                         "take that line out of the program, or let it write only where the value is 0"});
     return;
   }

@@ -26,7 +26,8 @@ void read_from(const TuneRequest& request, Study& study, Problems& problems) {
   const auto from = scenario::parse_quantity(request.from);
   if (!from || !(from->number >= 0) || !scenario::is_unit(from->unit) ||
       !scenario::same_dimension(from->unit, "s") || scenario::to_si(from->number, from->unit) > 1e9) {
-    problems.push_back({"--from", 1, 1, fmt::format("'{}' is no time", request.from), "such as 3 s"});
+    problems.push_back(
+        {"option.value"_code, "--from", 1, 1, fmt::format("'{}' is no time", request.from), "such as 3 s"});
   } else {
     study.from = std::llround(scenario::to_si(from->number, from->unit) * 1e9);
   }
@@ -40,7 +41,7 @@ void read_parameters(const std::vector<std::string>& texts, const std::string& o
     const bool twice = std::any_of(parameters.begin(), parameters.end(),
                                    [&](const TunedParameter& p) { return p.path == parameter->path; });
     if (twice) {
-      problems.push_back({option, 1, 1, parameter->path + " is given twice", "keep one"});
+      problems.push_back({"study.twice"_code, option, 1, 1, parameter->path + " is given twice", "keep one"});
     } else {
       parameters.push_back(std::move(*parameter));
     }
@@ -51,7 +52,7 @@ void read_parameters(const std::vector<std::string>& texts, const std::string& o
 bool place_relative(TunedParameter& parameter, std::optional<double> present, Problems& problems) {
   if (!parameter.relative) return true;
   if (!present || *present == 0) {
-    problems.push_back({parameter.option, 1, parameter.low_column,
+    problems.push_back({"study.argument"_code, parameter.option, 1, parameter.low_column,
                         fmt::format("{} has no value to spread around", parameter.path),
                         "give a range LO..HI, or a quantity that is not 0"});
     return false;
@@ -99,7 +100,7 @@ void check_parameter(TunedParameter& parameter, const Study& study, PresentValue
     const bool bare = parameter.unit.empty() && !parameter.relative;
     auto value = present_of(parameter, study, entry, scenario);
     if (bare && scenario::needs_unit(parameter.unit)) {
-      problems.push_back({parameter.option, 1, parameter.low_column,
+      problems.push_back({"study.wrong-unit"_code, parameter.option, 1, parameter.low_column,
                           fmt::format("{} is {}, and no unit is given", parameter.path,
                                       scenario::dimension_name(parameter.unit)),
                           fmt::format("such as {}..{} {}", parameter.low, parameter.high, parameter.unit)});
@@ -112,8 +113,8 @@ void check_parameter(TunedParameter& parameter, const Study& study, PresentValue
   }
   if (problems.size() == told && parameter.integer &&
       (parameter.low != std::rint(parameter.low) || parameter.high != std::rint(parameter.high)))
-    problems.push_back({parameter.option, 1, parameter.low_column, parameter.path + " is a whole number",
-                        "end the range at whole numbers"});
+    problems.push_back({"study.argument"_code, parameter.option, 1, parameter.low_column,
+                        parameter.path + " is a whole number", "end the range at whole numbers"});
 }
 
 /// A program may leave a value alone only where another one is given: each is tried with the others.
@@ -148,7 +149,8 @@ void check_budget(const TuneRequest& request, const TunePlan& plan, Problems& pr
   const auto split = split_of(request, plan);
   if (split.sum() <= request.budget) return;
   problems.push_back(
-      {"--budget", 1, 1, fmt::format("{} simulated runs are too few", request.budget),
+      {"option.out-of-range"_code, "--budget", 1, 1,
+       fmt::format("{} simulated runs are too few", request.budget),
        fmt::format("at least {}: present values {}, one set of values {}{}, pictures {}", split.sum(),
                    split.present, split.search,
                    split.spread > 0 ? fmt::format(", one machine of the spread {}", split.spread) : "",
@@ -169,15 +171,15 @@ TunePlan plan_tuning(const TuneRequest& request, std::vector<scenario::Override>
   check_request(plan.study.loop, problems);
   prepare(plan.study, problems);
   if (problems.empty() && !plan.study.needs_loop && !plan.study.loop.pushes && !request.loop.wire.empty())
-    problems.push_back({"--wire", 1, 1, "no constraint is on the loop",
+    problems.push_back({"option.does-not-apply"_code, "--wire", 1, 1, "no constraint is on the loop",
                         "add --constraint \"phase_margin >= 45\", or leave it out"});
   read_parameters(request.vary, "--vary", false, plan.vary, problems);
   read_parameters(request.spread, "--spread", true, plan.spread, problems);
   for (const auto& parameter : plan.spread)
     for (const auto& varied : plan.vary)
       if (varied.path == parameter.path)
-        problems.push_back(
-            {"--spread", 1, 1, parameter.path + " is what --vary tunes", "spread something else"});
+        problems.push_back({"option.does-not-apply"_code, "--spread", 1, 1,
+                            parameter.path + " is what --vary tunes", "spread something else"});
   for (auto& parameter : plan.vary)
     check_parameter(parameter, plan.study, plan.present.emplace_back(), problems);
   for (auto& parameter : plan.spread) {

@@ -29,7 +29,8 @@ std::vector<Gauge> gauges(const Study& study, const Study::Case& scenario, Probl
                                     return found->second;
                                   });
     for (auto& fault : faults)
-      problems.push_back({option, 1, static_cast<int>(fault.offset) + 1, fault.what, fault.remedy});
+      problems.push_back(
+          {fault.code, option, 1, static_cast<int>(fault.offset) + 1, fault.what, fault.remedy});
     if (metric) made.push_back({option, text, std::move(*metric)});
   };
   add("--minimise", study.minimise, Metric::Kind::number);
@@ -140,7 +141,7 @@ void judge_loop(const Study& study, const scenario::Scenario& scenario, std::vec
         sweep.loop == Sweep::Loop::unstable || sweep.loop == Sweep::Loop::runaway || always_at_limit;
     verdict.violation += wild ? grossly_broken : unmeasured;
     verdict.doubtful = is_hopeless(*loop);
-    verdict.note = doubts.front();
+    verdict.note = to_string(doubts.front());
     return;
   }
   LoopFigures figures;
@@ -256,7 +257,7 @@ void prepare(Study& study, Problems& problems) {
     if (problems.size() != before) continue;
     if (study.from >= scenario.scene.duration)
       problems.push_back(
-          {"--from", 1, 1,
+          {"option.out-of-range"_code, "--from", 1, 1,
            fmt::format("{} s is not before the end of {}", seconds(study.from), entry.file.string()),
            fmt::format("the scenario lasts {} s", seconds(scenario.scene.duration))});
     auto measured = read_case(study, entry, {}, problems);

@@ -384,7 +384,8 @@ TEST(Lx3vpController, TheRetentiveStateComesBackWhole) {
   EXPECT_EQ(other.controller_.retentive_state(), text);
   EXPECT_FALSE(other.controller_.restore("D300 = x\n", problems, "kept.txt"));
   ASSERT_EQ(problems.size(), 1u);
-  EXPECT_EQ(to_string(problems[0]), "kept.txt:1:8: 'x' is no number; write 5, -5, K5, H1F or 1.5");
+  EXPECT_EQ(to_string(problems[0]),
+            "kept.txt:1:8: 'x' is no number; write 5, -5, K5, H1F or 1.5 [registers.value]");
   EXPECT_EQ(other.get("D300"), 7);
 }
 

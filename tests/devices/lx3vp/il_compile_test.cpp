@@ -5,6 +5,7 @@
 #include "devices/lx3vp/il_operands.hpp"
 #include "devices/lx3vp/il_program.hpp"
 #include "tests/devices/lx3vp/il_bench.hpp"
+#include "tests/findings.hpp"
 
 namespace drycut::devices::lx3vp::il {
 namespace {
@@ -292,7 +293,7 @@ TEST(IlDoubts, ACoilThatTwoInstructionsDrive) {
     Problems problems;
     const auto program = compile(text + "END\n", "p.il", problems);
     EXPECT_TRUE(problems.empty()) << text;
-    return doubts(program);
+    return sentences(doubts(program));
   };
   using ::testing::ElementsAre;
   EXPECT_THAT(told("LD X0\nOUT Y10\nLD X1\nOUT Y10\nLD X2\nOUT Y10\n"),
@@ -313,7 +314,7 @@ TEST(IlDoubts, ATypeOfCamThatThereIsNot) {
   Problems problems;
   const auto program = compile("LD M8002\nECAMTBX D0 K102 D100 D50\nLD M8002\nECAMTBX D0 K1 D100 D50\nEND\n",
                                "p.il", problems);
-  EXPECT_THAT(doubts(program),
+  EXPECT_THAT(sentences(doubts(program)),
               ::testing::ElementsAre("p.il:2:12: ECAMTBX has no type K102; write K0, K1, K100 or K101"));
 }
 

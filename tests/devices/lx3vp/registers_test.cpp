@@ -133,17 +133,17 @@ TEST(Lx3vpRegisterFile, EveryFaultIsToldInOneRun) {
   EXPECT_THAT(
       texts,
       ElementsAre(
-          "saw.csv:1:5: D10 does not hold 70000; write -32768 to 65535, or D10:L",
+          "saw.csv:1:5: D10 does not hold 70000; write -32768 to 65535, or D10:L [controller.value-range]",
           "saw.csv:2:1: 'Q3' is no register; write D10, D10:L (32 bit), D10:F (float), D10.A (bit 10), "
-          "M0, S0, T0 or C0",
-          "saw.csv:3:1: no ',' in 'D11'; write register,value: D10,5",
-          "saw.csv:4:5: 'abc' is no number; write 5, -5, K5, H1F or 1.5",
-          "saw.csv:5:5: D13 holds whole numbers, not 1.5; write D13:F for a float",
-          "saw.csv:6:4: M0 does not hold 2; write 0 to 1",
-          "saw.csv:7:3: X4 is an input; wire it to a plug of a plant",
-          "saw.csv:9:1: D21 is given in line 8 already; keep one of them",
-          "saw.csv:10:1: D20.3 is given in line 8 already; keep one of them",
-          "saw.csv:15:1: D14 is given in line 13 already; keep one of them"));
+          "M0, S0, T0 or C0 [registers.unknown-register]",
+          "saw.csv:3:1: no ',' in 'D11'; write register,value: D10,5 [registers.value]",
+          "saw.csv:4:5: 'abc' is no number; write 5, -5, K5, H1F or 1.5 [registers.value]",
+          "saw.csv:5:5: D13 holds whole numbers, not 1.5; write D13:F for a float [controller.value-range]",
+          "saw.csv:6:4: M0 does not hold 2; write 0 to 1 [controller.value-range]",
+          "saw.csv:7:3: X4 is an input; wire it to a plug of a plant [registers.value]",
+          "saw.csv:9:1: D21 is given in line 8 already; keep one of them [registers.twice]",
+          "saw.csv:10:1: D20.3 is given in line 8 already; keep one of them [registers.twice]",
+          "saw.csv:15:1: D14 is given in line 13 already; keep one of them [registers.twice]"));
 }
 
 // IEC's way to write a hexadecimal number is not the unit's: refused, and never the digits before its #.
@@ -152,7 +152,8 @@ TEST(Lx3vpRegisterFile, SixteenHashIsNoNumber) {
   const auto values = read_register_values("D10,16#1000\nD11,5 # five\n#D12,5\n  # D13,5\nD14,H1000;H20\n",
                                            "saw.csv", ',', problems);
   ASSERT_EQ(problems.size(), 1U);
-  EXPECT_EQ(to_string(problems[0]), "saw.csv:1:5: '16#1000' is no number; write 5, -5, K5, H1F or 1.5");
+  EXPECT_EQ(to_string(problems[0]),
+            "saw.csv:1:5: '16#1000' is no number; write 5, -5, K5, H1F or 1.5 [registers.value]");
   ASSERT_EQ(values.size(), 2U);
   EXPECT_EQ(values[0].value, 5);
   EXPECT_EQ(values[1].value, 4096);

@@ -521,12 +521,16 @@ TEST(PlcopenController, AWrongRetentiveTextIsRefusedWhole) {
       "kept"));
   std::vector<std::string> told;
   for (const auto& problem : problems) told.push_back(to_string(problem));
-  EXPECT_THAT(told, ElementsAre("kept:2:1: 'PIECES' is given twice; remove one of the lines",
-                                "kept:3:1: the program has no RETAIN variable 'speed'; remove the line",
-                                "kept:4:1: the program has no RETAIN variable 'nothing'; remove the line",
-                                "kept:5:1: 'total' is no value; write: name = value",
-                                HasSubstr("kept:6:9: total cannot be 'x'; write a number from "),
-                                "kept:7:3: 'pieces' is given twice; remove one of the lines"));
+  EXPECT_THAT(
+      told,
+      ElementsAre("kept:2:1: 'PIECES' is given twice; remove one of the lines [controller.retained-twice]",
+                  "kept:3:1: the program has no RETAIN variable 'speed'; remove the line "
+                  "[controller.unknown-retained]",
+                  "kept:4:1: the program has no RETAIN variable 'nothing'; remove the line "
+                  "[controller.unknown-retained]",
+                  "kept:5:1: 'total' is no value; write: name = value [controller.retained-value]",
+                  HasSubstr("kept:6:9: total cannot be 'x'; write a number from "),
+                  "kept:7:3: 'pieces' is given twice; remove one of the lines [controller.retained-twice]"));
   EXPECT_EQ(rig.read("pieces"), 5);
 }
 

@@ -50,31 +50,36 @@ TEST(PlcopenTable, ATabFilesFaultsAreAllToldAtTheirPlace) {
       tab_faults("Tabelname = x\nTabletype = 6\nTabletype = 1\nTable-ID = 0\nFunctiontype = 6\nLines = "
                  "2\nFoo\nBegintable\n"
                  "1 2\n40000\n1.5\nx\nEndTable\nmore\n"),
-      ElementsAre(
-          "c.tab:1:1: unknown key 'Tabelname'; did you mean Tablename?",
-          "c.tab:2:13: type 6 is of the maker only; use 1..5 or 7",
-          "c.tab:3:1: a second Tabletype; the first is in line 2",
-          "c.tab:4:12: '0' is out of range; write a whole number, 1 to 65535",
-          "c.tab:5:16: '6' is no interpolation (error 42006); write 0 STEP_DIRECT .. 5 POLY5_LINE",
-          "c.tab:7:1: unknown key 'Foo'; known are Tablename, Tabletype, Table-ID, Functiontype, Lines",
-          "c.tab:14:1: text after EndTable; take it away", "c.tab:6:1: Lines = 2, but there are 4; write 4"));
+      ElementsAre("c.tab:1:1: unknown key 'Tabelname'; did you mean Tablename? [cam.unknown-key]",
+                  "c.tab:2:13: type 6 is of the maker only; use 1..5 or 7 [cam.table-form]",
+                  "c.tab:3:1: a second Tabletype; the first is in line 2 [cam.twice]",
+                  "c.tab:4:12: '0' is out of range; write a whole number, 1 to 65535 [cam.value]",
+                  "c.tab:5:16: '6' is no interpolation (error 42006); write 0 STEP_DIRECT .. 5 POLY5_LINE "
+                  "[cam.interpolation]",
+                  "c.tab:7:1: unknown key 'Foo'; known are Tablename, Tabletype, Table-ID, Functiontype, "
+                  "Lines [cam.unknown-key]",
+                  "c.tab:14:1: text after EndTable; take it away [cam.table-form]",
+                  "c.tab:6:1: Lines = 2, but there are 4; write 4 [cam.table-form]"));
   EXPECT_THAT(
       tab_faults("Tabletype = 1\nTable-ID = 5\nLines = 3\nBegintable\n1 2\n 40000\n1,5\nx\nEndTable\n"),
-      ElementsAre(
-          "c.tab:5:1: 2 numbers; a line of type 1 (slave positions, SGN16) has 1",
-          "c.tab:6:2: 40000 does not fit slave positions, SGN16; write a whole number, -32768 to 32767",
-          "c.tab:7:1: 1,5 does not fit slave positions, SGN16; write a whole number, -32768 to 32767",
-          "c.tab:8:1: 'x' is no number; write digits", "c.tab:3:1: Lines = 3, but there are 4; write 4"));
-  EXPECT_THAT(tab_faults(""), ElementsAre("c.tab:1:1: Begintable is missing; write it above the rows"));
+      ElementsAre("c.tab:5:1: 2 numbers; a line of type 1 (slave positions, SGN16) has 1 [cam.value]",
+                  "c.tab:6:2: 40000 does not fit slave positions, SGN16; write a whole number, -32768 to "
+                  "32767 [cam.value]",
+                  "c.tab:7:1: 1,5 does not fit slave positions, SGN16; write a whole number, -32768 to 32767 "
+                  "[cam.value]",
+                  "c.tab:8:1: 'x' is no number; write digits [cam.value]",
+                  "c.tab:3:1: Lines = 3, but there are 4; write 4 [cam.table-form]"));
+  EXPECT_THAT(tab_faults(""),
+              ElementsAre("c.tab:1:1: Begintable is missing; write it above the rows [cam.missing]"));
   EXPECT_THAT(tab_faults("Lines\nBegintable\n"),
-              ElementsAre("c.tab:1:1: 'Lines' without a value; write Lines = ...",
-                          "c.tab:2:1: tabletype is missing above; write it",
-                          "c.tab:2:1: table-id is missing above; write it",
-                          "c.tab:2:1: lines is missing above; write it",
-                          "c.tab:2:1: EndTable is missing; write it below the rows"));
+              ElementsAre("c.tab:1:1: 'Lines' without a value; write Lines = ... [cam.missing]",
+                          "c.tab:2:1: tabletype is missing above; write it [cam.missing]",
+                          "c.tab:2:1: table-id is missing above; write it [cam.missing]",
+                          "c.tab:2:1: lines is missing above; write it [cam.missing]",
+                          "c.tab:2:1: EndTable is missing; write it below the rows [cam.missing]"));
   // What is missing at the end is told in the last line there is.
   EXPECT_THAT(tab_faults("Tablename = x"),
-              ElementsAre("c.tab:1:1: Begintable is missing; write it above the rows"));
+              ElementsAre("c.tab:1:1: Begintable is missing; write it above the rows [cam.missing]"));
 }
 
 TEST(PlcopenTable, ACsvGivesTheTableItsLawsAndItsAxes) {
@@ -140,43 +145,50 @@ TEST(PlcopenTable, ASlipInATabsRemarksIsToldOtherRemarksAreItsMakers) {
   const std::string table = "Tabletype = 1\nTable-ID = 5\nLines = 1\nBegintable\n1\nEndTable\n";
   Problems problems;
   EXPECT_FALSE(read_cam("# maxvl: 1200\n# master_modlo: 8000000\n" + table, "c.tab", problems));
-  EXPECT_THAT(faults(problems),
-              ElementsAre("c.tab:1:3: unknown key 'maxvl'; did you mean maxvel?; a remark begins with ##",
-                          "c.tab:2:3: unknown key 'master_modlo'; did you mean master_modulo?; a "
-                          "remark begins with ##"));
+  EXPECT_THAT(
+      faults(problems),
+      ElementsAre(
+          "c.tab:1:3: unknown key 'maxvl'; did you mean maxvel?; a remark begins with ## [cam.unknown-key]",
+          "c.tab:2:3: unknown key 'master_modlo'; did you mean master_modulo?; a "
+          "remark begins with ## [cam.unknown-key]"));
   problems.clear();
   EXPECT_TRUE(read_cam("# Author: J. Doe\n## maxvl: 1200\n" + table, "c.tab", problems));
 }
 
 TEST(PlcopenTable, ACsvsFaultsAreAllToldAtTheirPlace) {
-  EXPECT_THAT(csv_faults("# interpolaton: LINEAR\n# endless: up\n# interpolation: SPLINE\nslave\n1,2\nx\n"),
-              ElementsAre("c.csv:1:3: unknown key 'interpolaton'; did you mean interpolation?; a "
-                          "remark begins with ##",
-                          "c.csv:2:12: endless cannot be 'up'; write positive, negative or no",
-                          "c.csv:3:18: 'SPLINE' is no interpolation (error 42006); write STEP_DIRECT, "
-                          "LINEAR, POLYNOM_3, POLYNOM_3_KOEFF, "
-                          "LINE_POLY5 or POLY5_LINE",
-                          "c.csv:5:1: 2 numbers; a line of type 3 (slave positions, REAL64) has 1",
-                          "c.csv:6:1: 'x' is no number; write digits"));
   EXPECT_THAT(
-      csv_faults("position\n"),
-      ElementsAre("c.csv:1:1: unknown header 'position'; write slave, or master,slave, or a0,a1,a2,a3"));
-  EXPECT_THAT(csv_faults("\n"),
-              ElementsAre("c.csv:1:1: there is no header; write slave, or master,slave, or a0,a1,a2,a3"));
+      csv_faults("# interpolaton: LINEAR\n# endless: up\n# interpolation: SPLINE\nslave\n1,2\nx\n"),
+      ElementsAre("c.csv:1:3: unknown key 'interpolaton'; did you mean interpolation?; a "
+                  "remark begins with ## [cam.unknown-key]",
+                  "c.csv:2:12: endless cannot be 'up'; write positive, negative or no [cam.value]",
+                  "c.csv:3:18: 'SPLINE' is no interpolation (error 42006); write STEP_DIRECT, "
+                  "LINEAR, POLYNOM_3, POLYNOM_3_KOEFF, "
+                  "LINE_POLY5 or POLY5_LINE [cam.interpolation]",
+                  "c.csv:5:1: 2 numbers; a line of type 3 (slave positions, REAL64) has 1 [cam.value]",
+                  "c.csv:6:1: 'x' is no number; write digits [cam.value]"));
+  EXPECT_THAT(csv_faults("position\n"), ElementsAre("c.csv:1:1: unknown header 'position'; write slave, or "
+                                                    "master,slave, or a0,a1,a2,a3 [cam.unknown-key]"));
+  EXPECT_THAT(
+      csv_faults("\n"),
+      ElementsAre(
+          "c.csv:1:1: there is no header; write slave, or master,slave, or a0,a1,a2,a3 [cam.unknown-key]"));
   EXPECT_THAT(csv_faults("master,slave\n0,0\n500,0\n"),
               ElementsAre("c.csv:3:1: error 60260: masters must ascend by 0.1 deg (1000) at least, over the "
                           "wrap too; let the masters ascend "
-                          "inside one turn"));
+                          "inside one turn [cam.refused-by-device]"));
   EXPECT_THAT(csv_faults("master,slave\n0,0\n"),
               ElementsAre("c.csv:1:1: error 60261: LINE/POLY5 needs an even number of lines, 2..360; add or "
-                          "take away a line"));
-  EXPECT_THAT(csv_faults("slave\n"),
-              ElementsAre("c.csv:1:1: error 42007: the table has no lines; write one line at least"));
-  EXPECT_THAT(csv_faults("# slave_modulo: 0\n# endless: positive\nslave\n0\n"),
-              ElementsAre("c.csv:3:1: error 60181: this cam needs modulo axes; give slave_modulo a length"));
+                          "take away a line [cam.refused-by-device]"));
   EXPECT_THAT(
-      csv_faults("slave\n1e200\n"),
-      ElementsAre("c.csv:1:1: error 44003: Position outside its range; keep positions within +-1e12"));
+      csv_faults("slave\n"),
+      ElementsAre(
+          "c.csv:1:1: error 42007: the table has no lines; write one line at least [st.unknown-name]"));
+  EXPECT_THAT(csv_faults("# slave_modulo: 0\n# endless: positive\nslave\n0\n"),
+              ElementsAre("c.csv:3:1: error 60181: this cam needs modulo axes; give slave_modulo a length "
+                          "[cam.refused-by-device]"));
+  EXPECT_THAT(csv_faults("slave\n1e200\n"),
+              ElementsAre("c.csv:1:1: error 44003: Position outside its range; keep positions within +-1e12 "
+                          "[cam.refused-by-device]"));
   EXPECT_EQ(csv_faults("# interpolation: POLYNOM_3_KOEFF\nslave\n1\n").size(), 1u);
 }
 

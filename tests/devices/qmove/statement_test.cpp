@@ -3,6 +3,7 @@
 #include <string>
 
 #include "tests/devices/qmove/support.hpp"
+#include "tests/findings.hpp"
 
 // What each statement of QCL does when it runs.
 namespace drycut::devices::qmove {
@@ -29,7 +30,7 @@ TEST(QmoveStatement, ANumberBeyondTheSizeOfItsVariableWrapsAndIsNoted) {
                           testing::puppets(), problems);
   const QclProgram program = compile_module(module, "task.mod", configuration, testing::puppets(), problems);
   EXPECT_EQ(text_of(problems), "");
-  EXPECT_THAT(program.notes,
+  EXPECT_THAT(sentences(program.notes),
               ::testing::ElementsAre("task.mod:1:1: gbSmall: 200 does not fit size B, taken as -56",
                                      "task.mod:3:1: gfDone: 2 does not fit size F, taken as 1",
                                      "task.mod:4:1: agTemp: 70000 does not fit size W, taken as 4464",
@@ -45,7 +46,7 @@ TEST(QmoveStatement, AFractionThatIsCutOffIsNoted) {
                           testing::puppets(), problems);
   const QclProgram program = compile_module(module, "task.mod", configuration, testing::puppets(), problems);
   EXPECT_EQ(text_of(problems), "");
-  EXPECT_THAT(program.notes,
+  EXPECT_THAT(sentences(program.notes),
               ::testing::ElementsAre("task.mod:1:1: slR takes whole numbers: 0.03 is taken as 0",
                                      "task.mod:2:1: slR takes whole numbers: -2.5 is taken as -2"));
 }

@@ -1,4 +1,4 @@
-; expect: 5:1: QCL has no ELSEIF; write ELSE, and an IF with an ENDIF of its own in it
+; expect: 5:1: qcl.unknown-name
 
 IF gbPhase EQ 1
   slLength = 5

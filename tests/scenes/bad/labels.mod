@@ -1,5 +1,5 @@
-; expect: 5:1: the label 'MAIN' stands twice
-; expect: 6:6: unknown label 'MAIM'; did you mean 'MAIN'?
+; expect: 5:1: qcl.twice
+; expect: 6:6: qcl.unknown-name
 MAIN:
 WAIT 1
 MAIN:

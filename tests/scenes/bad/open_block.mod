@@ -1,5 +1,5 @@
-; expect: 4:1: IF without ENDIF
-; expect: 8:1: ENDWHILE without WHILE
+; expect: 4:1: qcl.block
+; expect: 8:1: qcl.block
 
 IF gbPhase EQ 1
   slLength = 5

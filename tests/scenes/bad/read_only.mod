@@ -1,7 +1,7 @@
-; expect: 6:1: cannot be assigned
-; expect: 7:1: cannot be assigned
-; expect: 8:7: only the device changes it
-; expect: 9:7: is read-only
+; expect: 6:1: qcl.not-writable
+; expect: 7:1: qcl.not-writable
+; expect: 8:7: qcl.not-writable
+; expect: 9:7: qcl.not-writable
 
 cLimit = 5
 ifStart = 1

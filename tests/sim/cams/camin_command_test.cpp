@@ -158,7 +158,8 @@ TEST_F(CamInCommand, BadInputIsToldAndNothingIsWritten) {
   far.at = {8'000'001};
   EXPECT_EQ(run(far), cli::bad_input);
   EXPECT_EQ(err,
-            "--at:1:1: the cam has no master position 8000001; give positions from 0 to 8000000 0.1 um\n");
+            "--at:1:1: the cam has no master position 8000001; give positions from 0 to 8000000 0.1 um "
+            "[cam.out-of-range]\n");
   far.loops = 2;
   EXPECT_EQ(run(far), cli::all_passed) << err;
 }

@@ -22,7 +22,7 @@ const CamDuty at_600{.master_speed = 600};
 TEST(CamInFindings, ASoundCamHasNone) {
   EXPECT_THAT(camin::findings(camin::knife(), at_600), IsEmpty());
   EXPECT_THAT(camin::findings(camin::knife(), {}, true),
-              ElementsAre("remark: C2 at every knot and where the table closes"));
+              ElementsAre("remark: C2 at every knot and where the table closes [cam.remark]"));
 }
 
 TEST(CamInFindings, LimitsAreJudgedByTheLawsPeaksAndTheRemedyIsTheLimit) {
@@ -33,7 +33,7 @@ TEST(CamInFindings, LimitsAreJudgedByTheLawsPeaksAndTheRemedyIsTheLimit) {
   EXPECT_THAT(limits("# maxvel: 360\n", 600), IsEmpty());
   EXPECT_THAT(limits("# maxvel: 359\n", 600),
               ElementsAre("row 1 (line 7): limit: velocity 360 deg/s above 359; so at 2 rows; run the "
-                          "master at 598.333 mm/s at most"));
+                          "master at 598.333 mm/s at most [cam.limit]"));
   const double d = 0.6 * 680 - 288;  // deg
   const double peak = d / 680 / 680 * 10 / std::sqrt(3.0) * 600 * 600;
   EXPECT_THAT(limits(fmt::format("# maxacc: {}\n", peak * 1.00001), 600), IsEmpty());
@@ -89,7 +89,7 @@ TEST(CamInFindings, WhatTheTravelsRemedyAsksForIsEnough) {
   EXPECT_THAT(told(travel, 0, 2000),
               ElementsAre("limit: the stroke does not fit the travel: slave at 2000 0.1 um, maxpos is 1000; "
                           "shorten the stroke to 1100.5 0.1 um at most and let the cam begin 100.5 0.1 um "
-                          "further back; it is 2000"));
+                          "further back; it is 2000 [cam.travel]"));
   EXPECT_THAT(told(travel, -100.5, 1000), IsEmpty());
   // From above: the end that the cam begins at is the upper one.
   EXPECT_THAT(
@@ -113,9 +113,9 @@ TEST(CamInFindings, WhereTheVelocityJumpsNoAccelerationIsEnough) {
   EXPECT_THAT(
       camin::findings("# maxacc: 1e9\nslave\n0\n900000\n", at_600),
       ElementsAre("row 1 (line 3): limit: acceleration without end: what it is the derivative of jumps "
-                  "there; so at 2 rows; see the table of knots",
+                  "there; so at 2 rows; see the table of knots [cam.limit]",
                   "row 1 (line 3): caution: the velocity jumps by 600 deg/s; so at 2 rows; POLYNOM_3, or "
-                  "POLY5 between lines, has no such jumps"));
+                  "POLY5 between lines, has no such jumps [cam.jump]"));
   EXPECT_THAT(camin::findings("# maxjerk: 1e12\n# interpolation: POLYNOM_3\nslave\n0\n0\n900000\n", at_600),
               Contains(HasSubstr("limit: jerk without end")));
   EXPECT_THAT(camin::findings("# maxvel: 1e9\n# interpolation: STEP_DIRECT\nslave\n0\n9\n", at_600),
@@ -123,14 +123,16 @@ TEST(CamInFindings, WhereTheVelocityJumpsNoAccelerationIsEnough) {
 }
 
 TEST(CamInFindings, WithoutTheMastersSpeedLimitsAreOnlyRemembered) {
-  EXPECT_THAT(camin::findings(camin::knife("# endless: positive\n# maxvel: 1\n"), {}, true),
-              Contains("remark: maxvel, maxacc and maxjerk are judged with --master-speed only"));
+  EXPECT_THAT(
+      camin::findings(camin::knife("# endless: positive\n# maxvel: 1\n"), {}, true),
+      Contains("remark: maxvel, maxacc and maxjerk are judged with --master-speed only [cam.remark]"));
 }
 
 TEST(CamInFindings, StepsAreTold) {
-  EXPECT_THAT(camin::findings("# interpolation: STEP_DIRECT\nslave\n0\n500\n200\n"),
-              ElementsAre("row 2 (line 4): caution: the position jumps by 0.05 deg; so at 3 rows; "
-                          "STEP_DIRECT is for switching; LINEAR and POLYNOM_3 have no such jumps"));
+  EXPECT_THAT(
+      camin::findings("# interpolation: STEP_DIRECT\nslave\n0\n500\n200\n"),
+      ElementsAre("row 2 (line 4): caution: the position jumps by 0.05 deg; so at 3 rows; "
+                  "STEP_DIRECT is for switching; LINEAR and POLYNOM_3 have no such jumps [cam.jump]"));
   EXPECT_THAT(camin::findings("a0,a1,a2,a3\n0,0,0,0\n7,0,0,0\n"),
               ElementsAre(HasSubstr("let each row end where the next one begins")));
   // A turn of the slave is no fault of the numbers.
@@ -146,7 +148,7 @@ TEST(CamInFindings, ASinglePassThatDoesNotRestIsTold) {
       camin::findings(lines),
       ElementsAre(HasSubstr("the velocity jumps"),
                   "caution: not periodic, and begins at velocity 0.5 (slave/master): the slave starts "
-                  "without a ramp; let the cam begin and end at rest, at master 0",
+                  "without a ramp; let the cam begin and end at rest, at master 0 [cam.no-ramp]",
                   HasSubstr("ends at velocity -0.5 (slave/master): the slave is stopped without a ramp")));
   EXPECT_THAT(camin::findings("# periodic: no\na0,a1,a2,a3\n0,0,300,-200\n100,0,-300,200\n"), IsEmpty());
   EXPECT_THAT(camin::findings("# slave_modulo: 0\nslave\n0\n900000\n"), ElementsAre(HasSubstr("jumps")));
@@ -158,10 +160,11 @@ TEST(CamInFindings, ASinglePassThatDoesNotRestIsTold) {
 
 TEST(CamInFindings, ACamThatWantsToTurnOnIsAsked) {
   const std::string turning = "slave\n0\n900000\n1800000\n2700000\n";
-  EXPECT_THAT(camin::findings(turning),
-              ElementsAre(HasSubstr("the velocity jumps"),
-                          "row 4 (line 5): caution: goes back by 270 deg, more than half a turn; if the "
-                          "slave is to turn on instead, write # endless: positive or negative"));
+  EXPECT_THAT(
+      camin::findings(turning),
+      ElementsAre(HasSubstr("the velocity jumps"),
+                  "row 4 (line 5): caution: goes back by 270 deg, more than half a turn; if the "
+                  "slave is to turn on instead, write # endless: positive or negative [cam.half-turn]"));
   EXPECT_THAT(camin::findings("# endless: positive\n" + turning), IsEmpty());
   EXPECT_THAT(camin::findings("# slave_modulo: 0\n" + turning), ElementsAre(HasSubstr("the velocity jumps")));
 }
@@ -176,7 +179,7 @@ TEST(CamInFindings, OvershootIsTold) {
       "# interpolation: LINE_POLY5\nmaster,slave\n0,1000000\n900000,1000000\n"
       "1800000,500000\n2700000,500000\n");
   EXPECT_THAT(told, ElementsAre("row 1 (line 3): caution: overshoots its two rows by 15.625 deg; so at 2 "
-                                "rows; make the lines before and after it less steep"));
+                                "rows; make the lines before and after it less steep [cam.overshoot]"));
   EXPECT_FALSE(camin::findings(text).empty());
   EXPECT_THAT(
       camin::findings("# interpolation: POLYNOM_3\nslave\n0\n0\n160000\n"),
@@ -204,10 +207,11 @@ TEST(CamInFindings, PositionsOutsideTheTurnAndTheTravelAreTold) {
 }
 
 TEST(CamInFindings, ARemarkSaysWhereTheTableBegins) {
-  EXPECT_THAT(camin::findings("# interpolation: LINE_POLY5\n# endless: "
-                              "positive\nmaster,slave\n600000,0\n3000000,2400000\n",
-                              {}, true),
-              Contains("remark: the first point is at master 600000: before it the last piece goes on"));
+  EXPECT_THAT(
+      camin::findings("# interpolation: LINE_POLY5\n# endless: "
+                      "positive\nmaster,slave\n600000,0\n3000000,2400000\n",
+                      {}, true),
+      Contains("remark: the first point is at master 600000: before it the last piece goes on [cam.remark]"));
 }
 
 }  // namespace

@@ -116,17 +116,17 @@ TEST(CamInTable, WhatMcCamInRefusesHasItsErrorAndItsRow) {
   EXPECT_THAT(
       camin::findings(rows("0,0\n500,0\n9000,0\n9000,0\n")),
       ElementsAre("row 2 (line 4): error 60260: masters must ascend by 0.1 deg (1000) at least, over the "
-                  "wrap too; let the masters ascend inside one turn",
+                  "wrap too; let the masters ascend inside one turn [cam.device]",
                   HasSubstr("row 4 (line 6): error 60260: ")));
   EXPECT_THAT(camin::findings(rows("500,0\n3600000,0\n")),
               ElementsAre(HasSubstr("row 2 (line 4): error 60260")));
   EXPECT_THAT(camin::findings(rows("3600000,0\n3700000,0\n")),
               ElementsAre(HasSubstr("row 1 (line 3): error 60260")));
   EXPECT_THAT(camin::findings(rows("-1,0\n5000,0\n")), ElementsAre(HasSubstr("row 1 (line 3): error 60260")));
-  EXPECT_THAT(
-      camin::findings(rows("0,0\n200,0\n5000,0\n")),
-      ElementsAre(HasSubstr("row 2 (line 4): error 60260"),
-                  "error 60261: LINE/POLY5 needs an even number of lines, 2..360; add or take away a line"));
+  EXPECT_THAT(camin::findings(rows("0,0\n200,0\n5000,0\n")),
+              ElementsAre(HasSubstr("row 2 (line 4): error 60260"),
+                          "error 60261: LINE/POLY5 needs an even number of lines, 2..360; add or take away a "
+                          "line [cam.device]"));
   EXPECT_THAT(camin::findings("# interpolation: LINEAR\n# slave_modulo: 0\nmaster,slave\n0,0\n5,0\n"),
               ElementsAre(HasSubstr("error 60181: this cam needs modulo axes"), HasSubstr("error 60172: ")));
   EXPECT_THAT(camin::findings("# interpolation: POLY5_LINE\nslave\n0\n"),
@@ -134,9 +134,11 @@ TEST(CamInTable, WhatMcCamInRefusesHasItsErrorAndItsRow) {
   EXPECT_THAT(camin::findings("slave\n"), ElementsAre(HasSubstr("error 42007")));
   EXPECT_THAT(camin::findings("slave\n1e13\n"), ElementsAre(HasSubstr("error 44003")));
   const std::string without = "Tabletype = 2\nTable-ID = 1\nLines = 1\nBegintable\n5\nEndTable\n";
-  EXPECT_THAT(camin::findings(without),
-              ElementsAre("error 42006: the interpolation is not one of 0..6, or the table names none; write "
-                          "Functiontype = 0..5, or # interpolation: LINEAR for the block's TableFctType"));
+  EXPECT_THAT(
+      camin::findings(without),
+      ElementsAre(
+          "error 42006: the interpolation is not one of 0..6, or the table names none; write "
+          "Functiontype = 0..5, or # interpolation: LINEAR for the block's TableFctType [cam.device]"));
   EXPECT_THAT(camin::findings("# interpolation: LINEAR\n" + without), IsEmpty());
 }
 

@@ -106,7 +106,7 @@ TEST_F(CamCommand, FaultsOfTheOptions) {
   wrong.duty.max_velocity = 10;
   refused(wrong,
           "--max-velocity:1:1: a limit in time means nothing without the master's speed; give --master-speed "
-          "too");
+          "too [option.does-not-apply]");
   wrong = made;
   for (const double at : {-1.0, 700.5, std::numeric_limits<double>::quiet_NaN()}) {
     wrong.at = {5, at};
@@ -124,7 +124,7 @@ TEST_F(CamCommand, FaultsOfTheOptions) {
   wrong.png = (folder / "out.jpg").string();
   refused(wrong, "out.jpg does not end in .png; name it x.png");
   wrong.png = wrong.csv = (folder / "out.png").string();
-  refused(wrong, "--png:1:1: it is the file of --csv; name another file");
+  refused(wrong, "--png:1:1: it is the file of --csv; name another file [option.file-name]");
   wrong = made;
   wrong.table = folder / "none.csv";
   refused(wrong, "none.csv:1:1: there is no file ");

@@ -65,7 +65,8 @@ TEST_F(EcamCommand, BadOptions) {
   auto given = options_of("master,slave\n10,0\n110,50\n");
   given.rows = folder / "rows.csv";
   EXPECT_EQ(run(given), cli::bad_input);
-  EXPECT_EQ(err, "--table:1:1: the table's rows were given, not made; leave it out\n");
+  EXPECT_EQ(err,
+            "--table:1:1: the table's rows were given, not made; leave it out [option.does-not-apply]\n");
   given.rows = given.table.string();
   EXPECT_EQ(run(given), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("cam.csv is the table itself; name another file\n"));
@@ -81,7 +82,7 @@ TEST_F(EcamCommand, BadOptions) {
   EXPECT_EQ(run(timed), cli::bad_input);
   EXPECT_EQ(err,
             "--master-speed:1:1: the master is time and has its own speed; leave it out, or give another # "
-            "time_axis\n");
+            "time_axis [option.does-not-apply]\n");
   auto wrong = options_of(ecams::rotary());
   wrong.device = "camming4";
   EXPECT_EQ(run(wrong), cli::bad_input);

@@ -27,17 +27,17 @@ TEST(EcamFindings, SoundTablesHaveNone) {
 TEST(EcamFindings, TablesThatTheDeviceRefuses) {
   ecams::expect_findings(
       {{ecam_rows("0,0\n"),
-        {"row 0 (line 2): error 6782: a cam of one row has no length; give at least two rows"}},
+        {"row 0 (line 2): error 6782: a cam of one row has no length; give at least two rows [cam.device]"}},
        {ecam_rows("-5,0\n10,5\n10,6\n4,7\n"),
-        {"row 0 (line 2): error 6782: the cam begins at master -5; begin at 0",
+        {"row 0 (line 2): error 6782: the cam begins at master -5; begin at 0 [cam.device]",
          "row 2 (line 4): error 6782: master 10 does not come after 10; give the rows in ascending order of "
-         "the master, each position once",
+         "the master, each position once [cam.device]",
          "row 3 (line 5): error 6782: master 4 does not come after 10; give the rows in ascending order of "
-         "the master, each position once"}}});
+         "the master, each position once [cam.device]"}}});
   std::string many;
   for (int i = 0; i < 513; ++i) many += std::to_string(i) + ",0\n";
   EXPECT_THAT(ecams::findings(ecam_rows(many)),
-              ElementsAre("row 512 (line 514): error 6782: 513 rows; a block takes 512 rows"));
+              ElementsAre("row 512 (line 514): error 6782: 513 rows; a block takes 512 rows [cam.device]"));
 }
 
 TEST(EcamFindings, EcamtbxErrorsWithTheirRemedies) {
@@ -84,30 +84,30 @@ TEST(EcamFindings, TheRemedyForAStrokeThatDoesNotFitIsEnough) {
 }
 
 TEST(EcamFindings, RatiosAboveTheLimit) {
-  EXPECT_THAT(
-      ecams::findings(ecam_rows("0,0\n100,310\n200,600\n300,900\n", "# max_ratio: 3\n")),
-      ElementsAre(
-          "row 1 (line 4): limit: ratio 3.1 above 3; give the piece before it 104 master pulses at least"));
+  EXPECT_THAT(ecams::findings(ecam_rows("0,0\n100,310\n200,600\n300,900\n", "# max_ratio: 3\n")),
+              ElementsAre("row 1 (line 4): limit: ratio 3.1 above 3; give the piece before it 104 master "
+                          "pulses at least [cam.limit]"));
   // What rounding to a pulse may do is no fault.
   EXPECT_THAT(ecams::findings(ecam_rows("0,0\n10,31\n20,60\n", "# max_ratio: 3\n")), IsEmpty());
   EXPECT_THAT(ecams::findings(ecam_rows("0,0\n10,-40\n20,-75\n30,-75\n", "# max_ratio: 3\n")),
               Contains("row 1 (line 4): limit: ratio -4 above 3, the worst of 2 rows; give the piece before "
-                       "it 14 master pulses at least"));
+                       "it 14 master pulses at least [cam.limit]"));
 }
 
 TEST(EcamFindings, SpeedsAtTheMastersSpeed) {
   const auto table = ecam_rows("0,0\n100,100\n200,300\n", "# max_frequency: 50000\n");
-  ecams::expect_findings({{table, {}, {.master_speed = 25000.0}},
-                          {table,
-                           {"row 2 (line 5): limit: output at 52000 Hz above 50000 Hz (words 6 and 7): the "
-                            "slave lags and catches up later; run the master at 25000 pulses/s at most",
-                            "row 2 (line 5): limit: velocity 52000 pulses/s above 51000; run the master at "
-                            "25500 pulses/s at most"},
-                           {.master_speed = 26000.0, .max_velocity = 51000.0}},
-                          {table,
-                           {"row 1 (line 4): limit: acceleration 10000 pulses/s2 above 9999; run the master "
-                            "at 999.949 pulses/s at most"},
-                           {.master_speed = 1000.0, .max_acceleration = 9999.0}}});
+  ecams::expect_findings(
+      {{table, {}, {.master_speed = 25000.0}},
+       {table,
+        {"row 2 (line 5): limit: output at 52000 Hz above 50000 Hz (words 6 and 7): the "
+         "slave lags and catches up later; run the master at 25000 pulses/s at most [cam.limit]",
+         "row 2 (line 5): limit: velocity 52000 pulses/s above 51000; run the master at "
+         "25500 pulses/s at most [cam.limit]"},
+        {.master_speed = 26000.0, .max_velocity = 51000.0}},
+       {table,
+        {"row 1 (line 4): limit: acceleration 10000 pulses/s2 above 9999; run the master "
+         "at 999.949 pulses/s at most [cam.limit]"},
+        {.master_speed = 1000.0, .max_acceleration = 9999.0}}});
 }
 
 TEST(EcamFindings, SpeedsOfMadeTablesAreOfTheLawOrOfTheSteeperRows) {
@@ -125,7 +125,7 @@ TEST(EcamFindings, SpeedsOfMadeTablesAreOfTheLawOrOfTheSteeperRows) {
                   ": limit: velocity 1750 pulses/s above 1749; run the master at 999.428 pulses/s at most"));
   EXPECT_EQ(found[1],
             "piece 2: limit: acceleration 4164.58 pulses/s2 above 4164; run the master "
-            "at 999.929 pulses/s at most");
+            "at 999.929 pulses/s at most [cam.limit]");
 }
 
 /// The number behind some words of the only finding.
@@ -174,8 +174,9 @@ TEST(EcamFindings, TheRemedysP2IsSoundAsLawAndAsRows) {
 TEST(EcamFindings, AccelerationsOfMadeTablesAndTheirP2) {
   EXPECT_THAT(
       ecams::findings(ecams::table(ecams::s_curve()), {.max_velocity = 40000.0, .max_acceleration = 1000.0}),
-      ElementsAre("piece 1: limit: velocity 50000 pulses/s above 40000; give P2 40000 Hz at most",
-                  "piece 1: limit: acceleration 785398 pulses/s2 above 1000; give its ramps more time"));
+      ElementsAre(
+          "piece 1: limit: velocity 50000 pulses/s above 40000; give P2 40000 Hz at most [cam.limit]",
+          "piece 1: limit: acceleration 785398 pulses/s2 above 1000; give its ramps more time [cam.limit]"));
 }
 
 TEST(EcamFindings, RatiosOfALawAboveTheLimit) {
@@ -194,7 +195,7 @@ TEST(EcamFindings, ACamThatRunsOnceJumpsFromRestOrToRest) {
                                         "\nP5," + P5 + "\nP6,200\n"));
   };
   const std::string start =
-      "piece 1: caution: the ratio jumps from 0 to 5 as the cam starts; give P4 some time";
+      "piece 1: caution: the ratio jumps from 0 to 5 as the cam starts; give P4 some time [cam.jump]";
   const std::string end = ": caution: the ratio jumps from 5 to 0 at the end of the cam; give P5 some time";
   EXPECT_THAT(s_curve("100", "100"), IsEmpty());
   EXPECT_THAT(s_curve("0", "100"), ElementsAre(start));
@@ -205,7 +206,7 @@ TEST(EcamFindings, ACamThatRunsOnceJumpsFromRestOrToRest) {
   };
   EXPECT_THAT(once("H00000001"),
               ElementsAre("piece 1: caution: the ratio jumps from 0 to 1.66667 as the cam starts; use "
-                          "midCAMbegin for the first cycle",
+                          "midCAMbegin for the first cycle [cam.jump]",
                           HasSubstr("the ratio jumps from 1.66667 to 0 at the end of the cam; use midCAMend "
                                     "for the last")));
   EXPECT_THAT(once("H00020001"), IsEmpty()) << "midCAMbegin goes on in another";
@@ -216,20 +217,20 @@ TEST(EcamFindings, JumpsOfTheRatio) {
   ecams::expect_findings(
       {{ecam_rows("0,0\n100,0\n200,300\n300,300\n"),
         {"row 1 (line 3): caution: the ratio jumps from 0 to 3, the worst of 2 rows; put rows between, so "
-         "that the slave can follow"}},
+         "that the slave can follow [cam.jump]"}},
        {ecam_rows("0,0\n100,300\n200,500\n300,600\n"),
         {"row 3 (line 5): caution: the ratio jumps from 1 to 3 as the cycle begins again; put rows between, "
-         "so that the slave can follow"}},
+         "so that the slave can follow [cam.jump]"}},
        {ecam_rows("0,0\n100,300\n200,500\n300,600\n", "# cyclic: 0\n"), {}},
        {ecams::table(ecams::rotary("50/3", "0")),
-        {"piece 1: caution: the ratio jumps from 1.66667 to 0.223585; give P6L 1 or 2 for ramps",
+        {"piece 1: caution: the ratio jumps from 1.66667 to 0.223585; give P6L 1 or 2 for ramps [cam.jump]",
          "piece 2: caution: the ratio jumps from 0.223585 to 1.66667 as the cycle begins again; give P6L 1 "
-         "or 2 for ramps"}},
+         "or 2 for ramps [cam.jump]"}},
        {ecams::table(ecams::rotary("50/3", "1", "1000")),
         {"piece 1: caution: the ratio jumps from 1.66667 to 0; give P3 less than P2, so that there is way "
-         "left for ramps",
+         "left for ramps [cam.jump]",
          "piece 2: caution: the ratio jumps from 0 to 1.66667 as the cycle begins again; give P3 less than "
-         "P2, so that there is way left for ramps"}}});
+         "P2, so that there is way left for ramps [cam.jump]"}}});
 }
 
 TEST(EcamFindings, ACycleThatDoesNotClose) {
@@ -237,19 +238,18 @@ TEST(EcamFindings, ACycleThatDoesNotClose) {
       ecams::table("# ecamtbx: K100\nparameter,value\nP1,1100\nP2,1700\nP3,200\nP4,2\nP5,8\nP6L,1\nP6H,2\n");
   EXPECT_THAT(ecams::findings(table), ElementsAre("piece 4: caution: the ratio jumps from 1 to 0 as the "
                                                   "cycle begins again; use midCAMbegin for the first cycle "
-                                                  "and midCAMall for those after it"));
+                                                  "and midCAMall for those after it [cam.jump]"));
   const auto end =
       ecams::table("# ecamtbx: K100\nparameter,value\nP1,1100\nP2,1700\nP3,200\nP4,2\nP5,8\nP6L,1\nP6H,3\n");
   EXPECT_THAT(ecams::findings(end), IsEmpty());
   EXPECT_THAT(ecams::findings(end, {}, true),
-              Contains("remark: midCAMend: the cam stops by itself at the end of the cycle"));
+              Contains("remark: midCAMend: the cam stops by itself at the end of the cycle [cam.remark]"));
 }
 
 TEST(EcamFindings, AnSCurveTooShortForItsTimes) {
-  EXPECT_THAT(
-      ecams::findings(ecams::table(ecams::s_curve("3000"))),
-      ElementsAre(
-          "caution: reaches 30000 Hz, not 50000 Hz: too short for its times; give P4 and P5 less time"));
+  EXPECT_THAT(ecams::findings(ecams::table(ecams::s_curve("3000"))),
+              ElementsAre("caution: reaches 30000 Hz, not 50000 Hz: too short for its times; give P4 and P5 "
+                          "less time [cam.not-reached]"));
 }
 
 TEST(EcamFindings, AStrokeThatDoesNotFitTheTravel) {
@@ -263,11 +263,11 @@ TEST(EcamFindings, AStrokeThatDoesNotFitTheTravel) {
   EXPECT_THAT(told("# max_position: 299\n"),
               ElementsAre("row 1 (line 4): limit: the stroke does not fit the travel: slave at 300 pulses, "
                           "max_position is 299; shorten the stroke, or let the cam begin 1 pulses further "
-                          "back"));
+                          "back [cam.travel]"));
   EXPECT_THAT(told("# min_position: -30\n# max_position: 400\n"),
               ElementsAre("row 3 (line 7): limit: the stroke does not fit the travel: slave at -40 pulses, "
                           "min_position is -30; shorten the stroke, or let the cam begin 10 pulses further "
-                          "on"));
+                          "on [cam.travel]"));
   EXPECT_THAT(told("# min_position: -30\n# max_position: 290\n"),
               ElementsAre(HasSubstr("row 1 (line 5): limit: the stroke does not fit the travel: slave at "
                                     "300 pulses, max_position is 290; shorten the stroke to 320 pulses at "
@@ -307,7 +307,7 @@ TEST(EcamFindings, ACycleThatWandersLeavesTheTravelInTheEnd) {
   ecams::expect_findings(
       {{ecam_rows(steps, "# max_position: 350\n"),
         {"limit: the slave goes on by 100 pulses each cycle and passes max_position 350 in cycle 4; end the "
-         "cycle where it begins, or run it once: # cyclic: 0"}},
+         "cycle where it begins, or run it once: # cyclic: 0 [cam.leaves-range]"}},
        {ecam_rows(steps, "# max_position: 400\n"), {HasSubstr("in cycle 5; ")}},
        {ecam_rows("0,0\n100,-50\n200,-100\n", "# min_position: -100\n"),
         {HasSubstr("goes on by -100 pulses each cycle and passes min_position -100 in cycle 2; ")}}});
@@ -318,14 +318,15 @@ TEST(EcamFindings, ACycleThatWandersLeavesTheTravelInTheEnd) {
 TEST(EcamFindings, Remarks) {
   ecams::expect_findings(
       {{ecam_rows("100,0\n200,50\n"),
-        {"remark: the cycle begins at master 100; the cam runs from there",
-         "remark: the slave goes on by 50 pulses each cycle"},
+        {"remark: the cycle begins at master 100; the cam runs from there [cam.remark]",
+         "remark: the slave goes on by 50 pulses each cycle [cam.remark]"},
         {},
         true},
        {ecams::table(ecams::rotary()),
-        {"remark: synchronous zone: master 0 to 199.8", "remark: the slave goes on by 1000 pulses each cycle",
+        {"remark: synchronous zone: master 0 to 199.8 [cam.remark]",
+         "remark: the slave goes on by 1000 pulses each cycle [cam.remark]",
          "remark: samples are of the laws; the device plays 199 straight pieces, ratio 1.75 at most, never "
-         "more than 0.5 pulses from them"},
+         "more than 0.5 pulses from them [cam.remark]"},
         {},
         true}});
 }

@@ -146,7 +146,7 @@ TEST(CamKinds, AHeaderOfNoneIsToldWithAllOfTheirs) {
       "a.csv:2:3: 'foo,bar' is the header of no cam table; CAMMING4's is "
       "sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM; LX3VP's is master,slave, or parameter,value "
       "below a line # ecamtbx: K100 (K101, K0, K1); MC_CamIn's is slave, or a0,a1,a2,a3, or master,slave "
-      "below a line # interpolation: POLY5_LINE");
+      "below a line # interpolation: POLY5_LINE [cam.unknown-key]");
 }
 
 TEST(EcamTable, TheTimeAxisAsTheProgramHasIt) {

@@ -15,7 +15,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-const std::string stopped = "remark: the error stops the cam; what would come after it was not run";
+const std::string stopped =
+    "remark: the error stops the cam; what would come after it was not run [cam.remark]";
 
 TEST(CamFindings, TheIntroductionIsSound) {
   cams::expect_findings({{cams::introduction(), {}}, {cams::introduction(), {}, {.master_speed = 100.0}}});
@@ -32,9 +33,10 @@ TEST(CamFindings, AStrokeThatDoesNotFitTheTravel) {
   const double top = reach_of(run_cam(cams::table(text), {}, 1).visits.at(2)).high;
   EXPECT_NEAR(top, 300, 1e-6);
   EXPECT_THAT(told("# minpos: 0\n# maxpos: 300\n"), IsEmpty());
-  EXPECT_THAT(told("# maxpos: 299\n"),
-              ElementsAre("sector 3 (133 RSC): limit: the stroke does not fit the travel: slave at 300 Um, "
-                          "maxpos is 299; shorten the stroke, or let the cam begin 1 Um further back"));
+  EXPECT_THAT(
+      told("# maxpos: 299\n"),
+      ElementsAre("sector 3 (133 RSC): limit: the stroke does not fit the travel: slave at 300 Um, "
+                  "maxpos is 299; shorten the stroke, or let the cam begin 1 Um further back [cam.travel]"));
   EXPECT_THAT(told("# minpos: 10\n# maxpos: 200\n"),
               ElementsAre(HasSubstr("sector 1 (132 AZM): limit: the stroke does not fit the travel: slave at "
                                     "0 Um, minpos is 10; shorten the stroke to 190 Um at most and "
@@ -51,7 +53,7 @@ TEST(CamFindings, Error1TooManyRowsWithoutMasterSpace) {
       findings(rows(text + "11,136\n")),
       Contains(
           "sector 11 (136 END): error 1: too many sectors in sequence that take no master space; at most "
-          "9 such rows and 4 count updates may follow each other: put a movement between"));
+          "9 such rows and 4 count updates may follow each other: put a movement between [cam.device]"));
   EXPECT_THAT(findings(rows("1,133,100,0\n2,139,1\n3,139,1\n4,139,1\n5,139,1\n6,139,1\n7,138\n")),
               Contains(HasSubstr("sector 6 (139 SMS): error 1: ")));
 }
@@ -62,9 +64,10 @@ TEST(CamFindings, CautionsAboveSevenRowsAndThreeUpdates) {
   cams::expect_findings(
       {{rows(text + "9,136\n"),
         {"sector 2 (130 NOP): caution: 8 rows without master space in sequence; the manual's limits (1.10) "
-         "allow 7"}},
+         "allow 7 [cam.manual-limits]"}},
        {rows("1,133,100,0\n2,139,25\n3,139,25\n4,139,25\n5,139,25\n6,137,1\n"),
-        {"sector 2 (139 SMS): caution: 4 count updates in sequence; the manual's limits (1.10) allow 3"}}});
+        {"sector 2 (139 SMS): caution: 4 count updates in sequence; the manual's limits (1.10) allow 3 "
+         "[cam.manual-limits]"}}});
 }
 
 TEST(CamFindings, Error2JumpOntoAStartFromZero) {
@@ -73,7 +76,7 @@ TEST(CamFindings, Error2JumpOntoAStartFromZero) {
       ElementsAre(
           "sector 1 (131 AZL) in pass 2: error 2: jump with the slave moving onto a sector that starts "
           "from speed 0 (ratio 0.5); end the sector before the jump at standstill (135), or begin here "
-          "with 133, 134 or 154",
+          "with 133, 134 or 154 [cam.device]",
           stopped));
 }
 
@@ -81,22 +84,21 @@ TEST(CamFindings, Error3ARowThatIsNotThere) {
   EXPECT_THAT(
       findings(rows("1,133,100,0\n3,136\n")),
       ElementsAre("sector 2: error 3: the table has no such sector; give sector 2, or end the cam before it "
-                  "with 136 END or 138 LOOP",
-                  "remark: the cam did not reach sector 3", stopped));
+                  "with 136 END or 138 LOOP [cam.device]",
+                  "remark: the cam did not reach sector 3 [cam.not-judged]", stopped));
 }
 
 TEST(CamFindings, Error4MasterSpaceTooSmall) {
-  EXPECT_THAT(
-      findings(rows("1,133,0,10\n2,136\n")),
-      Contains(
-          "sector 1 (133 RSC): error 4: codeQm is 0: a movement needs master space; give codeQm at least 1"));
+  EXPECT_THAT(findings(rows("1,133,0,10\n2,136\n")),
+              Contains("sector 1 (133 RSC): error 4: codeQm is 0: a movement needs master space; give codeQm "
+                       "at least 1 [cam.device]"));
   EXPECT_THAT(findings(rows("1,153,10,10,0,5\n2,136\n")),
               Contains("sector 1 (153 NVSR): error 4: codeQma is 0: the ramp needs master space; give "
-                       "codeQma at least 1"));
+                       "codeQma at least 1 [cam.device]"));
   EXPECT_THAT(
       findings(cams::table("# measurem: 10\n" + cams::header + "1,133,105,0\n2,133,4,0\n3,136\n")),
       Contains("sector 2 (133 RSC): error 4: it is over within one count of the master (10 Um); give it at "
-               "least 10 Um of master space"));
+               "least 10 Um of master space [cam.device]"));
 }
 
 TEST(CamFindings, Error4ASectorShorterThanASampling) {
@@ -107,7 +109,7 @@ TEST(CamFindings, Error4ASectorShorterThanASampling) {
   cams::expect_findings(
       {{table,
         {"sector 2 (133 RSC): error 4: master space too small: 9 Um are over in 4.5 ms, less than a sampling "
-         "time of 5 ms; give it at least 10 Um, or run the master at 10800 unit/min at most"},
+         "time of 5 ms; give it at least 10 Um, or run the master at 10800 unit/min at most [cam.device]"},
         {.master_speed = 12000.0}},
        {table, {}, {.master_speed = 10800.0}}});
 }
@@ -121,14 +123,15 @@ TEST(CamFindings, Error4AGearingNeedsLongLaps) {
 }
 
 TEST(CamFindings, Error6JumpsOutsideTheTable) {
-  EXPECT_THAT(findings(rows("1,133,100,0\n2,137,129\n")),
-              Contains("sector 2 (137 ABJ): error 6: jump to row 129; give a row from 1 to 128 in codeQm"));
+  EXPECT_THAT(
+      findings(rows("1,133,100,0\n2,137,129\n")),
+      Contains(
+          "sector 2 (137 ABJ): error 6: jump to row 129; give a row from 1 to 128 in codeQm [cam.device]"));
   EXPECT_THAT(findings(rows("1,133,100,0\n2,190,0,5\n")),
               Contains(HasSubstr("sector 2 (190 CNJ): error 6: jump to row 0")));
-  EXPECT_THAT(
-      findings(rows("1,137,128\n128,133,100,0\n")),
-      Contains(
-          "sector 128 (133 RSC): error 6: the table runs on over row 128; end it with 136 END or 138 LOOP"));
+  EXPECT_THAT(findings(rows("1,137,128\n128,133,100,0\n")),
+              Contains("sector 128 (133 RSC): error 6: the table runs on over row 128; end it with 136 END "
+                       "or 138 LOOP [cam.device]"));
 }
 
 TEST(CamFindings, Error7ALateStart) {
@@ -136,7 +139,7 @@ TEST(CamFindings, Error7ALateStart) {
       findings(rows("1,133,100,0\n2,160,500\n3,136\n")),
       Contains(
           "sector 2 (160 STS): error 7: sector 160 not at the beginning of the cam; put 160 before every "
-          "movement, and let jumps go to the row after it"));
+          "movement, and let jumps go to the row after it [cam.device]"));
 }
 
 TEST(CamFindings, Errors50And51OfArcs) {
@@ -144,11 +147,11 @@ TEST(CamFindings, Errors50And51OfArcs) {
       findings(rows("1,171,24,30,0,40\n2,136\n")),
       Contains(
           "sector 1 (171 US): error 50: radius too small to join the two points: 24 for a chord of 50; give "
-          "codeQm at least 25, or at most -25 for the long way"));
+          "codeQm at least 25, or at most -25 for the long way [cam.device]"));
   EXPECT_THAT(
       findings(rows("1,172,24\n2,136\n")),
       Contains("sector 1 (172 HC): error 51: displacements of an arc are 0 but its radius is not; give a "
-               "displacement in codeQs or codeQsa, or 0 in codeQm for no movement"));
+               "displacement in codeQs or codeQsa, or 0 in codeQm for no movement [cam.device]"));
 }
 
 TEST(CamFindings, Warnings1And2NeedTheMastersSpeed) {
@@ -160,20 +163,21 @@ TEST(CamFindings, Warnings1And2NeedTheMastersSpeed) {
        {table, {}, {.master_speed = 300.0}},
        {table,
         {"sector 2 (135 DZC): warning 2: deceleration above tdecmax: 1600 Um/s2 at its peak, 1000 allowed; "
-         "give it more master and slave space alike, or run the master at 316.227 Um/s at most"},
+         "give it more master and slave space alike, or run the master at 316.227 Um/s at most [cam.device]"},
         {.master_speed = 400.0}}});
   EXPECT_THAT(
       findings(table, {.master_speed = 500.0}),
       Contains(
           "sector 1 (132 AZM): warning 1: acceleration above taccmax: 2500 Um/s2 at its peak, 2000 allowed; "
-          "give it more master and slave space alike, or run the master at 447.213 Um/s at most"));
+          "give it more master and slave space alike, or run the master at 447.213 Um/s at most "
+          "[cam.device]"));
 }
 
 TEST(CamFindings, Warning5TurningBack) {
   cams::expect_findings(
       {{rows("1,131,100,50\n2,133,100,20\n3,135,100,-15\n4,136\n"),
         {"sector 2 (133 RSC): warning 5: final speed of the opposite sign to the initial one: enters at "
-         "ratio 1, leaves at -0.6; give codeQs at least 50, or stop the slave before (135)"}},
+         "ratio 1, leaves at -0.6; give codeQs at least 50, or stop the slave before (135) [cam.device]"}},
        {rows("1,131,100,50\n2,133,100,50\n3,136\n"), {}}});
 }
 
@@ -183,14 +187,14 @@ TEST(CamFindings, Warning6AnAccelerationMetMoving) {
       ElementsAre(
           "sector 2 (131 AZL): warning 6: acceleration sector met with the slave moving; it starts from "
           "speed 0 (ratio 1); end the sector before it at standstill (135), or use 133, which takes the "
-          "speed over"));
+          "speed over [cam.device]"));
 }
 
 TEST(CamFindings, Warning7TellsTheLeastSpace) {
   cams::expect_findings(
       {{rows("1,131,100,50\n2,135,100,20\n3,136\n"),
         {"sector 2 (135 DZC): warning 7: medium speed of the opposite sign to the initial one: ratio -0.1 "
-         "between 1 and 0; give codeQs at least 25"}},
+         "between 1 and 0; give codeQs at least 25 [cam.device]"}},
        {rows("1,131,100,50\n2,135,100,25\n3,136\n"), {}},
        {rows("1,131,100,-50\n2,234,100,-40\n3,235,100,-50\n4,136\n"),
         {HasSubstr("sector 2 (234 RCCE): warning 7: medium speed of the opposite sign to the initial one: "
@@ -214,16 +218,17 @@ TEST(CamFindings, Warning9AQuotaAlreadyPassed) {
       findings(rows("1,140,500\n2,160,250\n3,133,10,0\n4,136\n")),
       ElementsAre(
           "sector 2 (160 STS): warning 9: start quota of sector 160 already passed: it waits until the "
-          "master has come back below it; give codeQm above the master's count at the start",
-          "remark: the cam did not reach sector 3, 4",
-          "remark: the cam stays in sector 160 without end; what follows it was not run"));
+          "master has come back below it; give codeQm above the master's count at the start [cam.device]",
+          "remark: the cam did not reach sector 3, 4 [cam.not-judged]",
+          "remark: the cam stays in sector 160 without end; what follows it was not run [cam.remark]"));
 }
 
 TEST(CamFindings, Warning10SofteningIsNotDone) {
-  cams::expect_findings({{rows("1,154,100,50,1\n2,130\n3,154,100,100\n4,135,100,50\n5,136\n"),
-                          {"sector 3 (154 NVS): warning 10: softening between sectors 154 not executed; put "
-                           "the two 154 or 254 rows next to each other, or give codeQma 0 in sector 1"}},
-                         {rows("1,154,100,50,1\n2,154,100,100\n3,135,100,50\n4,136\n"), {}}});
+  cams::expect_findings(
+      {{rows("1,154,100,50,1\n2,130\n3,154,100,100\n4,135,100,50\n5,136\n"),
+        {"sector 3 (154 NVS): warning 10: softening between sectors 154 not executed; put "
+         "the two 154 or 254 rows next to each other, or give codeQma 0 in sector 1 [cam.device]"}},
+       {rows("1,154,100,50,1\n2,154,100,100\n3,135,100,50\n4,136\n"), {}}});
 }
 
 TEST(CamFindings, LimitsNameTheSectorAndItsPeak) {
@@ -232,9 +237,9 @@ TEST(CamFindings, LimitsNameTheSectorAndItsPeak) {
       {{table, {}, {.master_speed = 100.0, .max_velocity = 120.0, .max_acceleration = 240.0}},
        {table,
         {"sector 1 (231 AZLE): limit: velocity 120 Um/s above 110; lower its ratio 1.2 to 1.1, or run the "
-         "master at 91.6666 Um/s at most",
+         "master at 91.6666 Um/s at most [cam.limit]",
          "sector 1 (231 AZLE): limit: acceleration 240 Um/s2 above 200; give it more master and slave space "
-         "alike, or run the master at 91.287 Um/s at most",
+         "alike, or run the master at 91.287 Um/s at most [cam.limit]",
          HasSubstr("sector 2 (133 RSC): limit: velocity 120 Um/s above 110"),
          HasSubstr("sector 3 (135 DZC): limit: velocity 120 Um/s above 110")},
         {.master_speed = 100.0, .max_velocity = 110.0, .max_acceleration = 200.0}},
@@ -249,7 +254,7 @@ TEST(CamFindings, MaxvelSaturatesTheOutput) {
       findings(table, {.master_speed = 151.0}),
       Contains(
           "sector 1 (131 AZL): limit: velocity 151 Um/s above maxvel 150: the output saturates (warning 3 or "
-          "4); run the master at 150 Um/s at most"));
+          "4); run the master at 150 Um/s at most [cam.limit]"));
 }
 
 TEST(CamFindings, CautionsAboutTheTransducers) {
@@ -260,16 +265,16 @@ TEST(CamFindings, CautionsAboutTheTransducers) {
       ElementsAre(
           "sector 2 (134 RCC): caution: the slave's transducer gives 1.56 times as many bits as the "
           "master's; 1.5 is the most; use a finer transducer on the master or a coarser one on the slave "
-          "(manual 1.6)"));
+          "(manual 1.6) [cam.resolution]"));
 }
 
 TEST(CamFindings, CautionsAboutTheEndAndTheCounts) {
   cams::expect_findings({{rows("1,131,100,50\n2,136\n"),
                           {"sector 2 (136 END): caution: releases the slave at ratio 1: it stops without a "
-                           "ramp; end the sector before it at standstill (135)"}},
+                           "ramp; end the sector before it at standstill (135) [cam.no-ramp]"}},
                          {rows("1,131,100,50\n2,135,100,50\n3,139,150,100\n4,137,1\n"),
                           {"caution: positm grows by 50 Um each time round and leaves its range in the end; "
-                           "take it off before the jump (139), or end the loop with 138"}},
+                           "take it off before the jump (139), or end the loop with 138 [cam.leaves-range]"}},
                          {rows("1,131,100,50\n2,135,100,50\n3,137,1\n"),
                           {HasSubstr("positm grows by 200 Um"), HasSubstr("posit grows by 100 Um")}},
                          {rows("1,131,100,50\n2,135,100,50\n3,142,0,0\n4,137,1\n"), {}},
@@ -281,9 +286,9 @@ TEST(CamFindings, CautionsAboutChangesOfRatio) {
       findings(rows("1,154,100,0,5,3\n2,136\n")),
       ElementsAre(
           "sector 1 (154 NVS): caution: codeQma 5 softens nothing; give 0 for none or 1 to 4 for 1/2 to "
-          "1/5 of the smaller sector",
+          "1/5 of the smaller sector [cam.value]",
           "sector 1 (154 NVS): caution: codeQsa 3 has no meaning and acts as 0; give 0 movement follows, "
-          "1 axis stationary next, 2 gearing"));
+          "1 axis stationary next, 2 gearing [cam.value]"));
 }
 
 TEST(CamFindings, WhatIsNotReachedIsCheckedAlone) {
@@ -292,9 +297,9 @@ TEST(CamFindings, WhatIsNotReachedIsCheckedAlone) {
       ElementsAre(
           HasSubstr("sector 3 (171 US): caution: not reached; it would raise error 50: "),
           "sector 4 (137 ABJ): caution: not reached; it would raise error 6: jump to row 200; give a row "
-          "from 1 to 128 in codeQm",
+          "from 1 to 128 in codeQm [cam.device]",
           HasSubstr("sector 5 (133 RSC): caution: not reached; it would raise error 4: codeQm is 0"),
-          "remark: the cam did not reach sector 3, 4, 5, 6"));
+          "remark: the cam did not reach sector 3, 4, 5, 6 [cam.not-judged]"));
 }
 
 TEST(CamFindings, AGearingIsRemarked) {
@@ -302,7 +307,7 @@ TEST(CamFindings, AGearingIsRemarked) {
       findings(rows("1,154,100,40,0,2\n")),
       ElementsAre(
           "sector 1 (154 NVS): remark: a gearing runs until the program writes codeQsa 0 or 1; shown for "
-          "one lap of codeQm"));
+          "one lap of codeQm [cam.remark]"));
 }
 
 TEST(CamFindings, AllViolationsOfAChainInTheOrderOfRunning) {

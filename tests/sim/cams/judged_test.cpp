@@ -37,15 +37,16 @@ TEST(JudgedCams, ARowThatStandsTwiceIsAWarningAndTheCause) {
   const auto text =
       read_file(std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/cams/mc_flying_saw.csv", problems);
   ASSERT_TRUE(text);
-  EXPECT_THAT(outcome_with(*text).warnings, testing::IsEmpty());
+  EXPECT_THAT(outcome_with(*text).warnings(), testing::IsEmpty());
   const std::string row = "11111.111111111,16666.666666667,8333.333333333,0\n";
   const auto at = text->find(row);
   ASSERT_NE(at, std::string::npos);
   auto twice = *text;
   twice.insert(at, row);
   const auto outcome = outcome_with(twice);
-  EXPECT_THAT(outcome.warnings, testing::Contains(testing::StartsWith("cam of Saw, row 4 (line ")));
-  EXPECT_THAT(outcome.cause, testing::StartsWith("because cam of Saw, row 4 (line "));
+  EXPECT_THAT(record::texts_of(outcome.warnings()),
+              testing::Contains(testing::StartsWith("cam of Saw, row 4 (line ")));
+  EXPECT_THAT(outcome.cause(), testing::StartsWith("because cam of Saw, row 4 (line "));
 }
 
 std::string cause_of_line(const std::string& line, const std::string& path, const std::string& value) {
@@ -56,7 +57,7 @@ std::string cause_of_line(const std::string& line, const std::string& path, cons
   loop::Simulation simulation(scenario, problems);
   EXPECT_TRUE(problems.empty()) << (problems.empty() ? "" : to_string(problems.front()));
   simulation.follow_cams(cam_judgement);
-  return simulation.run().cause;
+  return simulation.run().cause();
 }
 
 TEST(JudgedCams, ACycleThatIsNoPieceIsTheCause) {

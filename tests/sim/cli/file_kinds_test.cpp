@@ -110,34 +110,40 @@ TEST_F(FileKinds, CommandsSayWhatTheyWereGiven) {
   const std::vector<std::pair<std::string, std::string>> all = {
       {"run x.qcl",
        "x.qcl:1:1: this is a QCL module, not a scenario; drycut check takes it behind its .cnf; a "
-       "scenario names it in controller.qmove.tasks\n"},
+       "scenario names it in controller.qmove.tasks [file.other-kind]\n"},
       {"run x.cnf",
        "x.cnf:1:1: this is a QMOVE configuration, not a scenario; drycut check takes it; a scenario "
-       "names it as controller.qmove.configuration\n"},
-      {"run report.html", "report.html:1:1: this is a report, not a scenario; a browser shows it\n"},
+       "names it as controller.qmove.configuration [file.other-kind]\n"},
+      {"run report.html",
+       "report.html:1:1: this is a report, not a scenario; a browser shows it [file.other-kind]\n"},
       {"run trace.csv",
        "trace.csv:1:1: this is the trace of a run, not a scenario; drycut convert takes it, drycut "
-       "compare its folder\n"},
+       "compare its folder [file.other-kind]\n"},
       {"run a_run",
-       "a_run:1:1: this is the folder of a run, not a scenario; drycut compare and drycut convert take it\n"},
-      {"run empty", "empty:1:1: this is a folder, not a scenario; name a file\n"},
-      {"cam line.yaml", "line.yaml:1:1: this is a scenario, not a cam table; drycut run takes it\n"},
+       "a_run:1:1: this is the folder of a run, not a scenario; drycut compare and drycut convert take it "
+       "[file.other-kind]\n"},
+      {"run empty", "empty:1:1: this is a folder, not a scenario; name a file [file.other-kind]\n"},
+      {"cam line.yaml",
+       "line.yaml:1:1: this is a scenario, not a cam table; drycut run takes it [file.other-kind]\n"},
       {"cam registers.csv", "registers.csv:1:1: this is a file of registers, not a cam table; "},
       {"replay line.yaml",
-       "line.yaml:1:1: this is a scenario, not a recorded session; drycut run takes it\n"},
+       "line.yaml:1:1: this is a scenario, not a recorded session; drycut run takes it [file.other-kind]\n"},
       {"live session.yaml",
-       "session.yaml:1:1: this is a recorded session, not a scenario; drycut replay runs it"},
+       "session.yaml:1:1: this is a recorded session, not a scenario; drycut replay runs it "
+       "[file.other-kind]"},
       {"check report.html", "report.html:1:1: this is a report, not a scenario; "},
       {"check session.yaml", "session.yaml:1:1: this is a recorded session, not a scenario; "},
       {"bode two.yaml",
-       "two.yaml:1:1: this is a scene that compares runs, not a scenario; drycut run takes it\n"},
+       "two.yaml:1:1: this is a scene that compares runs, not a scenario; drycut run takes it "
+       "[file.other-kind]\n"},
       {"size x.st", "x.st:1:1: this is Structured Text, not a scenario; "},
       {"tune x.il --vary a=1..2 --minimise b", "x.il:1:1: this is an instruction list, not a scenario; "},
-      {"sweep x.png --over a=1..2:2", "x.png:1:1: this is a picture, not a scenario; any viewer shows it\n"},
+      {"sweep x.png --over a=1..2:2",
+       "x.png:1:1: this is a picture, not a scenario; any viewer shows it [file.other-kind]\n"},
       {"envelope x.tab --over a=1..2:2 --find-max b=1..2",
        "x.tab:1:1: this is a cam table, not a scenario; "},
       {"compare line.yaml a_run",
-       "line.yaml:1:1: this is a scenario, not the folder of a run; drycut run takes it\n"},
+       "line.yaml:1:1: this is a scenario, not the folder of a run; drycut run takes it [file.other-kind]\n"},
       {"convert x.mcap --to csv", "x.mcap:1:1: this is a record in MCAP, not the folder of a run; "},
   };
   for (const auto& [line, told] : all) {

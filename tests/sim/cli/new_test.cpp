@@ -242,17 +242,20 @@ TEST_F(NewLine, SaysWhichPairsThereAre) {
   const std::string all =
       "there are: flying_saw under lx3vp, plcopen, qmove; length_stop under lx3vp, qmove; rotary_knife under "
       "lx3vp, plcopen, qmove; vertical_press under qmove; vertical_press_inverter under qmove\n";
-  for (const auto& [machine, controller, told] : std::vector<Case>{
-           {"", "", "--from:1:1: no machine is named; " + all},
-           {"rotary_knive", "qmove",
-            "--from:1:1: there is no line of 'rotary_knive' to start from; did you mean rotary_knife?\n"},
-           {"lathe", "qmove", "--from:1:1: there is no line of 'lathe' to start from; " + all},
-           {"rotary_knife", "",
-            "--controller:1:1: no controller is named; rotary_knife is there under lx3vp, plcopen, qmove\n"},
-           {"rotary_knife", "plcopn",
-            "--controller:1:1: there is no rotary_knife under 'plcopn'; did you mean plcopen?\n"},
-           {"vertical_press", "lx3vp",
-            "--controller:1:1: there is no vertical_press under 'lx3vp'; " + all}}) {
+  for (const auto& [machine, controller, told] :
+       std::vector<Case>{{"", "", "--from:1:1: no machine is named; " + all},
+                         {"rotary_knive", "qmove",
+                          "--from:1:1: there is no line of 'rotary_knive' to start from; did you mean "
+                          "rotary_knife? [option.unknown-choice]\n"},
+                         {"lathe", "qmove", "--from:1:1: there is no line of 'lathe' to start from; " + all},
+                         {"rotary_knife", "",
+                          "--controller:1:1: no controller is named; rotary_knife is there under lx3vp, "
+                          "plcopen, qmove [option.missing]\n"},
+                         {"rotary_knife", "plcopn",
+                          "--controller:1:1: there is no rotary_knife under 'plcopn'; did you mean plcopen? "
+                          "[option.unknown-choice]\n"},
+                         {"vertical_press", "lx3vp",
+                          "--controller:1:1: there is no vertical_press under 'lx3vp'; " + all}}) {
     EXPECT_EQ(make("line", machine, controller), bad_input) << machine;
     EXPECT_EQ(err, told);
     EXPECT_FALSE(fs::exists(folder / "line"));
@@ -269,8 +272,9 @@ TEST_F(NewLine, WhatIsThereStays) {
   EXPECT_EQ(make("line/", "rotary_knife", "qmove"), all_passed) << "an empty folder is taken; " << err;
   folder.file("line/line.yaml", "mine");
   EXPECT_EQ(make("line", "rotary_knife", "qmove"), bad_input);
-  EXPECT_EQ(err, (folder / "line").string() +
-                     ":1:1: the folder is not empty; name one that is empty or not there yet\n");
+  EXPECT_EQ(err,
+            (folder / "line").string() +
+                ":1:1: the folder is not empty; name one that is empty or not there yet [file.not-ours]\n");
   EXPECT_EQ(content(folder / "line/line.yaml"), "mine");
   folder.file("file", "mine");
   EXPECT_EQ(make("file", "rotary_knife", "qmove"), bad_input);

@@ -80,7 +80,7 @@ TEST_F(LiveLine, WhatDoesNotFitIsToldAndNothingHappens) {
   };
   const Case cases[] = {
       {R"({"set": {"web.sped": 1}})",
-       "act:1:11: nothing called 'web.sped' can be set; did you mean web.speed?"},
+       "act:1:11: nothing called 'web.sped' can be set; did you mean web.speed? [timeline.nothing-to-set]"},
       {R"({"set": {"web.speed": "3 s"}})", "web.speed"},
       {R"({"set": {"web.position": 1}})", "it can only be read"},
       {R"({"ramp": {"web.speed": "3 m/min"}})", "ramp has no duration"},
@@ -89,9 +89,9 @@ TEST_F(LiveLine, WhatDoesNotFitIsToldAndNothingHappens) {
       {R"({"at": "5 s", "set": {"web.speed": "3 m/min"}})", "acts now, and once; leave at out"},
       {R"({"when": "1 > 0", "set": {"web.speed": "3 m/min"}})", "leave when out"},
       {R"({})", "does nothing"},
-      {R"({"set": {}})", "act:1:3: act.set is empty"},
-      {R"({"ramp": {}, "over": "1 s"})", "act:1:3: act.ramp is empty"},
-      {R"({"fault": {}})", "act:1:3: act.fault is empty"},
+      {R"({"set": {}})", "act:1:3: act.set is empty [scenario.not-a-scenario]"},
+      {R"({"ramp": {}, "over": "1 s"})", "act:1:3: act.ramp is empty [scenario.not-a-scenario]"},
+      {R"({"fault": {}})", "act:1:3: act.fault is empty [scenario.not-a-scenario]"},
       {R"({"set": {"web.speed": "3 m/min"}, "fault": {}})", "act.fault is empty"},
       {R"([1])", "act"},
       {R"({"set": )", "act:1:"},
@@ -355,7 +355,8 @@ TEST_F(LiveLine, DoesNotWaitForAnEventThatNothingReports) {
   const auto problems = line.ask(UntilEvent{"timeline.sett"});
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(to_string(problems.front()),
-            "event:1:1: nothing here reports an event 'timeline.sett'; did you mean timeline.set?");
+            "event:1:1: nothing here reports an event 'timeline.sett'; did you mean timeline.set? "
+            "[scenario.unknown-event]");
   EXPECT_FALSE(line.until([](const News&) { return true; })->running);
 }
 

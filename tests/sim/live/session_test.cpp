@@ -162,7 +162,7 @@ TEST_F(LiveSession, OfAScenarioThatKeepsValuesItBecomesNone) {
               "controller: {lx3vp: {program: kept.il, retentive: kept.txt}}\n");
   const auto session =
       folder.file("session.yaml", "- {scenario: line.yaml, set: [], fingerprint: 0}\n- {reached: 1 s}\n");
-  std::vector<std::string> notes;
+  std::vector<Finding> notes;
   Problems problems;
   scenario_of_session(session, folder / "own.yaml", notes, problems);
   ASSERT_EQ(problems.size(), 1U) << lines_of(problems);
@@ -177,7 +177,7 @@ TEST_F(LiveSession, WhatWasCutShortEndsThere) {
                                    "- {at: 300 ms, set: {web.speed: 10 m/min}}\n"
                                    "- {reached: 1 s}\n"
                                    "- {at: 1.2 s, set: {web.sp");
-  std::vector<std::string> notes;
+  std::vector<Finding> notes;
   Problems problems;
   const auto replay = read_session(session, {}, notes, problems);
   ASSERT_TRUE(replay) << lines_of(problems);
@@ -185,7 +185,7 @@ TEST_F(LiveSession, WhatWasCutShortEndsThere) {
   EXPECT_EQ(replay->scenario.timeline.size(), 2U);
   EXPECT_EQ(replay->acts, 1U);
   ASSERT_EQ(notes.size(), 1U);  // another fingerprint
-  EXPECT_THAT(notes[0], HasSubstr("is not what it was"));
+  EXPECT_THAT(notes[0].text, HasSubstr("is not what it was"));
 }
 
 TEST_F(LiveSession, EveryFaultIsToldWithItsPlace) {
@@ -198,7 +198,7 @@ TEST_F(LiveSession, EveryFaultIsToldWithItsPlace) {
                                    "- {at: 3 bananas, set: {web.speed: 10 m/min}}\n"
                                    "- {set: {web.speed: 10 m/min}}\n"
                                    "- {reached: soon}\n");
-  std::vector<std::string> notes;
+  std::vector<Finding> notes;
   Problems problems;
   EXPECT_FALSE(read_session(session, {}, notes, problems));
   std::vector<int> lines;
@@ -344,7 +344,7 @@ TEST_F(LiveSession, WhatDidNothingIsPassedOver) {
                                    "- {at: 300 ms}\n"
                                    "- {at: 400 ms, set: {web.speed: 10 m/min}}\n"
                                    "- {reached: 1 s}\n");
-  std::vector<std::string> notes;
+  std::vector<Finding> notes;
   Problems problems;
   const auto replay = read_session(session, {}, notes, problems);
   ASSERT_TRUE(replay) << lines_of(problems);

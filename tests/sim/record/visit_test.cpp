@@ -125,10 +125,10 @@ TEST(VisitedOutcome, SaysInJsonThatThereIsNoLimit) {
 TEST(VisitedOutcome, IsKeptWholeByTheCache) {
   const auto outcome = Anything(7).made<Outcome>();
   cli::CachedRun back;
-  take_json(json_of(cli::CachedRun{outcome, true, {"a note"}, "line.glb"}), back);
+  take_json(json_of(cli::CachedRun{outcome, true, {{"loop.warning"_code, "a note"}}, "line.glb"}), back);
   EXPECT_TRUE(back.outcome == outcome);
   EXPECT_TRUE(back.has_report);
-  EXPECT_THAT(back.notes, testing::ElementsAre("a note"));
+  EXPECT_THAT(lines_of(back.notes), testing::ElementsAre("a note [loop.warning]"));
   EXPECT_EQ(back.scene, "line.glb");
 }
 

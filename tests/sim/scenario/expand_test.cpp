@@ -107,33 +107,44 @@ TEST(ScenarioOverride, FaultsCarryItsName) {
     const char* problem;
   } cases[] = {
       {"plants.web.speed", "80 m/mim",
-       "--set plants.web.speed:1:4: plants.web.speed: unknown unit 'm/mim'; did you mean m/min?"},
+       "--set plants.web.speed:1:4: plants.web.speed: unknown unit 'm/mim'; did you mean m/min? "
+       "[scenario.unknown-unit]"},
       {"plants.wbe.speed", "1 m/s",
-       "--set plants.wbe.speed:1:1: there is no 'wbe' in plants; did you mean web?"},
+       "--set plants.wbe.speed:1:1: there is no 'wbe' in plants; did you mean web? [option.set-path]"},
       {"plant.web.speed", "1 m/s",
-       "--set plant.web.speed:1:1: there is no 'plant' in the scenario; did you mean plants?"},
-      {"scene.stp", "1 ms", "--set scene.stp:1:1: unknown key 'stp' in scene; did you mean step?"},
+       "--set plant.web.speed:1:1: there is no 'plant' in the scenario; did you mean plants? "
+       "[option.set-path]"},
+      {"scene.stp", "1 ms",
+       "--set scene.stp:1:1: unknown key 'stp' in scene; did you mean step? [scenario.unknown-key]"},
       {"plants.web.sped", "1 m/s",
-       "--set plants.web.sped:1:1: unknown key 'sped' in plants.web; did you mean speed?"},
+       "--set plants.web.sped:1:1: unknown key 'sped' in plants.web; did you mean speed? "
+       "[scenario.unknown-key]"},
       {"scene.step.x", "1",
-       "--set scene.step.x:1:1: scene.step is a single value; nothing is below it; --set scene.step=value"},
+       "--set scene.step.x:1:1: scene.step is a single value; nothing is below it; --set scene.step=value "
+       "[option.set-path]"},
       {"checks.9.name", "x",
        "--set checks.9.name:1:1: '9' is no entry of the list checks; 0 to 4, or cut: length, follows, locks "
-       "on, spread, whole"},
-      {"timeline.one.at", "1 s", "--set timeline.one.at:1:1: 'one' is no entry of the list timeline; 0 to 3"},
+       "on, spread, whole [option.set-path]"},
+      {"timeline.one.at", "1 s",
+       "--set timeline.one.at:1:1: 'one' is no entry of the list timeline; 0 to 3 [option.set-path]"},
       {"checks.cut lenght.from", "1 s",
        "--set checks.cut lenght.from:1:1: 'cut lenght' is no entry of the list checks; did you mean cut: "
-       "length?"},
+       "length? [option.set-path]"},
       {"checks.0.expect", "length < ",
-       "--set checks.0.expect:1:9: the expression ends where a value must follow; add a name or a number"},
+       "--set checks.0.expect:1:9: the expression ends where a value must follow; add a name or a number "
+       "[expression.syntax]"},
       {"checks.0.", "x",
-       "--set checks.0.:1:1: the path ends with a dot or is empty; write section.key=value"},
-      {"", "x", "--set :1:1: the path ends with a dot or is empty; write section.key=value"},
+       "--set checks.0.:1:1: the path ends with a dot or is empty; write section.key=value "
+       "[option.set-path]"},
+      {"", "x",
+       "--set :1:1: the path ends with a dot or is empty; write section.key=value [option.set-path]"},
       {"scene.title", "[a",
        "--set scene.title:1:1: the list opened at line 1, column 1 is not closed; write ] or "
-       "a comma here"},
+       "a comma here [scenario.yaml-syntax]"},
       {"scene.title", "", "1:9: scene.title has no value; give it one, or leave the key out"},
-      {"scene.title", "@", "--set scene.title:1:1: no YAML text begins like this; put the text into quotes"},
+      {"scene.title", "@",
+       "--set scene.title:1:1: no YAML text begins like this; put the text into quotes "
+       "[scenario.yaml-syntax]"},
   };
   for (const auto& [path, value, problem] : cases) {
     EXPECT_THAT(problems_of(line, {{path, value}}), ElementsAre(problem)) << path << '=' << value;

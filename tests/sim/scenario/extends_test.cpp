@@ -5,6 +5,7 @@
 #include "sim/loop/names.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/variables.hpp"
+#include "tests/findings.hpp"
 #include "tests/sim/scenario/folder.hpp"
 
 namespace drycut::sim::scenario {
@@ -146,7 +147,7 @@ TEST_F(Extends, AnAxisWithoutWiresIsASlip) {
   read(mine + "{Knive: {kv: 30 1/s}}}}\n");
   EXPECT_THAT(told(),
               ElementsAre("line.yaml:2:31: the axis 'Knive' has no wire, and what is extended has none of "
-                          "this name; did you mean Knife?"));
+                          "this name; did you mean Knife? [scenario.unknown-name]"));
   for (const auto* axes :
        {"{Knife: {kv: 30 1/s}}}}\n", "{Web2: {kind: virtual}}}}\n", "{Other: {kv: 30 1/s}}}}\n",
         "{Knife2: {kv: 30 1/s}}}}\nwiring: {Knife2.encoder: axis.encoder}\n"}) {
@@ -181,7 +182,7 @@ TEST_F(Extends, WhatIsNewAndWholeIsNoSlip) {
   problems.clear();
   const auto made = read("extends: base.yaml\nvariables: {other: 3 m/s}\n");
   EXPECT_THAT(told(), IsEmpty());
-  EXPECT_THAT(unused_variables(made),
+  EXPECT_THAT(sentences(unused_variables(made)),
               ElementsAre("the variable 'other' is not used, and what is extended has none of this name: it "
                           "has speed"));
 }
@@ -283,27 +284,34 @@ TEST_F(Extends, ToldWhereItIsNamed) {
   write("list.yaml", "[1, 2]\n");
   for (const auto& [text, what] : {
            Case{"scene: {}\nextends: none.yaml\n", "line.yaml:2:10: "},
-           Case{"extends: a.yaml\n", "b.yaml:2:10: a.yaml extends itself: a.yaml -> b.yaml -> a.yaml"},
-           Case{"extends: self.yaml\n", "self.yaml:1:10: self.yaml extends itself: self.yaml -> self.yaml"},
+           Case{"extends: a.yaml\n",
+                "b.yaml:2:10: a.yaml extends itself: a.yaml -> b.yaml -> a.yaml [scenario.extends-itself]"},
+           Case{"extends: self.yaml\n",
+                "self.yaml:1:10: self.yaml extends itself: self.yaml -> self.yaml [scenario.extends-itself]"},
            Case{"extends: line.yaml\n", ""},
-           Case{"extends: empty.yaml\n", "line.yaml:1:10: empty.yaml is empty"},
+           Case{"extends: empty.yaml\n", "line.yaml:1:10: empty.yaml is empty [scenario.not-a-scenario]"},
            Case{"extends: broken.yaml\n", "broken.yaml:"},
-           Case{"extends: list.yaml\n", "line.yaml:1:10: list.yaml is no scenario"},
-           Case{"extends: [base.yaml]\n", "line.yaml:1:10: extends must be a single value, not a list"},
-           Case{"extends:\n", "line.yaml:1:1: extends must be a single value, not nothing"},
+           Case{"extends: list.yaml\n", "line.yaml:1:10: list.yaml is no scenario [scenario.not-a-scenario]"},
+           Case{"extends: [base.yaml]\n",
+                "line.yaml:1:10: extends must be a single value, not a list [scenario.wrong-kind]"},
+           Case{"extends:\n",
+                "line.yaml:1:1: extends must be a single value, not nothing [scenario.wrong-kind]"},
            Case{"extends: base.yaml\nplants: {axs: ~}\n",
-                "line.yaml:2:10: there is no 'axs' to leave out; did you mean axis?"},
-           Case{"extends: base.yaml\nchecks: {slwo: ~}\n",
-                "line.yaml:2:10: there is no 'slwo' to leave out; did you mean slow?"},
+                "line.yaml:2:10: there is no 'axs' to leave out; did you mean axis? [scenario.unknown-name]"},
+           Case{
+               "extends: base.yaml\nchecks: {slwo: ~}\n",
+               "line.yaml:2:10: there is no 'slwo' to leave out; did you mean slow? [scenario.unknown-name]"},
            Case{"extends: base.yaml\nchecks: {slow: 3}\n",
-                "line.yaml:2:16: checks.slow must be a map, not a single value"},
+                "line.yaml:2:16: checks.slow must be a map, not a single value [scenario.wrong-kind]"},
            Case{"extends: base.yaml\nchecks: {slow: {from: 0.2 s}, slow: {from: 0.3 s}}\n",
-                "line.yaml:2:31: 'slow' is given twice in checks; keep one; the first is at line 2"},
+                "line.yaml:2:31: 'slow' is given twice in checks; keep one; the first is at line 2 "
+                "[scenario.twice]"},
            Case{"extends: base.yaml\nscene: {title: a, title: b}\n",
-                "line.yaml:2:19: 'title' is given twice in scene"},
-           Case{"extends: base.yaml\nscene: {title: }\n", "line.yaml:2:9: scene.title has no value"},
+                "line.yaml:2:19: 'title' is given twice in scene [scenario.twice]"},
+           Case{"extends: base.yaml\nscene: {title: }\n",
+                "line.yaml:2:9: scene.title has no value [scenario.needs-another]"},
            Case{"extends: base.yaml\ntimeline: {at: {}}\n",
-                "line.yaml:2:11: timeline must be a list, not a map"},
+                "line.yaml:2:11: timeline must be a list, not a map [scenario.wrong-kind]"},
        }) {
     problems.clear();
     read(text);
@@ -324,7 +332,7 @@ TEST_F(Extends, UnusedVariablesAreNoted) {
   ASSERT_THAT(told(), IsEmpty());
   loop::Simulation simulation(made, problems);
   EXPECT_THAT(told(), IsEmpty());
-  EXPECT_THAT(simulation.notes_of_setup(), ElementsAre("the variable 'idle' is not used"));
+  EXPECT_THAT(codes(simulation.notes_of_setup()), ElementsAre("scenario.unused-variable"));
   for (const auto& value : simulation.controller_values()) {
     if (value.name != "D100") continue;
     EXPECT_EQ(value.read(), 5);

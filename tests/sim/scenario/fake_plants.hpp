@@ -23,7 +23,9 @@ struct FakeWeb : plants::PlantDefinition {
         {"lines", "", "lines a turn", &lines, 1, 100000}, {"brake", "", "has a brake", &brake}};
   }
   std::vector<Objection> objections(double) override {
-    if (brake && mass > 500) return {{"mass", "too heavy for the brake", "at most 500 kg with a brake"}};
+    if (brake && mass > 500)
+      return {{"plant.parameters-contradict"_code, "mass", "too heavy for the brake",
+               "at most 500 kg with a brake"}};
     return {};
   }
   std::unique_ptr<plants::Plant> build(plants::World&,

@@ -18,6 +18,7 @@
 #include "sim/scenario/motor_estimates.hpp"
 #include "sim/scenario/parameter_text.hpp"
 #include "sim/scenario/units.hpp"
+#include "tests/findings.hpp"
 #include "tests/sim/scenario/folder.hpp"
 
 namespace drycut::sim::scenario {
@@ -245,7 +246,7 @@ TEST_F(MotorModels, AreWrittenOutAsTheirValues) {
   // Where each value is from, for the report.
   const auto& knife = scenario.plants.back();
   ASSERT_FALSE(knife.modelled.empty());
-  EXPECT_THAT(notes_of_models(knife),
+  EXPECT_THAT(sentences(notes_of_models(knife)),
               ElementsAre(AllOf(StartsWith("knife.servo.model: "), HasSubstr("unchecked"))));
   EXPECT_THAT(knife.modelled.front().from, StartsWith("HG-SR52, "));
 }
@@ -256,15 +257,18 @@ TEST_F(MotorModels, ThatAreUnknownAreToldWithTheNearest) {
     std::string told;
   } cases[] = {
       {"servo: {model: HG-SR203}",
-       "line.yaml:3:56: plants.knife.servo.model: there is no motor 'HG-SR203'; did you mean HG-SR202?"},
+       "line.yaml:3:56: plants.knife.servo.model: there is no motor 'HG-SR203'; did you mean HG-SR202? "
+       "[plant.unknown-motor]"},
       {"servo: {model: nonsense from nowhere}",
        "line.yaml:3:56: plants.knife.servo.model: there is no motor 'nonsense from nowhere'; 'drycut plants "
        "--motors' "
-       "lists them; your own are in catalogue/ beside the scenario"},
+       "lists them; your own are in catalogue/ beside the scenario [plant.unknown-motor]"},
       {"servo: {model: {a: b}}",
-       "line.yaml:3:56: plants.knife.servo.model must be a single value, not a map; write one value"},
+       "line.yaml:3:56: plants.knife.servo.model must be a single value, not a map; write one value "
+       "[scenario.wrong-kind]"},
       {"servo: {modle: HG-SR202}",
-       "line.yaml:3:49: unknown key 'modle' in plants.knife.servo; did you mean model?"},
+       "line.yaml:3:49: unknown key 'modle' in plants.knife.servo; did you mean model? "
+       "[scenario.unknown-key]"},
   };
   for (const auto& [servo, expected] : cases) {
     SCOPED_TRACE(servo);
@@ -310,37 +314,43 @@ TEST_F(MotorModels, OfABrokenFileAreToldInIt) {
     std::vector<std::string> told;
   } cases[] = {
       {head + "  S1-3:\n    rated_torque: {value: 3 N, from: sheet}\n",
-       {"own.yaml:7:29: motors.S1-3.rated_torque is a torque, not a force (N); for example 1 N m"}},
+       {"own.yaml:7:29: motors.S1-3.rated_torque is a torque, not a force (N); for example 1 N m "
+        "[scenario.wrong-unit]"}},
       {head + "  S1-3:\n    rated_torque: {value: 3e9 N m, from: sheet}\n",
-       {"own.yaml:7:27: motors.S1-3.rated_torque is 3000000000 N m, out of range; 0.001 N m to 10000 N m"}},
+       {"own.yaml:7:27: motors.S1-3.rated_torque is 3000000000 N m, out of range; 0.001 N m to 10000 N m "
+        "[scenario.out-of-range]"}},
       {head + "  S1-3:\n    rated_torgue: {value: 3 N m, from: sheet}\n",
-       {"own.yaml:7:5: unknown key 'rated_torgue' in motors.S1-3; did you mean rated_torque?"}},
+       {"own.yaml:7:5: unknown key 'rated_torgue' in motors.S1-3; did you mean rated_torque? "
+        "[scenario.unknown-key]"}},
       {head + "  S1-3:\n    rated_torque: 3 N m\n",
        {"own.yaml:7:19: motors.S1-3.rated_torque must be a map, not a single value; write key: value, or "
         "{key: "
-        "value}"}},
+        "value} [scenario.wrong-kind]"}},
       {head + "  S1-3:\n    rated_torque: {value: 3 N m}\n",
        {"own.yaml:7:19: motors.S1-3.rated_torque.from is missing; write from: \"sheet: ...\" or from: "
         "\"estimate: "
-        "...\""}},
+        "...\" [plant.motor-incomplete]"}},
       {head + "  S1-3:\n    rated_torque: {value: 3 N m, from: sheat}\n",
        {"own.yaml:7:40: motors.S1-3.rated_torque.from says neither which sheet nor why an estimate; did you "
         "mean "
-        "sheet?"}},
+        "sheet? [plant.motor-sheet]"}},
       {head + "  S1-3:\n    rated_torque: {value: 3 N m, from: \"checked today: p. 3\"}\n",
        {"own.yaml:7:41: motors.S1-3.rated_torque.from says neither which sheet nor why an estimate; write "
-        "\"sheet: ...\", \"checked 2026-11-24: ...\" or \"estimate: ...\", or a word of sources"}},
+        "\"sheet: ...\", \"checked 2026-11-24: ...\" or \"estimate: ...\", or a word of sources "
+        "[plant.motor-sheet]"}},
       {with("rated_power: {value: 2 kW, from: sheet}"),
        {"own.yaml:23:26: motors.S1-3.rated_power is 2 kW, but rated torque at rated speed gives 0.942 kW; "
         "within 3 % "
-        "of each other"}},
+        "of each other [plant.motor-sheet]"}},
       {"vendor: Ours\nseries: S1\nkind: stepper\nmotors: {}\n",
-       {"own.yaml:3:7: kind: unknown choice 'stepper'; known: servo, induction_motor"}},
+       {"own.yaml:3:7: kind: unknown choice 'stepper'; known: servo, induction_motor "
+        "[scenario.unknown-choice]"}},
       {"vendor: Ours\nseries: S1\nkind: servo\n",
        {"own.yaml:1:1: motors is missing; write motors: {HG-SR202: "
-        "{rated_torque: {value: 9.55 N m, from: sheet}, ...}}"}},
+        "{rated_torque: {value: 9.55 N m, from: sheet}, ...}} [scenario.missing-key]"}},
       {"",
-       {"own.yaml:1:1: a series of motors must be a map, not nothing; write key: value, or {key: value}"}},
+       {"own.yaml:1:1: a series of motors must be a map, not nothing; write key: value, or {key: value} "
+        "[scenario.wrong-kind]"}},
   };
   for (const auto& [text, expected] : cases) {
     SCOPED_TRACE(text);
@@ -416,7 +426,8 @@ TEST_F(MotorModels, OfFiveValuesAreCompleted) {
   // The scenario has it, the sheet's and the estimates; and says so.
   EXPECT_EQ(value_of(scenario, "knife", "servo.stall_torque"), motor.find("stall_torque")->shown);
   ASSERT_FALSE(scenario.plants.empty());
-  EXPECT_THAT(notes_of_models(scenario.plants.back()), ElementsAre(HasSubstr("unchecked, 12 estimated")));
+  EXPECT_THAT(sentences(notes_of_models(scenario.plants.back())),
+              ElementsAre(HasSubstr("unchecked, 12 estimated")));
 }
 
 TEST_F(MotorModels, EstimatesAreOnTheSafeSideOfKnownOnes) {
@@ -508,11 +519,11 @@ TEST_F(MotorModels, AnswerToTheirFormerNameWithANote) {
   EXPECT_THAT(told(), IsEmpty());
   EXPECT_EQ(value_of(scenario, "press", "induction_motor.rated_torque"), "14.7 N m");
   ASSERT_EQ(scenario.plants.size(), 1U);
-  EXPECT_THAT(notes_of_models(scenario.plants.front()),
+  EXPECT_THAT(sentences(notes_of_models(scenario.plants.front())),
               testing::Contains(AllOf(HasSubstr("IEC-4P-2.2kW"), HasSubstr("generic-4P-2.2kW"))));
   const auto today = read(press("generic-4P-2.2kW"));
   EXPECT_THAT(told(), IsEmpty());
-  EXPECT_THAT(notes_of_models(today.plants.front()), Not(testing::Contains(HasSubstr("IEC-4P"))));
+  EXPECT_THAT(sentences(notes_of_models(today.plants.front())), Not(testing::Contains(HasSubstr("IEC-4P"))));
 }
 
 // Common values hold for each motor of the file; its own go before them.

@@ -296,7 +296,8 @@ TEST(ScenarioRead, ReadsAFile) {
   EXPECT_EQ(scenario.scene.title, "from a file");
   EXPECT_EQ(scenario.file, file);
   ASSERT_EQ(problems.size(), 1U);
-  EXPECT_EQ(to_string(problems[0]), file.string() + ":1:29: unknown key 'stp' in scene; did you mean step?");
+  EXPECT_EQ(to_string(problems[0]),
+            file.string() + ":1:29: unknown key 'stp' in scene; did you mean step? [scenario.unknown-key]");
   std::filesystem::remove(file);
 }
 

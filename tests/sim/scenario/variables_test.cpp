@@ -116,17 +116,17 @@ TEST(Variables, AreOverridden) {
   EXPECT_THAT(problems, IsEmpty());
   EXPECT_NEAR(dynamic_cast<fakes::FakeKnife&>(*scenario.plants[1].definition).circumference, 1.003, 1e-15);
   EXPECT_EQ(scenario.scene.title, "of 1 m");
-  EXPECT_THAT(
-      problems_of("variables: {circle: 400 mm}\n" + plants, {{"variables.circel", "1 m"},
-                                                             {"circle", "1 m"},
-                                                             {"plants.web.speed", "${circle} / 2"},
-                                                             {"extends", "x"}}),
-      ElementsAre("--set variables.circel:1:1: there is no 'circel' in variables; did you mean circle?",
-                  "--set circle:1:1: there is no 'circle' in the scenario; it is a variable: --set "
-                  "variables.circle=1 m",
-                  "--set plants.web.speed:1:1: plants.web.speed is a speed, not a length (mm); for "
-                  "example 1 m/min",
-                  HasSubstr("--set extends:1:1: what a scenario extends cannot be set")));
+  EXPECT_THAT(problems_of("variables: {circle: 400 mm}\n" + plants, {{"variables.circel", "1 m"},
+                                                                     {"circle", "1 m"},
+                                                                     {"plants.web.speed", "${circle} / 2"},
+                                                                     {"extends", "x"}}),
+              ElementsAre("--set variables.circel:1:1: there is no 'circel' in variables; did you mean "
+                          "circle? [option.set-path]",
+                          "--set circle:1:1: there is no 'circle' in the scenario; it is a variable: --set "
+                          "variables.circle=1 m [option.set-path]",
+                          "--set plants.web.speed:1:1: plants.web.speed is a speed, not a length (mm); for "
+                          "example 1 m/min [scenario.wrong-unit]",
+                          HasSubstr("--set extends:1:1: what a scenario extends cannot be set")));
 }
 
 TEST(Variables, ToldWhereTheyStand) {
@@ -209,10 +209,12 @@ TEST(Variables, InATableAreToldAtTheirPlace) {
   with_variables("a,b\n1, ${lenght}\n2,${length}\n3,${kind}\n4,${length} + 3 s\n", of_length(), "r.csv",
                  problems);
   ASSERT_EQ(problems.size(), 4U);
-  EXPECT_EQ(to_string(problems[0]), "r.csv:2:4: the scenario has no variable 'lenght'; did you mean length?");
   EXPECT_EQ(
-      to_string(problems[1]),
-      "r.csv:3:3: '${length}' is 800 mm, not a plain number; divide by the table's unit: ${length} / 0.1 mm");
+      to_string(problems[0]),
+      "r.csv:2:4: the scenario has no variable 'lenght'; did you mean length? [scenario.unknown-variable]");
+  EXPECT_EQ(to_string(problems[1]),
+            "r.csv:3:3: '${length}' is 800 mm, not a plain number; divide by the table's unit: ${length} / "
+            "0.1 mm [scenario.variable-value]");
   EXPECT_THAT(to_string(problems[2]), HasSubstr("r.csv:4:3: '${kind}' is saw, not a plain number"));
   EXPECT_THAT(to_string(problems[3]), HasSubstr("r.csv:5:"));
 }

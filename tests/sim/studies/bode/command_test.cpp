@@ -126,7 +126,7 @@ TEST_F(BodeCommand, TakesATimeWithItsUnit) {
   EXPECT_EQ(run(), cli::all_passed) << out;
   EXPECT_THAT(out, HasSubstr("added from 0.4 s"));
   options.loop.at = "6 kg";
-  refuses("--at:1:1: '6 kg' is no time from 0 to 1e6 s; such as 6 s");
+  refuses("--at:1:1: '6 kg' is no time from 0 to 1e6 s; such as 6 s [option.out-of-range]");
 }
 
 TEST_F(BodeCommand, ALoopOfLowGainIsNotUnstable) {
@@ -266,21 +266,23 @@ TEST_F(BodeCommand, RefusesNumbersOutOfRange) {
   options.loop.points = 1;
   options.min_phase_margin = 200;
   refuses(
-      "--settle:1:1: -1 is out of range; give 0 to 1000 s\n"
-      "--amplitude:1:1: 11 is out of range; give 0.001 to 10 V\n"
-      "--points:1:1: 1 is out of range; give 2 to 1000\n"
-      "--min-phase-margin:1:1: 200 is out of range; give 0 to 180 deg");
+      "--settle:1:1: -1 is out of range; give 0 to 1000 s [option.out-of-range]\n"
+      "--amplitude:1:1: 11 is out of range; give 0.001 to 10 V [option.out-of-range]\n"
+      "--points:1:1: 1 is out of range; give 2 to 1000 [option.out-of-range]\n"
+      "--min-phase-margin:1:1: 200 is out of range; give 0 to 180 deg [option.out-of-range]");
 }
 
 TEST_F(BodeCommand, RefusesFrequenciesThatTheControllerCannotSee) {
   options.loop.to = 200;
-  refuses("--to:1:1: 200 Hz is above half the sampling frequency of 4 ms; give at most 125 Hz");
+  refuses(
+      "--to:1:1: 200 Hz is above half the sampling frequency of 4 ms; give at most 125 Hz "
+      "[option.out-of-range]");
 }
 
 TEST_F(BodeCommand, RefusesARangeUpsideDown) {
   options.loop.from = 50;
   options.loop.to = 20;
-  refuses("--from:1:1: 50 Hz is not below --to, 20 Hz; give a lower frequency");
+  refuses("--from:1:1: 50 Hz is not below --to, 20 Hz; give a lower frequency [option.out-of-range]");
 }
 
 TEST_F(BodeCommand, RefusesFilesThatAreDirectoriesOrTheSame) {
@@ -288,17 +290,19 @@ TEST_F(BodeCommand, RefusesFilesThatAreDirectoriesOrTheSame) {
   options.png = folder.path / "x.png";
   refuses("--csv:1:1: " + options.csv + " is a directory; name a file");
   options.csv = options.png;
-  refuses("--png:1:1: it is the file of --csv; name another file");
+  refuses("--png:1:1: it is the file of --csv; name another file [option.file-name]");
 }
 
 TEST_F(BodeCommand, RefusesAnUnknownWire) {
   options.loop.wire = "axis.servo";
-  refuses("--wire:1:1: there is no analogue reference 'axis.servo'; give one of: axis.reference");
+  refuses(
+      "--wire:1:1: there is no analogue reference 'axis.servo'; give one of: axis.reference "
+      "[option.unknown-choice]");
 }
 
 TEST_F(BodeCommand, RefusesAnUnknownSpeed) {
   options.loop.speed = "axis.sped";
-  refuses("--speed:1:1: there is no channel 'axis.sped'; did you mean axis.speed?");
+  refuses("--speed:1:1: there is no channel 'axis.sped'; did you mean axis.speed? [option.unknown-choice]");
 }
 
 TEST_F(BodeCommand, RefusesFilesThatItMustNotWrite) {
@@ -314,16 +318,16 @@ TEST_F(BodeCommand, RefusesAnOverrideThatIsNone) {
   options.set = {"pgain"};
   refuses(
       "--set:1:1: 'pgain' is not an assignment; write path=value, such as "
-      "\"plants.web.speed=80 m/min\"");
+      "\"plants.web.speed=80 m/min\" [option.set-path]");
 }
 
 TEST_F(BodeCommand, RefusesAScenarioWithoutAnalogueOutput) {
   auto text = bode_axis::Folder::scenario("");
   text.replace(text.find(", 2.AN01: axis.reference"), 24, "");
   folder.file("axis.yaml", text);
-  refuses(
-      options.scenario.string() +
-      ":1:1: no analogue output is wired; a position loop needs one, such as 2.AN01: knife.servo.reference");
+  refuses(options.scenario.string() +
+          ":1:1: no analogue output is wired; a position loop needs one, such as 2.AN01: "
+          "knife.servo.reference [bode.no-loop]");
 }
 
 TEST_F(BodeCommand, TellsProblemsOfTheScenario) {

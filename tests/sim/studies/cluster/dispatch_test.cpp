@@ -194,10 +194,10 @@ TEST_F(ClusterDispatch, AnotherProgramEndsIt) {
 
 TEST(ClusterEngines, AreNamed) {
   for (const auto* good : {"slurm", "slurm:short", "dask://head:8786", "dask://[::1]:1"})
-    EXPECT_EQ(engine_fault(good), "") << good;
+    EXPECT_FALSE(engine_fault(good)) << good;
   for (const auto* bad : {"", "slurm:", "slurmy", "dask://", "dask://head", "dask://:8786", "dask://head:0",
                           "dask://head:65536", "dask://head:x", "tcp://head:8786"})
-    EXPECT_NE(engine_fault(bad), "") << bad;
+    EXPECT_TRUE(engine_fault(bad)) << bad;
 }
 
 }  // namespace

@@ -211,11 +211,13 @@ TEST_F(CompareCommand, WrongTolerancesAreRefused) {
   };
   for (const auto& [text, told] : std::vector<Case>{
            {"length=", "--tolerance:1:8: '' is no tolerance; 0 or more: "},
-           {"length=-1 mm", "--tolerance:1:8: '-1 mm' is no tolerance"},
-           {"length=1 mm%", "--tolerance:1:8: '1 mm%' is no tolerance"},
-           {"=1", "--tolerance:1:1: '=1' names nothing"},
-           {"0.01mm", "--tolerance:1:1: '0.01mm' is for nothing that has a name"},
-           {"lenght=1 mm", "--tolerance:1:1: there is no 'lenght' in these runs; did you mean length?"},
+           {"length=-1 mm", "--tolerance:1:8: '-1 mm' is no tolerance [study.out-of-range]"},
+           {"length=1 mm%", "--tolerance:1:8: '1 mm%' is no tolerance [study.out-of-range]"},
+           {"=1", "--tolerance:1:1: '=1' names nothing [compare.tolerance]"},
+           {"0.01mm", "--tolerance:1:1: '0.01mm' is for nothing that has a name [compare.tolerance]"},
+           {"lenght=1 mm",
+            "--tolerance:1:1: there is no 'lenght' in these runs; did you mean length? "
+            "[compare.unknown-name]"},
            {"follerr=1%", "there is no 'follerr' in these runs; did you mean AxisX.follerr?"},
            {"length=1 s", "--tolerance:1:8: length is in mm, not in s; "},
            {"AxisX.follerr=1", ""},
@@ -282,7 +284,8 @@ TEST_F(CompareCommand, WhatIsNoRunIsRefused) {
   EXPECT_EQ(run({a, a / ""}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("the folder is given twice; give each run once"));
   EXPECT_EQ(run({a, folder / "none"}), cli::bad_input);
-  EXPECT_THAT(err, HasSubstr((folder / "none").string() + ":1:1: there is no such folder; check the path"));
+  EXPECT_THAT(err, HasSubstr((folder / "none").string() +
+                             ":1:1: there is no such folder; check the path [record.no-run]"));
   EXPECT_EQ(run({a, a / "trace.csv"}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("it is not a folder; name a folder that drycut run made of a scenario"));
   EXPECT_EQ(run({a, folder}), cli::bad_input);

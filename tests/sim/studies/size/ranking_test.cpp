@@ -76,7 +76,7 @@ TEST(SizeRanking, IsTheOrderThatIsStated) {
 // A row has every figure that the judge judges, and gives it back.
 TEST(RatedDrive, GoesThereAndBack) {
   record::DriveVerdict verdict;
-  for (const auto& [name, unit] : ratings)
+  for (const auto& [name, unit, mean] : ratings)
     verdict.figures.push_back({std::string(name), 2, 4, std::string(unit), 0.5});
   verdict.figures[0].judged = false;
   verdict.figures[1].value = 3;

@@ -66,8 +66,7 @@ TEST_F(TuneCommand, ValuesThatTheProgramSetsStayUnderThatName) {
   std::string own = scenario;
   own.replace(own.find(", AxisX.feedfw: 900"), 19, "");
   test_folder.file("axis.yaml", own);
-  test_folder.file("axis.mod",
-                   "IF AxisX:feedfw EQ 0\nAxisX:feedfw = 1000\nENDIF\n" + std::string(program));
+  test_folder.file("axis.mod", "IF AxisX:feedfw EQ 0\nAxisX:feedfw = 1000\nENDIF\n" + std::string(program));
   options.vary = {feedfw + "=700..900"};
   ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_THAT(out, testing::StartsWith("The present values stay"));
@@ -177,7 +176,7 @@ TEST_F(TuneCommand, VariablesThatCannotBeVaried) {
   for (const auto& [vary, told] : {
            Case{"variables.sped=1..2 m/s", "there is no 'sped' in variables; did you mean speed?"},
            Case{"variables.speed=1..2 s", "--vary:1:17: variables.speed is a speed (500 mm/s, "},
-           Case{"variables.speed=2..1 m/s", "--vary:1:17: the range 2..1 m/s is empty"},
+           Case{"variables.speed=2..1 m/s", "--vary:1:17: the range 2..1 m/s is empty [study.argument]"},
        }) {
     options.vary = {vary};
     EXPECT_EQ(run(), cli::bad_input) << vary;
@@ -298,7 +297,7 @@ TEST_F(TuneMargins, ABudgetThatNothingCanBeDoneWithIsRefused) {
   EXPECT_EQ(
       err,
       "--budget:1:1: 10 simulated runs are too few; at least 11: present values 3, one set of values 3, one "
-      "machine of the spread 3, pictures 2\n");
+      "machine of the spread 3, pictures 2 [option.out-of-range]\n");
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
@@ -557,17 +556,22 @@ TEST_F(TuneCommand, TellsAllThatIsWrongAndWritesNothing) {
   options.spread = {feedfw + "=30"};
   EXPECT_EQ(run(), cli::bad_input);
   for (const auto* told :
-       {"--vary:1:35: the range 9..3 is empty; the lower end comes first",
-        "--vary:1:1: 'nothing' gives no range to a path; write PATH=LO..HI",
+       {"--vary:1:35: the range 9..3 is empty; the lower end comes first [study.argument]",
+        "--vary:1:1: 'nothing' gives no range to a path; write PATH=LO..HI [study.argument]",
         "--vary:1:35: controller.qmove.set.AxisX.feedfv: the controller has nothing called 'AxisX.feedfv'; "
         "did "
-        "you mean AxisX.feedfw?",
-        "--vary:1:34: controller.qmove.set.AxisX.pgain: AxisX.pgain holds whole numbers, not 0.5",
-        "--vary:1:24: plants.axis.resolution", "is given twice; keep one", "--vary:1:38: 'x' is no number",
+        "you mean AxisX.feedfw? [study.unknown-name]",
+        "--vary:1:34: controller.qmove.set.AxisX.pgain: AxisX.pgain holds whole numbers, not 0.5 "
+        "[controller.value-range]",
+        "--vary:1:24: plants.axis.resolution", "is given twice; keep one",
+        "--vary:1:38: 'x' is no number [study.argument]",
         "the ends are in m and s; give both ends in one unit",
-        "--minimise:1:5: there is no channel 'AxisX.foller'; did you mean AxisX.follerr?",
-        "--constraint:1:1: a constraint compares by < <= > >=", "--from:1:1: '3 kg' is no time; such as 3 s",
-        "--set:1:1: 'x' is not an assignment", "--spread:1:35: '30' is no spread; write ±30% or LO..HI"})
+        "--minimise:1:5: there is no channel 'AxisX.foller'; did you mean AxisX.follerr? "
+        "[option.unknown-choice]",
+        "--constraint:1:1: a constraint compares by < <= > >=",
+        "--from:1:1: '3 kg' is no time; such as 3 s [option.value]",
+        "--set:1:1: 'x' is not an assignment [option.set-path]",
+        "--spread:1:35: '30' is no spread; write ±30% or LO..HI [study.argument]"})
     EXPECT_THAT(err, HasSubstr(told));
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
