@@ -20,10 +20,12 @@ TEST(IlCompile, AProgramWithRemarksAndBlankLines) {
 
 TEST(IlCompile, NamesTheNearestInstruction) {
   expect_faults(
-      {{"LD X0\nOTU Y0\nOUT Y0\nEND", {"2:1: there is no instruction 'OTU'; did you mean OUT?"}},
-       {"LD X0\n  DMVO K1 D0\nOUT Y0\nEND", {"2:3: there is no instruction 'DMVO'; did you mean DMOV?"}},
+      {{"LD X0\nOTU Y0\nOUT Y0\nEND",
+        {"2:1: there is no instruction 'OTU'; did you mean OUT? [il.unknown-instruction]"}},
+       {"LD X0\n  DMVO K1 D0\nOUT Y0\nEND",
+        {"2:3: there is no instruction 'DMVO'; did you mean DMOV? [il.unknown-instruction]"}},
        {"LD X0\nOUT Y0\n@%$#&\nEND",
-        {"3:1: there is no instruction '@%$#&'; one instruction a line: LD X0"}}});
+        {"3:1: there is no instruction '@%$#&'; one instruction a line: LD X0 [il.unknown-instruction]"}}});
 }
 
 // The real unit has them: no wrong suggestion.
@@ -36,10 +38,12 @@ TEST(IlCompile, SaysWhatIsNotSimulated) {
 }
 
 TEST(IlCompile, AllFaultsInOneRun) {
-  EXPECT_THAT(faults("LD X8\nMOV K40000 D0\nOUT X1\nEND"),
-              ElementsAre("1:4: 'X8' is not octal; X count X0 to X7, X10 to X17 and on",
-                          "2:5: K40000 is wider than 16 bits; use the 32-bit instruction",
-                          "3:5: OUT does not take X1 here; it takes Y, M, S, T, C or a bit of D (D10.F)"));
+  EXPECT_THAT(
+      faults("LD X8\nMOV K40000 D0\nOUT X1\nEND"),
+      ElementsAre(
+          "1:4: 'X8' is not octal; X count X0 to X7, X10 to X17 and on [il.out-of-range]",
+          "2:5: K40000 is wider than 16 bits; use the 32-bit instruction [il.width]",
+          "3:5: OUT does not take X1 here; it takes Y, M, S, T, C or a bit of D (D10.F) [il.operand]"));
 }
 
 /// Of a line behind a contact.
@@ -74,108 +78,125 @@ TEST(IlCompile, SpecialDevicesThatAreNotServedAreRefused) {
 
 TEST(IlCompile, DevicesOutOfRange) {
   expect_operand_faults(
-      {{"OUT Y400", {"2:5: 'Y400' does not exist; there are Y0 to Y377"}},
-       {"OUT M3072", {"2:5: 'M3072' does not exist; there are M0 to M3071 and M8000 to M8255"}},
-       {"SET S1000", {"2:5: 'S1000' does not exist; there are S0 to S999"}},
-       {"MOV K1 D8256", {"2:8: 'D8256' does not exist; there are D0 to D8255"}},
-       {"DMOV K1 D8255", {"2:9: DMOV takes 2 devices from D8255 on; there are D0 to D8255"}},
+      {{"OUT Y400", {"2:5: 'Y400' does not exist; there are Y0 to Y377 [il.out-of-range]"}},
+       {"OUT M3072",
+        {"2:5: 'M3072' does not exist; there are M0 to M3071 and M8000 to M8255 [il.out-of-range]"}},
+       {"SET S1000", {"2:5: 'S1000' does not exist; there are S0 to S999 [il.out-of-range]"}},
+       {"MOV K1 D8256", {"2:8: 'D8256' does not exist; there are D0 to D8255 [il.out-of-range]"}},
+       {"DMOV K1 D8255",
+        {"2:9: DMOV takes 2 devices from D8255 on; there are D0 to D8255 [il.out-of-range]"}},
        {"CMP K1 D0 M3070",
-        {"2:11: CMP takes 3 devices from M3070 on; there are M0 to M3071 and M8000 to M8255"}},
+        {"2:11: CMP takes 3 devices from M3070 on; there are M0 to M3071 and M8000 to M8255 "
+         "[il.out-of-range]"}},
        {"MOV K4M3069 D0",
-        {"2:5: 'K4M3069' goes beyond the devices; there are M0 to M3071 and M8000 to M8255"}},
-       {"OUT D10.G", {"2:5: 'D10.G' has no such bit; a word has the bits 0 to F: D10.F"}}});
+        {"2:5: 'K4M3069' goes beyond the devices; there are M0 to M3071 and M8000 to M8255 "
+         "[il.out-of-range]"}},
+       {"OUT D10.G", {"2:5: 'D10.G' has no such bit; a word has the bits 0 to F: D10.F [il.out-of-range]"}}});
 }
 
 TEST(IlCompile, Numbers) {
   expect_operand_faults(
-      {{"DMOV K2147483648 D0", {"2:6: 'K2147483648' is no 32-bit number; write K-2147483648 to K2147483647"}},
-       {"DMOV HFFFFFFFFF D0", {"2:6: 'HFFFFFFFFF' is no 32-bit number; write H0 to HFFFFFFFF"}},
-       {"MOV H10000 D0", {"2:5: H10000 is wider than 16 bits; use the 32-bit instruction"}},
-       {"DEMOV E1.5.2 D0", {"2:7: 'E1.5.2' is no 32-bit floating-point number; write E1.5 or E-3.2E4"}},
-       {"MOV 5 D0", {"2:5: '5' is no operand; write a device (X0, D100), K10, H1F or E1.5"}},
-       {"MOV K9M0 D0", {"2:5: 'K9M0' has no such groups of bits; group K1 (4 bits) to K8 (32 bits)"}},
-       {"MOV K2D0 D0", {"2:5: 'K2D0' groups no bits; bits are grouped of X, Y, M or S: K4M0"}},
-       {"MOV K5M0 D0", {"2:5: K5M0 is wider than 16 bits; group K1 to K4, or use the 32-bit instruction"}},
+      {{"DMOV K2147483648 D0",
+        {"2:6: 'K2147483648' is no 32-bit number; write K-2147483648 to K2147483647 [il.width]"}},
+       {"DMOV HFFFFFFFFF D0", {"2:6: 'HFFFFFFFFF' is no 32-bit number; write H0 to HFFFFFFFF [il.width]"}},
+       {"MOV H10000 D0", {"2:5: H10000 is wider than 16 bits; use the 32-bit instruction [il.width]"}},
+       {"DEMOV E1.5.2 D0",
+        {"2:7: 'E1.5.2' is no 32-bit floating-point number; write E1.5 or E-3.2E4 [il.width]"}},
+       {"MOV 5 D0", {"2:5: '5' is no operand; write a device (X0, D100), K10, H1F or E1.5 [il.operand]"}},
+       {"MOV K9M0 D0",
+        {"2:5: 'K9M0' has no such groups of bits; group K1 (4 bits) to K8 (32 bits) [il.out-of-range]"}},
+       {"MOV K2D0 D0",
+        {"2:5: 'K2D0' groups no bits; bits are grouped of X, Y, M or S: K4M0 [il.out-of-range]"}},
+       {"MOV K5M0 D0",
+        {"2:5: K5M0 is wider than 16 bits; group K1 to K4, or use the 32-bit instruction [il.width]"}},
        {"MOV K-32768 D0\nMOV HFFFF D0\nDMOV K8M0 D0\nDMOV HFFFFFFFF D0", {}}});
 }
 
 TEST(IlCompile, NumberOfOperands) {
   expect_operand_faults(
       {{"MOV K1",
-        {"2:5: MOV has 2 operands, not 1; give K, H, D, T, C, V, Z or bits (K4M0) of X, Y, M or S "
-         "and then D, T, C, V, Z or bits (K4M0) of Y, M or S"}},
-       {"SET Y0 K5", {"2:8: SET has 1 operand, not 2; give Y, M, S or a bit of D (D10.F)"}},
+        {"2:5: MOV has 2 operands, not 1; give K, H, D, T, C, V, Z or bits (K4M0) of X, Y, M or S and then "
+         "D, T, C, V, Z or bits (K4M0) of Y, M or S [il.syntax]"}},
+       {"SET Y0 K5", {"2:8: SET has 1 operand, not 2; give Y, M, S or a bit of D (D10.F) [il.syntax]"}},
        {"OUT T0",
-        {"2:5: OUT has 2 operands, not 1; give Y, M, S, T, C or a bit of "
-         "D (D10.F) and then K or D"}}});
+        {"2:5: OUT has 2 operands, not 1; give Y, M, S, T, C or a bit of D (D10.F) and then K or D "
+         "[il.syntax]"}}});
 }
 
 TEST(IlCompile, SetValues) {
   expect_operand_faults(
-      {{"OUT T0 K0", {"2:8: set value K0 is out of range; give a set value K1 to K32767 or a D"}},
-       {"OUT C0 M5", {"2:8: M5 is no set value; give a set value K1 to K32767 or a D"}},
-       {"OUT C200 D8255", {"2:10: D8255 is no pair of words; give a set value K or the first D of a pair"}},
+      {{"OUT T0 K0",
+        {"2:8: set value K0 is out of range; give a set value K1 to K32767 or a D [il.operand]"}},
+       {"OUT C0 M5", {"2:8: M5 is no set value; give a set value K1 to K32767 or a D [il.operand]"}},
+       {"OUT C200 D8255",
+        {"2:10: D8255 is no pair of words; give a set value K or the first D of a pair [il.operand]"}},
        {"OUT C235 K100000\nOUT T0 D5", {}}});
 }
 
 TEST(IlCompile, WideCountersNeedWideInstructions) {
   expect_operand_faults(
-      {{"MOV C200 D0", {"2:5: C200 is 32 bits wide; use the 32-bit instruction"}},
-       {"DMOV C199 D0", {"2:6: DMOV takes 2 words from C199 on; the 16-bit counters end at C199"}},
+      {{"MOV C200 D0", {"2:5: C200 is 32 bits wide; use the 32-bit instruction [il.width]"}},
+       {"DMOV C199 D0",
+        {"2:6: DMOV takes 2 words from C199 on; the 16-bit counters end at C199 [il.out-of-range]"}},
        {"DMOV C251 D0\nMOV C199 D0", {}}});
 }
 
 TEST(IlCompile, CamAndPulseInstructions) {
   expect_operand_faults(
       {{"DECAM C251 D2000 X2 Y0 Y4", {}},
-       {"DECAM K0 D2000 X2 Y0 Y4", {"2:7: K0 is no time axis; K1 counts every 100 us, K10 every ms"}},
+       {"DECAM K0 D2000 X2 Y0 Y4",
+        {"2:7: K0 is no time axis; K1 counts every 100 us, K10 every ms [il.operand]"}},
        {"DECAM K1 D7961 X2 Y0 Y4",
-        {"2:10: DECAM takes 40 words from D7961 on; the block has to end at D7999"}},
-       {"DECAM K1 D2000 Y2 Y0 Y4", {"2:16: DECAM does not take Y2 here; it takes X or M"}},
-       {"DECAM K1 D2000 X2 Y4 Y5", {"2:19: DECAM does not take Y4 here; it takes Y0 to Y3"}},
-       {"DPLSV K1000 Y1 Y1", {"2:16: Y1 is the pulse output itself; name another Y for the direction"}},
+        {"2:10: DECAM takes 40 words from D7961 on; the block has to end at D7999 [il.out-of-range]"}},
+       {"DECAM K1 D2000 Y2 Y0 Y4", {"2:16: DECAM does not take Y2 here; it takes X or M [il.operand]"}},
+       {"DECAM K1 D2000 X2 Y4 Y5", {"2:19: DECAM does not take Y4 here; it takes Y0 to Y3 [il.operand]"}},
+       {"DPLSV K1000 Y1 Y1",
+        {"2:16: Y1 is the pulse output itself; name another Y for the direction [il.operand]"}},
        {"ECAMTBX D100 K100 D2000 D120", {}},
        {"ECAMTBX D7990 M1 D2000 D120",
-        {"2:9: ECAMTBX takes 20 words from D7990 on; the block has to end at D7999"}}});
+        {"2:9: ECAMTBX takes 20 words from D7990 on; the block has to end at D7999 [il.out-of-range]"}}});
 }
 
 TEST(IlCompile, Rungs) {
   expect_faults(
-      {{"OUT Y0\nEND", {"1:1: OUT has no contact before it; begin with LD; LD M8000 is always ON"}},
-       {"LD X0\nLD X1\nOUT Y0\nEND", {"3:1: 2 blocks are not joined at OUT; join them with ANB or ORB"}},
-       {"LD X0\nANB\nOUT Y0\nEND", {"2:1: ANB has no two blocks to join; begin each block with LD"}},
+      {{"OUT Y0\nEND", {"1:1: OUT has no contact before it; begin with LD; LD M8000 is always ON [il.rung]"}},
+       {"LD X0\nLD X1\nOUT Y0\nEND",
+        {"3:1: 2 blocks are not joined at OUT; join them with ANB or ORB [il.rung]"}},
+       {"LD X0\nANB\nOUT Y0\nEND",
+        {"2:1: ANB has no two blocks to join; begin each block with LD [il.rung]"}},
        {"LD X0\nEND",
-        {"2:1: the contacts before it lead to no coil; end them with OUT or another instruction"}},
-       {"LD X0\nMPP\nOUT Y0\nEND", {"2:1: MPP has no branch to take up; keep the result with MPS before"}},
+        {"2:1: the contacts before it lead to no coil; end them with OUT or another instruction [il.rung]"}},
+       {"LD X0\nMPP\nOUT Y0\nEND",
+        {"2:1: MPP has no branch to take up; keep the result with MPS before [il.rung]"}},
        {"LD X0\nMPS\nAND X1\nOUT Y0\nEND",
-        {"5:1: a branch is not ended; take it up for the last time with MPP"}},
+        {"5:1: a branch is not ended; take it up for the last time with MPP [il.rung]"}},
        {"LD X0\nMPS\nAND X1\nOUT Y0\nLD X2\nANB\nMPP\nOUT Y1\nEND",
-        {"5:1: a branch goes on behind a coil with LD; take it up with MRD or MPP before"}}});
+        {"5:1: a branch goes on behind a coil with LD; take it up with MRD or MPP before [il.rung]"}}});
   std::string deep = "LD X0\n";
   for (int i = 0; i < 8; ++i) deep += "LD X1\n";
   for (int i = 0; i < 8; ++i) deep += "ANB\n";
   EXPECT_THAT(faults(deep + "OUT Y0\nEND"),
-              ElementsAre("9:1: more than 8 blocks wait for ANB or ORB; join blocks as you go"));
+              ElementsAre("9:1: more than 8 blocks wait for ANB or ORB; join blocks as you go [il.rung]"));
   std::string branches = "LD X0\n";
   for (int i = 0; i < 12; ++i) branches += "MPS\n";
   for (int i = 0; i < 12; ++i) branches += "MPP\n";
   EXPECT_THAT(faults(branches + "OUT Y0\nEND"),
-              ElementsAre("13:1: more than 11 branches wait for MPP; end branches with MPP"));
+              ElementsAre("13:1: more than 11 branches wait for MPP; end branches with MPP [il.rung]"));
 }
 
 TEST(IlCompile, LabelsAndTheEnd) {
   EXPECT_THAT(faults("LD X0\nCJ P1\nP0\nP0\nEND"),
-              ElementsAre("4:1: label P0 is there twice; it was first given in line 3",
-                          "2:4: there is no label P1; give it a line of its own"));
+              ElementsAre("4:1: label P0 is there twice; it was first given in line 3 [il.jump]",
+                          "2:4: there is no label P1; give it a line of its own [il.jump]"));
   EXPECT_THAT(faults("LD X0\nCJ P1\nP1 LD X1\nOUT Y0\nEND"),
-              testing::Contains("3:4: 'LD' stands behind a label; give a label a line of its own"));
-  expect_faults({{"P128\nEND", {"1:1: 'P128' does not exist; there are P0 to P127"}},
-                 {"LD X0\nOUT Y0\n", {"2:1: END is missing; end the program with END"}},
-                 {"", {"1:1: there is no program; end the program with END"}},
-                 {"END\nLD X0\nLD X0", {"2:1: stands behind END; END is the last instruction"}},
+              testing::Contains("3:4: 'LD' stands behind a label; give a label a line of its own [il.jump]"));
+  expect_faults({{"P128\nEND", {"1:1: 'P128' does not exist; there are P0 to P127 [il.out-of-range]"}},
+                 {"LD X0\nOUT Y0\n", {"2:1: END is missing; end the program with END [il.syntax]"}},
+                 {"", {"1:1: there is no program; end the program with END [il.syntax]"}},
+                 {"END\nLD X0\nLD X0", {"2:1: stands behind END; END is the last instruction [il.syntax]"}},
                  {"LD X0\nZRST M10 M5\nZRST M0 D5\nEND",
-                  {"2:10: ZRST from M10 to M5; name the lower one first",
-                   "3:9: ZRST from M0 to D5; name two devices of the same letter"}}});
+                  {"2:10: ZRST from M10 to M5; name the lower one first [il.operand]",
+                   "3:9: ZRST from M0 to D5; name two devices of the same letter [il.operand]"}}});
 }
 
 TEST(IlCompile, ManyProblemsAreCutShort) {
@@ -183,7 +204,9 @@ TEST(IlCompile, ManyProblemsAreCutShort) {
   for (int i = 0; i < 3000; ++i) text += "FOO\n";
   const auto told = faults(text);
   ASSERT_EQ(told.size(), 1001U);
-  EXPECT_EQ(told.back(), "1000:1: too many problems: the rest is not told; is this an instruction list?");
+  EXPECT_EQ(told.back(),
+            "1000:1: too many problems: the rest is not told; is this an instruction list? "
+            "[text.too-many-problems]");
 }
 
 // The table of mnemonics.

@@ -46,23 +46,26 @@ TEST(IlLoops, ATimerInALoopRunsOnce) {
 }
 
 TEST(IlLoops, WhatDoesNotPairOff) {
-  expect_faults({{"FOR K3\nLD X0\nINC D0\nEND",
-                  {"1:1: FOR has no NEXT before END in line 4; end what is repeated with NEXT"}},
-                 {"LD X0\nINC D0\nNEXT\nEND", {"3:1: NEXT has no FOR; begin what is repeated with FOR"}}});
+  expect_faults(
+      {{"FOR K3\nLD X0\nINC D0\nEND",
+        {"1:1: FOR has no NEXT before END in line 4; end what is repeated with NEXT [il.structure]"}},
+       {"LD X0\nINC D0\nNEXT\nEND",
+        {"3:1: NEXT has no FOR; begin what is repeated with FOR [il.structure]"}}});
   std::string six;
   for (int i = 0; i < 6; ++i) six += "FOR K2\n";
   for (int i = 0; i < 6; ++i) six += "NEXT\n";
   expect_faults(
-      {{six + "END", {"6:1: FOR stands inside 5 others; no more than 5 FORs in each other"}},
+      {{six + "END", {"6:1: FOR stands inside 5 others; no more than 5 FORs in each other [il.structure]"}},
        {"LD X0\nCJ P1\nFOR K2\nP1\nLD X1\nINC D0\nNEXT\nEND",
-        {"2:4: CJ jumps between FOR in line 3 and its NEXT; begin the loop at its FOR"}},
+        {"2:4: CJ jumps between FOR in line 3 and its NEXT; begin the loop at its FOR [il.jump]"}},
        {"FOR K2\nLD X0\nMC N0 M100\nMCR N0\nNEXT\nEND",
-        {"3:1: MC stands between FOR in line 1 and its NEXT; loops hold no master contacts and no "
-         "steps of sequences",
-         "4:1: MCR stands between FOR in line 1 and its NEXT; loops hold no master contacts and no "
-         "steps of sequences"}},
+        {"3:1: MC stands between FOR in line 1 and its NEXT; loops hold no master contacts and no steps of "
+         "sequences [il.structure]",
+         "4:1: MCR stands between FOR in line 1 and its NEXT; loops hold no master contacts and no steps of "
+         "sequences [il.structure]"}},
        {"LD X0\nFOR K2\nNEXT\nEND",
-        {"2:1: the contacts before it lead to no coil; end them with OUT or another instruction"}}});
+        {"2:1: the contacts before it lead to no coil; end them with OUT or another instruction "
+         "[il.rung]"}}});
 }
 
 // CALL and SRET.
@@ -94,17 +97,19 @@ TEST(IlCalls, FiveDeepAtMost) {
 TEST(IlCalls, SubroutinesStandBehindFendAndEndWithSret) {
   expect_faults(
       {{"LD X0\nCALL P1\nP1\nLD X1\nOUT Y0\nEND",
-        {"2:6: P1 in line 3 is no subroutine: it has no SRET; put it behind FEND and end it with "
-         "SRET"}},
-       {"LD X0\nCALL P7\nFEND\nEND", {"2:6: there is no label P7; give it a line of its own"}},
-       {"LD X0\nOUT Y0\nSRET\nEND", {"3:1: SRET stands in the main program; put subroutines behind FEND"}}});
+        {"2:6: P1 in line 3 is no subroutine: it has no SRET; put it behind FEND and end it with SRET "
+         "[il.jump]"}},
+       {"LD X0\nCALL P7\nFEND\nEND", {"2:6: there is no label P7; give it a line of its own [il.jump]"}},
+       {"LD X0\nOUT Y0\nSRET\nEND",
+        {"3:1: SRET stands in the main program; put subroutines behind FEND [il.structure]"}}});
   const std::string subroutine = "FEND\nP1\nLD X1\nOUT Y0\n";
   expect_faults(
-      {{"LD X0\nCJ P1\n" + subroutine + "SRET\nEND", {"2:4: CJ jumps into a subroutine; use CALL"}},
+      {{"LD X0\nCJ P1\n" + subroutine + "SRET\nEND", {"2:4: CJ jumps into a subroutine; use CALL [il.jump]"}},
        {"P0\nLD X0\nCALL P1\n" + subroutine + "CJ P0\nSRET\nEND",
-        {"8:4: CJ jumps out of a subroutine; leave it by SRET"}},
+        {"8:4: CJ jumps out of a subroutine; leave it by SRET [il.jump]"}},
        {"LD X0\nCALL P1\nFEND\nFOR K2\nP1\nNEXT\nSRET\nEND",
-        {"2:6: P1 stands between FOR in line 4 and its NEXT; call a subroutine at its beginning"}}});
+        {"2:6: P1 stands between FOR in line 4 and its NEXT; call a subroutine at its beginning "
+         "[il.jump]"}}});
 }
 
 TEST(IlJumps, P63IsTheEnd) {
@@ -136,16 +141,17 @@ TEST(IlMasters, AnOuterMcrEndsTheInnerOnes) {
 }
 
 TEST(IlMasters, WhatDoesNotPairOff) {
-  expect_faults({{"LD X0\nMC N0 M100\nLD X1\nOUT Y0\nEND",
-                  {"2:1: MC N0 has no MCR N0 before END in line 5; end it with MCR N0"}},
-                 {"MCR N2\nEND", {"1:1: MCR N2 has no MC N2; begin it with MC"}},
-                 {"LD X0\nMC N1 M100\nLD X1\nMC N1 M101\nMCR N1\nMCR N1\nEND",
-                  {"4:1: MC N1 stands inside N1 of line 2; inner master contacts have the higher number",
-                   "6:1: MCR N1 has no MC N1; begin it with MC"}},
-                 {"MC N0 M100\nMCR N0\nEND",
-                  {"1:1: MC has no contact before it; begin with LD; LD M8000 is always ON"}}});
+  expect_faults(
+      {{"LD X0\nMC N0 M100\nLD X1\nOUT Y0\nEND",
+        {"2:1: MC N0 has no MCR N0 before END in line 5; end it with MCR N0 [il.structure]"}},
+       {"MCR N2\nEND", {"1:1: MCR N2 has no MC N2; begin it with MC [il.structure]"}},
+       {"LD X0\nMC N1 M100\nLD X1\nMC N1 M101\nMCR N1\nMCR N1\nEND",
+        {"4:1: MC N1 stands inside N1 of line 2; inner master contacts have the higher number [il.structure]",
+         "6:1: MCR N1 has no MC N1; begin it with MC [il.structure]"}},
+       {"MC N0 M100\nMCR N0\nEND",
+        {"1:1: MC has no contact before it; begin with LD; LD M8000 is always ON [il.rung]"}}});
   EXPECT_THAT(faults("LD X0\nMC N8 M100\nEND"),
-              testing::Contains("2:4: 'N8' does not exist; there are N0 to N7"));
+              testing::Contains("2:4: 'N8' does not exist; there are N0 to N7 [il.out-of-range]"));
 }
 
 // STL and RET.
@@ -201,21 +207,23 @@ TEST(IlStates, BranchesComeTogether) {
 TEST(IlStates, WhatDoesNotPairOff) {
   expect_faults(
       {{"STL S20\nOUT Y0\nEND",
-        {"1:1: the sequence with S20 has no RET before END in line 3; end the last step of a "
-         "sequence with RET"}},
-       {"RET\nEND", {"1:1: RET has no STL before it; begin a step of a sequence with STL"}},
+        {"1:1: the sequence with S20 has no RET before END in line 3; end the last step of a sequence with "
+         "RET [il.structure]"}},
+       {"RET\nEND", {"1:1: RET has no STL before it; begin a step of a sequence with STL [il.structure]"}},
        {"STL S20\nLD X0\nMC N0 M100\nMCR N0\nRET\nEND",
-        {"3:1: MC stands inside the step S20; end the sequence with RET before",
-         "4:1: MCR stands inside the step S20; end the sequence with RET before"}},
+        {"3:1: MC stands inside the step S20; end the sequence with RET before [il.structure]",
+         "4:1: MCR stands inside the step S20; end the sequence with RET before [il.structure]"}},
        {"LD X0\nMC N0 M100\nSTL S20\nOUT Y0\nRET\nMCR N0\nEND",
-        {"3:1: STL stands inside MC of line 2; end the master contact with MCR before"}},
+        {"3:1: STL stands inside MC of line 2; end the master contact with MCR before [il.structure]"}},
        {"LD X0\nCALL P1\nFEND\nP1\nSTL S20\nOUT Y0\nRET\nSRET\nEND",
-        {"5:1: STL stands in a subroutine; put master contacts and sequences into the main program"}},
+        {"5:1: STL stands in a subroutine; put master contacts and sequences into the main program "
+         "[il.structure]"}},
        {"LD X0\nCALL P1\nFEND\nP1\nLD X1\nMC N0 M100\nMCR N0\nSRET\nEND",
-        {"6:1: MC stands in a subroutine; put master contacts and sequences into the main program"}},
+        {"6:1: MC stands in a subroutine; put master contacts and sequences into the main program "
+         "[il.structure]"}},
        {"STL S20\nLD X0\nCJ P1\nRET\nP1\nEND",
-        {"3:4: CJ jumps out of a step of a sequence; go on to another step with SET"}},
-       {"STL M20\nRET\nEND", {"1:5: STL does not take M20 here; it takes S"}}});
+        {"3:4: CJ jumps out of a step of a sequence; go on to another step with SET [il.jump]"}},
+       {"STL M20\nRET\nEND", {"1:5: STL does not take M20 here; it takes S [il.operand]"}}});
 }
 
 // The watchdog counts work, not instructions.
@@ -270,8 +278,8 @@ TEST(IlPulses, SpeedsAndCountsOutOfRange) {
   EXPECT_EQ(told(0, 5, 1), "error 9 6706 p.il:4: 6706: ZRN: the speed S1 is 0; write 1 or more");
   EXPECT_EQ(told(100, 0, 1), "error 9 6706 p.il:4: 6706: ZRN: the creep speed S2 is 0; write 1 or more");
   EXPECT_THAT(faults("LD X0\nPLSY K100 K5 Y4\nZRN K100 K5 D0 Y0\nEND"),
-              ElementsAre("2:14: PLSY does not take Y4 here; it takes Y0 to Y3",
-                          "3:13: ZRN does not take D0 here; it takes X, Y, M or S"));
+              ElementsAre("2:14: PLSY does not take Y4 here; it takes Y0 to Y3 [il.operand]",
+                          "3:13: ZRN does not take D0 here; it takes X, Y, M or S [il.operand]"));
 }
 
 }  // namespace

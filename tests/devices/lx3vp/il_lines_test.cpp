@@ -59,42 +59,43 @@ TEST(IlLines, OperandsInColumnsOfTheirOwn) {
   EXPECT_THAT(instructions("Instruction,Device,Device comment,Note\nLD,X0,the start,D9\nOUT,Y0\nEND"),
               ElementsAre("LD X0", "OUT Y0", "END"));
   EXPECT_THAT(faults("Step,Instruction,I/O device\n0,LD,X0\n1,MOV,K1,D9999\n5,END\n"),
-              ElementsAre("3:10: 'D9999' does not exist; there are D0 to D8255"));
+              ElementsAre("3:10: 'D9999' does not exist; there are D0 to D8255 [il.out-of-range]"));
 }
 
 TEST(IlLines, FaultsOfATableStandInItsCells) {
   const std::string heading = "Step No.,Instruction,I/O(Device)\n";
-  expect_faults(
-      {{heading + "0,LD,X0\n1,MOV,K1\n,,D9999\n5,OTU,Y0\n6,END,\n",
-        {"4:3: 'D9999' does not exist; there are D0 to D8255",
-         "5:3: there is no instruction 'OTU'; did you mean OUT?"}},
-       {heading + ",,D5\n0,LD,X0\n1,OUT,Y0\n2,END,\n",
-        {"2:3: an operand stands before the first instruction; name the instruction in its column"}}});
+  expect_faults({{heading + "0,LD,X0\n1,MOV,K1\n,,D9999\n5,OTU,Y0\n6,END,\n",
+                  {"4:3: 'D9999' does not exist; there are D0 to D8255 [il.out-of-range]",
+                   "5:3: there is no instruction 'OTU'; did you mean OUT? [il.unknown-instruction]"}},
+                 {heading + ",,D5\n0,LD,X0\n1,OUT,Y0\n2,END,\n",
+                  {"2:3: an operand stands before the first instruction; name the instruction in its column "
+                   "[il.syntax]"}}});
 }
 
 TEST(IlLines, BracketsThatDoNotMatch) {
   EXPECT_THAT(
       faults("LD X0\n[MOV K5 D0\nMOV K5 D0]\n[ ]\nMOV [K5 D0\nOUT Y0\nEND"),
-      ElementsAre("2:1: '[' is not closed; write [MOV K5 D0]", "3:1: ']' was not opened; write [MOV K5 D0]",
-                  "4:1: there is nothing between the brackets; write [MOV K5 D0]",
-                  "5:5: '[K5' is no operand; write a device (X0, D100), K10, H1F or E1.5"));
+      ElementsAre("2:1: '[' is not closed; write [MOV K5 D0] [il.syntax]",
+                  "3:1: ']' was not opened; write [MOV K5 D0] [il.syntax]",
+                  "4:1: there is nothing between the brackets; write [MOV K5 D0] [il.syntax]",
+                  "5:5: '[K5' is no operand; write a device (X0, D100), K10, H1F or E1.5 [il.operand]"));
 }
 
 // What follows from a line that was refused is not told too.
 TEST(IlLines, OneRefusedLineIsOneMessage) {
-  expect_faults(
-      {{"LDX X0\nMPS\nAND X1\nOUT Y0\nMPP\nOUT Y1\nLD X2\nOUT Y2\nEND",
-        {"1:1: there is no instruction 'LDX'; did you mean LD?"}},
-       {"LD X0\nMOV KX D9999 K5\nEND", {"2:5: 'KX' is no 32-bit number; write K-2147483648 to K2147483647"}},
-       {"FORR K5\nLD X0\nINC D0\nNEXT\nENDE",
-        {"1:1: there is no instruction 'FORR'; did you mean FOR?",
-         "5:1: there is no instruction 'ENDE'; did you mean END?"}},
-       {"LDX X0\nCJ P5\nEND",
-        {"1:1: there is no instruction 'LDX'; did you mean LD?",
-         "2:4: there is no label P5; give it a line of its own"}},
-       {"LD X0\nOUTT Y0\nLD X1\nMPP\nOUT Y1\nLD X2\nMPP\nOUT Y0\nEND",
-        {"2:1: there is no instruction 'OUTT'; did you mean OUT?",
-         "7:1: MPP has no branch to take up; keep the result with MPS before"}}});
+  expect_faults({{"LDX X0\nMPS\nAND X1\nOUT Y0\nMPP\nOUT Y1\nLD X2\nOUT Y2\nEND",
+                  {"1:1: there is no instruction 'LDX'; did you mean LD? [il.unknown-instruction]"}},
+                 {"LD X0\nMOV KX D9999 K5\nEND",
+                  {"2:5: 'KX' is no 32-bit number; write K-2147483648 to K2147483647 [il.width]"}},
+                 {"FORR K5\nLD X0\nINC D0\nNEXT\nENDE",
+                  {"1:1: there is no instruction 'FORR'; did you mean FOR? [il.unknown-instruction]",
+                   "5:1: there is no instruction 'ENDE'; did you mean END? [il.unknown-instruction]"}},
+                 {"LDX X0\nCJ P5\nEND",
+                  {"1:1: there is no instruction 'LDX'; did you mean LD? [il.unknown-instruction]",
+                   "2:4: there is no label P5; give it a line of its own [il.jump]"}},
+                 {"LD X0\nOUTT Y0\nLD X1\nMPP\nOUT Y1\nLD X2\nMPP\nOUT Y0\nEND",
+                  {"2:1: there is no instruction 'OUTT'; did you mean OUT? [il.unknown-instruction]",
+                   "7:1: MPP has no branch to take up; keep the result with MPS before [il.rung]"}}});
 }
 
 // Whatever is put into it, it neither crashes nor reads beyond its end.

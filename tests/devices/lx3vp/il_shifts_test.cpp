@@ -46,10 +46,10 @@ TEST(IlShifts, RotationsTurnAllBitsRound) {
 
 TEST(IlShifts, RotationsRefuseWhatIsNotOneWord) {
   EXPECT_THAT(faults("LD X0\nROL K2M0 K1\nDROR K4M0 K1\nROR D0 K17\nDROL D0 K0\nEND"),
-              ElementsAre("2:10: ROL turns 16 bits, not those of K2M0; group K4",
-                          "3:11: DROR turns 32 bits, not those of K4M0; group K8",
-                          "4:8: ROR turns by K17 bits; write K1 to K16",
-                          "5:9: DROL turns by K0 bits; write K1 to K32"));
+              ElementsAre("2:10: ROL turns 16 bits, not those of K2M0; group K4 [il.operand]",
+                          "3:11: DROR turns 32 bits, not those of K4M0; group K8 [il.operand]",
+                          "4:8: ROR turns by K17 bits; write K1 to K16 [il.operand]",
+                          "5:9: DROL turns by K0 bits; write K1 to K32 [il.operand]"));
   EXPECT_EQ(error("ROL D0 D5"), "6706 p.il:2: 6706: ROL: a count of 0 is none of 1 to 16");
 }
 
@@ -72,9 +72,9 @@ TEST(IlShifts, BitsMoveUpAndDownInGroups) {
 
 TEST(IlShifts, ShiftsRefuseCountsThatDoNotFit) {
   EXPECT_THAT(faults("LD X0\nSFTL X0 M0 K4 K5\nSFTR X0 M0 K1025 K1\nSFTL X0 X0 K4 K1\nEND"),
-              ElementsAre("2:15: SFTL shifts 4 bits by 5; n1 is up to K1024, n2 K1 up to n1",
-                          "3:18: SFTR shifts 1025 bits by 1; n1 is up to K1024, n2 K1 up to n1",
-                          "4:9: SFTL does not take X0 here; it takes Y, M or S"));
+              ElementsAre("2:15: SFTL shifts 4 bits by 5; n1 is up to K1024, n2 K1 up to n1 [il.operand]",
+                          "3:18: SFTR shifts 1025 bits by 1; n1 is up to K1024, n2 K1 up to n1 [il.operand]",
+                          "4:9: SFTL does not take X0 here; it takes Y, M or S [il.operand]"));
   EXPECT_EQ(error("SFTL X0 M3070 K4 K1"),
             "6706 p.il:2: 6706: SFTL: 4 devices from M3070 on go beyond what there is");
   EXPECT_EQ(error("SFTL X0 M0 D0 K3", 2), "6706 p.il:2: 6706: SFTL: 3 bits of 2 are to be shifted");
@@ -174,23 +174,31 @@ TEST(IlIndex, IsRefusedWhereItHasNoPlace) {
   EXPECT_THAT(
       faults("LD X0\nMOV D0Z8 D1\nMOV D0.5Z0 D1\nDMOV D0V0 D2\nDMOV K1 V0\nOUT T0Z0 K5\nDPLSV K1 Y0Z0 Y5\n"
              "DECAM K1 D2000Z0 X0 Y0 Y4\nMOV K1 V8\nEND"),
-      ElementsAre(
-          "2:5: 'D0Z8' has no such index register; there are V0 to V7 and Z0 to Z7: D10Z0",
-          "3:5: 'D0.5Z0' takes no index register; index a device, bits or a number: D10Z0, K4M0Z0, K5V1",
-          "4:6: D0V0 is indexed by V in a 32-bit instruction; use Z: a 32-bit instruction takes V with it",
-          "5:9: V0 is the upper half of a 32-bit index; use Z0: a 32-bit instruction takes V0 with it",
-          "6:10: OUT T0Z0 K5 has an index register; timers, counters and their set values take none",
-          "7:10: DPLSV does not take an index register here; write the number itself, not Y0Z0",
-          "8:10: DECAM does not take an index register here; write the number itself, not D2000Z0",
-          "9:8: 'V8' does not exist; there are V0 to V7"));
+      ElementsAre("2:5: 'D0Z8' has no such index register; there are V0 to V7 and Z0 to Z7: D10Z0 "
+                  "[il.index-register]",
+                  "3:5: 'D0.5Z0' takes no index register; index a device, bits or a number: D10Z0, K4M0Z0, "
+                  "K5V1 [il.index-register]",
+                  "4:6: D0V0 is indexed by V in a 32-bit instruction; use Z: a 32-bit instruction takes V "
+                  "with it [il.index-register]",
+                  "5:9: V0 is the upper half of a 32-bit index; use Z0: a 32-bit instruction takes V0 with "
+                  "it [il.index-register]",
+                  "6:10: OUT T0Z0 K5 has an index register; timers, counters and their set values take none "
+                  "[il.index-register]",
+                  "7:10: DPLSV does not take an index register here; write the number itself, not Y0Z0 "
+                  "[il.index-register]",
+                  "8:10: DECAM does not take an index register here; write the number itself, not D2000Z0 "
+                  "[il.index-register]",
+                  "9:8: 'V8' does not exist; there are V0 to V7 [il.out-of-range]"));
 }
 
 // The largest number that an operand can have is refused, not added to.
 TEST(IlOperands, NumbersBeyondEveryRangeAreRefused) {
-  EXPECT_THAT(faults("LD X0\nMOV K1 D2147483647\nSET M2147483647\nMOV K8M2147483647 D0\nEND"),
-              ElementsAre("2:8: 'D2147483647' does not exist; there are D0 to D8255",
-                          "3:5: 'M2147483647' does not exist; there are M0 to M3071 and M8000 to M8255",
-                          "4:5: 'K8M2147483647' does not exist; there are M0 to M3071 and M8000 to M8255"));
+  EXPECT_THAT(
+      faults("LD X0\nMOV K1 D2147483647\nSET M2147483647\nMOV K8M2147483647 D0\nEND"),
+      ElementsAre(
+          "2:8: 'D2147483647' does not exist; there are D0 to D8255 [il.out-of-range]",
+          "3:5: 'M2147483647' does not exist; there are M0 to M3071 and M8000 to M8255 [il.out-of-range]",
+          "4:5: 'K8M2147483647' does not exist; there are M0 to M3071 and M8000 to M8255 [il.out-of-range]"));
 }
 
 TEST(IlRegisters, IndexRegistersHaveNames) {

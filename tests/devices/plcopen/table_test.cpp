@@ -182,7 +182,7 @@ TEST(PlcopenTable, ACsvsFaultsAreAllToldAtTheirPlace) {
   EXPECT_THAT(
       csv_faults("slave\n"),
       ElementsAre(
-          "c.csv:1:1: error 42007: the table has no lines; write one line at least [st.unknown-name]"));
+          "c.csv:1:1: error 42007: the table has no lines; write one line at least [cam.refused-by-device]"));
   EXPECT_THAT(csv_faults("# slave_modulo: 0\n# endless: positive\nslave\n0\n"),
               ElementsAre("c.csv:3:1: error 60181: this cam needs modulo axes; give slave_modulo a length "
                           "[cam.refused-by-device]"));

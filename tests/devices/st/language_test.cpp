@@ -176,7 +176,7 @@ TEST(StLanguage, ConstantsAreBoundsInTypes) {
                 "a[n - 1] := 5; s.v[low] := 2; s.v[n] := 3; x := a[3] + LREAL_TO_INT(s.v[-1]) + e;", units),
             5 + 2 + 7);
   expect_problems(units + "PROGRAM m VAR a : A; v : P; END_VAR\na[n] := 1;\nv := 5;\nEND_PROGRAM",
-                  {"2:3: the index 4 is out of the bounds of 'a'; 0 to 3",
+                  {"2:3: the index 4 is out of the bounds of 'a'; 0 to 3 [st.out-of-range]",
                    "3:6: the constant 5 is out of the range of INT (-1..4); -1 to 4$"});
 }
 
