@@ -20,7 +20,7 @@ struct Uses {
   std::set<int> written;
   Readers asked;
   std::set<int> started;
-  Readers read_by_index;        ///< the array's first cell: any of it
+  Readers read_by_index;       ///< the array's first cell: any of it
   std::set<int> set_by_index;  ///< the same
 };
 
@@ -83,9 +83,9 @@ void tell_gaps(const NamedThing& array, const Uses& uses, std::vector<Controller
   if (static_cast<int>(gaps.size()) == cell_count(array)) return;  // the panel sets them all
   for (const int gap : gaps) {
     const auto name = fmt::format("{}[{}]", array.name, gap);
-    found.push_back({fmt::format("{}: {} is never set, other elements of {} are", reader->second, name,
-                                 array.name),
-                     name});
+    found.push_back(
+        {fmt::format("{}: {} is never set, other elements of {} are", reader->second, name, array.name),
+         name});
   }
 }
 

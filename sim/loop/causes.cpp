@@ -239,10 +239,10 @@ std::string Causes::of(const std::vector<record::CheckResult>& checks, const Kno
   if (cause.empty() || cause.starts_with("after ")) return last_resort(checks, known, cause);
   if (!faults_.empty()) return cause;
   if (found_nothing(checks) && !known.hindrances.empty()) {
-    const auto both = first_error(failed_at.value_or(ever)) != nullptr
-                          ? cause + joined(known.hindrances.front())
-                          : fmt::format("because {}; {}", known.hindrances.front(),
-                                        cause.substr(cause.find(' ') + 1));
+    const auto both =
+        first_error(failed_at.value_or(ever)) != nullptr
+            ? cause + joined(known.hindrances.front())
+            : fmt::format("because {}; {}", known.hindrances.front(), cause.substr(cause.find(' ') + 1));
     return both + (known.doubts.empty() ? "" : joined(known.doubts.front()));
   }
   return errors_.empty() || known.doubts.empty() ? cause : cause + joined(known.doubts.front());

@@ -25,8 +25,8 @@ std::vector<std::string> crossed_wires(const scenario::Scenario& scenario, devic
 std::vector<std::string> backward_masters(const scenario::Scenario& scenario, devices::Controller& controller,
                                           const std::vector<NamedPlant>& plants);
 
-/// Lines of zero pulses that a PRESET seeks and nothing is wired to, a phrase each: asked when the program has
-/// set prsmode.
+/// Lines of zero pulses that a PRESET seeks and nothing is wired to, a phrase each: asked when the program
+/// has set prsmode.
 std::vector<std::string> without_zero_pulse(const scenario::Scenario& scenario,
                                             devices::Controller& controller);
 
@@ -40,7 +40,8 @@ bool presets(devices::Controller& controller, const std::string& axis);
 /// A program surely names that terminal, or what the configuration calls it.
 bool names_terminal(devices::Controller& controller, const std::string& terminal);
 
-/// The lines of programs that switch an output on, as the end of a phrase: ", by saw.mod:88, SETOUT ofTrouble";
+/// The lines of programs that switch an output on, as the end of a phrase: ", by saw.mod:88, SETOUT
+/// ofTrouble";
 /// "" where none is found.
 std::string switched_on_by(devices::Controller& controller, const std::string& terminal);
 
@@ -63,10 +64,8 @@ std::vector<std::string> different_units(const scenario::Scenario& scenario, dev
                                          const std::vector<NamedPlant>& plants);
 
 /// Cams of which no whole number of cycles makes the piece that a check wants, nor the other way round, a
-/// phrase each: "a cycle of the cam of AxisX is 100 mm of material, and check 'cut length' wants 1000 mm".
-std::vector<std::string> strange_cycles(const scenario::Scenario& scenario, devices::Controller& controller,
-                                        const std::vector<NamedPlant>& plants,
-                                        const std::vector<CamCycle>& cycles,
+/// phrase each: "a cycle of the cam of Saw is 660 mm of material, and check 'cut length' wants 1000 mm".
+std::vector<std::string> strange_cycles(const std::vector<CamCycle>& cycles,
                                         const std::vector<std::pair<std::string, record::Tolerance>>& limits);
 
 /// Terminals that nothing is wired to, a phrase each: "Y1 gives pulses, and nothing is wired to it".

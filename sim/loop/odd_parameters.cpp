@@ -75,9 +75,10 @@ std::vector<std::string> odd_parameters(devices::Controller& controller) {
       for (const auto& [name, ns] : controller.periods()) period = std::max(period, static_cast<double>(ns));
     const double gain = period > 0 ? value("pgain") / 1000 / (period * 1e-9) : std::nan("");
     if (gain > 0 && gain < low_gain)
-      found.push_back(fmt::format("{0}.pgain is {1:g}, every {2:g} ms: a gain of {3:.3g} 1/s, and position "
-                                  "loops of drives have 20 to 100",
-                                  loop.name, value("pgain"), period * 1e-6, gain));
+      found.push_back(
+          fmt::format("{0}.pgain is {1:g}, every {2:g} ms: a gain of {3:.3g} 1/s, and position "
+                      "loops of drives have 20 to 100",
+                      loop.name, value("pgain"), period * 1e-6, gain));
     if (period > slow_ns)
       found.push_back(fmt::format("{} is sampled every {:g} ms, too rarely for a position loop", loop.name,
                                   period * 1e-6));
