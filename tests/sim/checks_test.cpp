@@ -63,14 +63,24 @@ TEST_F(ChecksTest, ACheckThatHeldAtNoInstantSaysWhatThereWas) {
   EXPECT_EQ(result().throughout, "");
 }
 
+TEST_F(ChecksTest, ALimitAThousandTimesOffIsDoubted) {
+  add(scenario::CheckRequest::Kind::always, "", "error < 100000");
+  start();
+  sample(second, 2);
+  EXPECT_THAT(result().doubt, testing::HasSubstr("no less than 50000 times what came"));
+  sample(2 * second, 200);
+  EXPECT_EQ(result().doubt, "");
+}
+
 TEST_F(ChecksTest, WhatNeverCameSaysHowNearItCame) {
   add(scenario::CheckRequest::Kind::eventually, "", "error > 5").within = 3 * second;
   start();
   sample(1 * second, 1);
   sample(2 * second, 4);
   sample(3 * second, 2);
-  EXPECT_EQ(result().detail,
-            "not true at any of 3 instants, nearest at 2.0000 s: error=4 Um, the last at 3.0000 s: error=2 Um");
+  EXPECT_EQ(
+      result().detail,
+      "not true at any of 3 instants, nearest at 2.0000 s: error=4 Um, the last at 3.0000 s: error=2 Um");
 }
 
 // What a check multiplies by a condition is judged only where that holds.

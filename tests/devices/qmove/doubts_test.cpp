@@ -47,8 +47,7 @@ TEST(QmoveDoubts, AGapInARetentiveArrayThatIsSetByNumber) {
   const std::string reads = "glI = asKept[glI]\nEND\n";
   const auto doubts = told({"asKept[1] = 3\n" + reads});
   EXPECT_FALSE(doubts.empty());
-  EXPECT_EQ(doubts.front(),
-            "asKept[2] task0.mod:2: asKept[2] is never set, other elements of asKept are");
+  EXPECT_EQ(doubts.front(), "asKept[2] task0.mod:2: asKept[2] is never set, other elements of asKept are");
   EXPECT_THAT(told({"asKept[1] = 3\nasKept[glI + 1] = 4\n" + reads}), IsEmpty());
   EXPECT_THAT(told({reads}), IsEmpty());
 }
