@@ -312,8 +312,8 @@ TEST_F(ChecksTest, UnknownNamesAreProblems) {
 }
 
 TEST(Statistics, AgreesWithClosedForms) {
-  std::vector<double> line;
-  for (int i = 0; i < 101; ++i) line.push_back(5 + 0.25 * i);
+  std::vector<double> line(101);
+  for (size_t i = 0; i < line.size(); ++i) line[i] = 5 + 0.25 * static_cast<double>(i);
   const auto [mean, low, high, sd, slope, slope_error] = loop::statistics(line);
   EXPECT_DOUBLE_EQ(mean, 17.5);
   EXPECT_DOUBLE_EQ(low, 5);
