@@ -135,7 +135,7 @@ int size_drive(const SizeOptions& options) {
                                             });
     bar.clear();
     const auto order = studies::ranked(plan.candidates, sized);
-    write_file(folder->add(size_file), studies::size_csv(plan.candidates, sized, order));
+    write_file(folder->add(size_file), studies::size_table(plan.candidates, sized, order).csv());
     const studies::SizeResult result{plan.question, plan.choices, plan.candidates,
                                      plan.corners,  sized,        order};
     const int status = finish(studies::write_size_report(result, *folder), store, *folder);

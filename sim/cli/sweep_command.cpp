@@ -186,7 +186,7 @@ int sweep_scenario(const SweepOptions& options) {
     const auto rows = studies::sweep(question, axes, points, store,
                                      [&](std::size_t done, std::size_t of) { bar.show(done, of); });
     bar.clear();
-    write_file(folder->add(sweep_file), studies::sweep_csv(question, axes, points, rows));
+    write_file(folder->add(sweep_file), studies::sweep_table(question, axes, points, rows).csv());
     auto verdict = studies::write_sweep_report(question, axes, points, rows, *folder);
     print_limits(rows);
     std::vector<studies::PointRow::Verdict> verdicts;
@@ -348,7 +348,7 @@ int envelope_scenario(const EnvelopeOptions& options) {
       bar.clear();
       points += envelope.points.size();
     }
-    write_file(folder->add(envelope_file), studies::envelope_csv(envelopes));
+    write_file(folder->add(envelope_file), studies::envelope_table(envelopes).csv());
     auto verdict = studies::write_envelope_report(envelopes, *folder);
     std::vector<studies::PointRow::Verdict> looks;
     for (const auto& envelope : envelopes) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/problem.hpp"
+#include "base/table.hpp"
 #include "sim/loop/known_events.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -40,11 +41,16 @@ struct PointQuestion {
     std::string mismatch_unit;
     double tolerance = 0;  ///< of the length, either way, as a plot states it; 0 = not said
   };
-  std::vector<Piece> pieces = {};         ///< what cuts
-  std::vector<std::string> drives = {};   ///< "knife.servo"
-  std::vector<std::string> checks = {};   ///< by name
-  std::vector<std::string> columns = {};  ///< headings of a row's numbers
+  std::vector<Piece> pieces = {};        ///< what cuts
+  std::vector<std::string> drives = {};  ///< "knife.servo"
+  std::vector<std::string> checks = {};  ///< by name
+  std::vector<Column> columns = {};      ///< of a row's numbers
 };
+
+/// Columns by what they are of: a piece's source, a drive, a check, a figure.
+std::string piece_key(const std::string& source, std::string_view what);
+std::string drive_key(const std::string& drive, std::string_view what);
+inline constexpr std::string_view margin_key = "margin.";
 
 /// What came of a point.
 struct PointRow {
@@ -90,6 +96,7 @@ PointRow run_point(const PointQuestion& question, const PointScenario& point);
 /// "checks[cut length].from" in place of "checks.0.from".
 std::string with_check_names(const PointQuestion& question, const std::string& text);
 
+std::string in_one_line(std::string text);
 /// A row's cells behind the point's own: "passed,,,0.04,...", always the same way and back; nothing if `text`
 /// is no such row.
 std::string row_text(const PointRow& row);

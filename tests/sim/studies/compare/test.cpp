@@ -276,7 +276,7 @@ TEST_F(Compare, PiecesAreAlignedByTheirOrderBehindTheStartUp) {
   EXPECT_THAT(comparison.pieces[0].runs, ElementsAre(ElementsAre(800.1, 799.9), ElementsAre(800.1, 799.9)));
   const auto plots = overlay(comparison.runs, usual_overlays(comparison));
   for (const auto& curve : plots[0].panels[0].curves) EXPECT_THAT(curve.x, ElementsAre(1, 2));
-  EXPECT_THAT(comparison_csv(comparison, {}), HasSubstr("\npiece,knife.cut length 2,mm,799.9,799.9\n"));
+  EXPECT_THAT(comparison_table(comparison, {}).csv(), HasSubstr("\npiece,knife.cut length 2,mm,799.9,799.9\n"));
 }
 
 // No plot states limits: the first check that looks at the cuts later than from the start says where they
@@ -334,7 +334,7 @@ TEST(Lots, BeginWhereTwoPiecesInARowAreAnotherLength) {
 TEST_F(Compare, CsvTellsFiguresChecksAndParametersOfEachRun) {
   RunTexts other;
   other.scenario = with(other.scenario, "speed: 60 m/min", "speed: \"80, m/min\"");
-  const auto text = comparison_csv(compared({}, other), {{"drift", "mm", {0.5, NAN}}});
+  const auto text = comparison_table(compared({}, other), {{"drift", "mm", {0.5, NAN}}}).csv();
   EXPECT_THAT(text, testing::StartsWith("what,name,unit,a,b\nrun,drycut,,0.1.0,0.1.0\n"));
   EXPECT_THAT(text, HasSubstr("\nfigure,drift,mm,0.5,\n"));
   EXPECT_THAT(text, HasSubstr("\ncheck,cut length,,passed,passed\nmargin,cut length,mm,0.053,0.053\n"));
