@@ -25,6 +25,12 @@ struct PointQuestion {
   struct Figure {
     std::string name;
     std::string term;  ///< as in `drycut tune`: "max(abs(knife.motor.torque))"
+
+    template <typename Archive, typename Self>
+    static void visit(Archive& archive, Self& self) {
+      archive("name", self.name);
+      archive("term", self.term);
+    }
   };
   std::vector<Figure> figures;
   std::string rated =
@@ -45,6 +51,16 @@ struct PointQuestion {
   std::vector<std::string> drives = {};  ///< "knife.servo"
   std::vector<std::string> checks = {};  ///< by name
   std::vector<Column> columns = {};      ///< of a row's numbers
+
+  /// What prepare() does not find out.
+  template <typename Archive, typename Self>
+  static void visit(Archive& archive, Self& self) {
+    archive("file", self.file);
+    archive("text", self.text);
+    archive("set", self.set);
+    archive("figures", self.figures);
+    archive("rated", self.rated);
+  }
 };
 
 /// Columns by what they are of: a piece's source, a drive, a check, a figure.
