@@ -22,6 +22,7 @@ struct JsonWriter {
   Json json = Json::object();
   template <typename T>
   void operator()(const char* key, const T& member) {
+    if constexpr (is_cloud<T>) return;
     if constexpr (is_optional<T>)
       if constexpr (Visited<typename T::value_type>)
         if (!member) return;
