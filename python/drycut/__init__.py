@@ -23,7 +23,8 @@ envelope    the largest value at which everything holds, at every point of a gri
 
 Every other verb of the command line has a function of its name, with the options as arguments (--max-travel is
 max_travel, --from from_; a flag is True, what may be repeated a list, `set` a dict): drycut.size(), drycut.compare(),
-drycut.check() and so on; help(drycut.size) says what it takes. It gives a Ran: status, text, verdict.
+drycut.check() and so on; help(drycut.size) says what it takes. It gives a Ran: status, text, verdict. `verbs` has
+all of them likewise: drycut.verbs.run(["a.yaml", "b.yaml"], jobs=2).
 
 Overrides (`set`) are those of the command line's --set: a path in the scenario and a value with its unit as
 text, or a number. What does not fit raises BadInput, whose `problems` tell file, line and column, or the argument.
@@ -38,7 +39,8 @@ from ._loops import Bode, Margin, bode
 from ._problems import BadInput, Diverged, Problem
 from ._runs import Check, Event, Run, Simulation, run
 from ._studies import Sweep, Tuning, envelope, sweep, tune
-from ._verbs import Ran, made
+from ._verbs import Ran
+from ._verbs import verbs as verbs
 
 __all__ = ["BadInput", "Bode", "Cam", "Check", "Diverged", "Event", "Finding", "Margin", "Problem", "Run",
            "Ran", "Simulation", "Sweep", "Tuning", "bode", "cam", "envelope", "run", "sweep", "tune"]
@@ -46,7 +48,7 @@ __all__ = ["BadInput", "Bode", "Cam", "Check", "Diverged", "Event", "Finding", "
 if TYPE_CHECKING:
     def __getattr__(name: str) -> Callable[..., Ran]: ...
 
-for _name, _verb in made().items():
+for _name, _verb in vars(verbs).items():
     if _name not in globals():
         globals()[_name] = _verb
         __all__.append(_name)

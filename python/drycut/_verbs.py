@@ -1,11 +1,13 @@
-"""The verbs of the command line that have no class of their own: made of the program's own table."""
+"""The verbs of the command line: made of the program's own table."""
 
 from __future__ import annotations
 
 import inspect
 import json
+import keyword
 import os
 from dataclasses import dataclass, field
+from types import SimpleNamespace
 from typing import Any, Callable, Mapping, NamedTuple
 
 from . import _core
@@ -55,12 +57,6 @@ class Option(NamedTuple):
     default: str
     meaning: str
 
-    @property
-    def argument(self) -> str:
-        """As Python calls it: "--max-travel" is max_travel, "--from" from_."""
-        name = self.name.lstrip("-").replace("-", "_")
-        return name + "_" if name in ("from", "import", "in", "is") else name
-
     def words(self, value: object) -> list[str]:
         """The words of a command line that give it this value."""
         if value is None or value is False:
@@ -78,37 +74,63 @@ class Option(NamedTuple):
         return [f"{self.name}={value}" for value in values]
 
 
+def _name(word: str) -> str:
+    name = word.replace("-", "_")
+    return name + "_" if keyword.iskeyword(name) else name
+
+
 def _word(value: object) -> str:
     return str(os.fspath(value)) if isinstance(value, os.PathLike) else text(value)
 
 
-def _verdict(folder: str) -> dict[str, Any] | None:
+def _written(file: str) -> tuple[int, int]:
+    """Differs from what it was before where the file was written since then."""
     try:
-        with open(os.path.join(folder, "verdict.json"), encoding="utf-8") as file:
-            return dict(json.load(file))
+        found = os.stat(file)
+        return found.st_ino, found.st_mtime_ns
+    except OSError:
+        return 0, 0
+
+
+def _verdict(file: str) -> dict[str, Any] | None:
+    try:
+        with open(file, encoding="utf-8") as stream:
+            return dict(json.load(stream))
     except (OSError, ValueError):
         return None
 
 
-def _page(name: str, about: str, options: list[Option]) -> str:
+def _arguments(options: list[Option]) -> dict[str, Option]:
+    """As Python calls them: "--max-travel" is max_travel, "--from" from_, "--table" beside TABLE table_."""
+    arguments: dict[str, Option] = {}
+    for option in sorted(options, key=lambda one: (not one.positional, not one.required)):
+        name = _name(option.name.lstrip("-"))
+        arguments[name + "_" if name in arguments else name] = option
+    return arguments
+
+
+def _page(name: str, about: str, arguments: dict[str, Option]) -> str:
     lines = [f"drycut {name}. {about}", ""]
-    for option in options:
+    for argument, option in arguments.items():
         default = f" (default: {option.default})" if option.default else ""
-        lines.append(f"{option.argument}  {option.meaning}{default}")
+        lines.append(f"{argument}  {option.meaning}{default}")
     return "\n".join([*lines, "", "Gives a Ran: status, text, notes, verdict."])
 
 
 def _made(name: str, about: str, options: list[Option]) -> Callable[..., Ran]:
-    by_name = {option.argument: option for option in options}
+    arguments = _arguments(options)
     kinds = inspect.Parameter
-    parameters = [kinds(option.argument, kinds.POSITIONAL_OR_KEYWORD if option.positional else kinds.KEYWORD_ONLY,
+    parameters = [kinds(argument, kinds.POSITIONAL_OR_KEYWORD if option.positional else kinds.KEYWORD_ONLY,
                         default=kinds.empty if option.required else None)
-                  for option in sorted(options, key=lambda one: (not one.positional, not one.required))]
+                  for argument, option in arguments.items()]
     signature = inspect.Signature(parameters)
 
     def verb(*args: object, **given: object) -> Ran:
         values = signature.bind(*args, **given).arguments
-        words = [word for argument, value in values.items() for word in by_name[argument].words(value)]
+        words = [word for argument, value in values.items() for word in arguments[argument].words(value)]
+        folder = values.get("out") or next((one.default for one in options if one.name == "--out"), "")
+        file = os.path.join(_word(folder), "verdict.json")
+        before = _written(file)
         status, out, err = _core.command([name, *words])
         if status == INTERRUPTED:
             raise KeyboardInterrupt
@@ -116,16 +138,14 @@ def _made(name: str, about: str, options: list[Option]) -> Callable[..., Ran]:
             raise BadInput(err.strip())
         if status > 1:
             raise Diverged(err.strip())
-        folder = values.get("out") or next((one.default for one in options if one.name == "--out"), "")
-        return Ran(status, out, err, _verdict(_word(folder)) if folder else None)
+        return Ran(status, out, err, _verdict(file) if _written(file) != before else None)
 
     verb.__name__ = verb.__qualname__ = name
-    verb.__doc__ = _page(name, about, options)
+    verb.__doc__ = _page(name, about, arguments)
     verb.__signature__ = signature  # type: ignore[attr-defined]
     return verb
 
 
-def made() -> dict[str, Callable[..., Ran]]:
-    """A function a verb, by name."""
-    return {name: _made(name, about, [Option(*option) for option in options])
-            for name, about, options in _core.verbs()}
+#: A function a verb, by its name.
+verbs = SimpleNamespace(**{_name(name): _made(name, about, [Option(*option) for option in options])
+                           for name, about, options in _core.verbs()})

@@ -120,7 +120,12 @@ class RunTest(unittest.TestCase):
         self.assertIsNone(check.failed_at)
         again = pickle.loads(pickle.dumps(check))
         self.assertEqual((again, again.used), (check, check.used))
-        self.assertGreater(self.run_.outcome["drives"][0]["figures"][0]["share"], 0)
+        drive = self.run_.outcome["drives"][0]
+        self.assertGreater(drive["figures"][0]["share"], 0)
+        speed, torque = drive["points"].T
+        self.assertGreater(len(speed), 100)
+        self.assertLessEqual(abs(torque).max(), drive["ratings"]["peak_torque"] * 1.001)
+        self.assertTrue(np.isfinite(speed).all())
 
     def test_gives_a_frame(self):
         try:
@@ -547,7 +552,18 @@ class VerbsTest(unittest.TestCase):
         self.assertGreater(len(names), 15)
         for name in names:
             self.assertTrue(callable(getattr(drycut, name)), name)
+            self.assertTrue(callable(getattr(drycut.verbs, name)), name)
             self.assertIn(name, drycut.__all__)
+
+    def test_what_has_a_class_of_its_own_runs_as_the_program_does_too(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = os.path.join(folder, "out")
+            ran = drycut.verbs.run([KNIFE], set=SHORT, out=out, no_pictures=True, jobs=1)
+            kept = os.path.join(folder, "kept")
+            os.rename(out, kept)
+            status, text = self.program("run", KNIFE, "--set", "scene.duration=5 s", "--out", out, "--no-pictures")
+            self.assertEqual((ran.status, ran.text), (status, text))
+            self.same_files(out, kept)
 
     def test_prints_and_writes_what_the_program_does(self):
         with tempfile.TemporaryDirectory() as folder:
