@@ -248,6 +248,24 @@ TEST_F(Compare, OverlaysHoldACurveOfEachRun) {
   EXPECT_EQ(plots[2].panels[0].y_label, "AxisX.follerr [bits x4]");
 }
 
+// A channel that stands at 0 in one run has its panel still, or the others' curves would come into wrong ones.
+TEST_F(Compare, AChannelThatIsZeroInOneRunIsStillLaidOverTheOthers) {
+  RunTexts still;
+  RunTexts moving;
+  still.trace = "time [s],AxisX.vel [mm/s],AxisX.follerr [bits x4],AxisX.frb [1]\n0.0,0,1,0\n0.1,0,2,0\n";
+  moving.trace = "time [s],AxisX.vel [mm/s],AxisX.follerr [bits x4],AxisX.frb [1]\n0.0,5,3,0\n0.1,6,4,0\n";
+  for (const bool still_first : {true, false}) {
+    const auto comparison = still_first ? compared(still, moving) : compared(moving, still);
+    const auto plot = overlay(comparison.runs, usual_overlays(comparison)).back();
+    EXPECT_EQ(plot.title, "Channels of AxisX (0 all the time: AxisX.frb)");
+    ASSERT_EQ(plot.panels.size(), 2U);
+    const std::size_t one = still_first ? 0 : 1;
+    EXPECT_THAT(plot.panels[0].curves.at(one).y, ElementsAre(0, 0));
+    EXPECT_THAT(plot.panels[0].curves.at(1 - one).y, ElementsAre(5, 6));
+    EXPECT_THAT(plot.panels[1].curves.at(one).y, ElementsAre(1, 2));
+  }
+}
+
 TEST_F(Compare, AWindowAboutAnEventCountsFromItInEachRun) {
   RunTexts late;
   late.events = with(late.events, "0.100000000,knife", "0.120000000,knife");
