@@ -54,7 +54,7 @@ struct RatedDrive {
 };
 
 /// Headings of a row's numbers.
-std::vector<std::string> rated_columns(const std::string& drive);
+std::vector<Column> rated_columns(const std::string& drive);
 /// The numbers, and read back from the last of a row.
 std::vector<double> rated_numbers(const record::DriveVerdict& verdict);
 RatedDrive rated_drive(const std::vector<double>& row);
