@@ -127,7 +127,6 @@ inline constexpr CodeRow code_rows[] = {
     {"loop.axis-open", "No program closes the position loop of an axis", "LOOPON is never given.", "Give LOOPON for the axis."},
     {"loop.blow", "A machine ran into its stop, tore or sank", "Something before it went wrong.", "Look at what came before it in events.csv."},
     {"loop.counted-nothing", "A wired counter counted nothing", "Nothing turned the encoder, or it is the wrong one.", "Look at the wiring and at what should turn it."},
-    {"loop.cycle-no-modulo", "The modulo of a cam's master is no whole number of its cycles", "One of them is of another length.", "Make the modulo a multiple of the cycle, or the other way round."},
     {"loop.cycle-no-piece", "No whole number of a cam's cycles makes a piece", "The cam is of another length than a check wants.", "Make the cam for this length, or correct the check."},
     {"loop.error", "A controller or a machine reported an error", "The event says it.", "Look at the event and what came before it in events.csv."},
     {"loop.fault-put-in", "The timeline put in a fault before the failure", "The scenario wants it.", "None, if it was meant to be seen."},

@@ -95,6 +95,9 @@ std::vector<std::string> used_terminals(const Cards& cards, Kind kind) {
   collect(cards.inputs);
   collect(cards.outputs);
   collect(cards.analogue_outputs);
+  if (kind == Kind::interrupt)
+    for (const auto& [line, level] : cards.interrupt_lines)
+      names.push_back(to_string(Address{kind, 0, line}));
   return names;
 }
 
@@ -110,7 +113,6 @@ std::variant<Address, TerminalFault> find_slot_terminal(const Cards& cards, cons
     return TerminalFault{"wiring.no-terminal"_code,
                          fmt::format("{} is a simulated counter of the CPU", to_string(*address)),
                          "nothing is wired to slot 1; wire a counter of another slot"};
-  if (address->kind == Kind::interrupt) return *address;
   const auto known = used_terminals(cards, address->kind);
   if (std::find(known.begin(), known.end(), to_string(*address)) != known.end()) return *address;
   return TerminalFault{"wiring.no-terminal"_code,

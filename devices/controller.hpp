@@ -280,7 +280,7 @@ class Controller {
   virtual std::vector<ControllerEvent> take_events() = 0;
 };
 
-/// Terminals of cards in slots: wiring may name those that the configuration uses, and every interrupt line.
+/// Terminals of cards in slots: wiring may name those that the configuration uses.
 std::variant<Address, TerminalFault> find_slot_terminal(const Cards& cards, const std::string& text);
 
 /// False for the CPU's simulated counters: nothing is wired to them.

@@ -66,4 +66,5 @@ PYBIND11_MODULE(_core, module) {
   add_line(module);
   add_cams(module);
   add_studies(module);
+  add_verbs(module);
 }

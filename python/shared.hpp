@@ -66,7 +66,8 @@ struct DictWriter {
   }
 };
 
-/// What came of a run as Python has it: a dict a visited value, None for what is not there, times in seconds.
+/// What came of a run as Python has it: a dict a visited value, None for what is not there, times in seconds,
+/// points as an array of two columns.
 template <typename T>
 py::object python_of(const T& value) {
   if constexpr (sim::record::Visited<T>) {
@@ -75,6 +76,14 @@ py::object python_of(const T& value) {
     return std::move(writer.dict);
   } else if constexpr (sim::record::is_optional<T>) {
     return value ? python_of(*value) : py::none();
+  } else if constexpr (sim::record::is_cloud<T>) {
+    py::array_t<double> points({static_cast<py::ssize_t>(value.size()), py::ssize_t{2}});
+    auto* next = points.mutable_data();
+    for (const auto& [x, y] : value) {
+      *next++ = x;
+      *next++ = y;
+    }
+    return points;
   } else if constexpr (sim::record::is_list<T>) {
     py::list list;
     for (const auto& item : value) list.append(python_of(item));
@@ -97,5 +106,6 @@ void add_line(py::module_& module);
 void add_cams(py::module_& module);
 void add_runs(py::module_& module);
 void add_studies(py::module_& module);
+void add_verbs(py::module_& module);
 
 }  // namespace drycut::python

@@ -83,8 +83,8 @@ void check_names(const studies::PointQuestion& question, const studies::SweepAxe
   for (const auto& axis : axes) taken.insert(axis.parameter.path);
   const auto own = question.columns.size() - question.figures.size();
   for (std::size_t i = 0; i < own; ++i) {
-    taken.insert(question.columns[i]);
-    taken.insert(question.columns[i].substr(0, question.columns[i].rfind(" [")));
+    taken.insert(question.columns[i].heading());
+    taken.insert(question.columns[i].name);
   }
   for (const auto& figure : question.figures)
     if (figure.name.empty() || !taken.insert(figure.name).second)
@@ -215,7 +215,7 @@ py::dict sweep(const SweepCall& call, std::optional<std::size_t> sample, const S
   return studied(call, {}, sample, place, [&](Asked& asked, studies::PointStore& store) {
     auto rows = studies::sweep(asked.question, asked.axes, asked.points, store, std::ref(teller));
     teller.end(rows.size());
-    auto csv = studies::sweep_csv(asked.question, asked.axes, asked.points, rows);
+    auto csv = studies::sweep_table(asked.question, asked.axes, asked.points, rows).csv();
     return std::pair(std::move(csv), [&asked, rows = std::move(rows)] {
       return studies::write_sweep_report(asked.question, asked.axes, asked.points, rows, *asked.folder);
     });
@@ -229,7 +229,7 @@ py::dict envelope(const SweepCall& call, const Sought& bound, const StudyPlace& 
     std::vector<studies::Envelope> sought = {
         {call.file.stem().string(), asked.question, asked.axes, *asked.bound, asked.points}};
     studies::seek(sought.front(), store, std::ref(teller));
-    auto csv = studies::envelope_csv(sought);
+    auto csv = studies::envelope_table(sought).csv();
     return std::pair(std::move(csv), [&asked, sought = std::move(sought)] {
       return studies::write_envelope_report(sought, *asked.folder);
     });

@@ -11,12 +11,16 @@ struct Interrupted {
 /// ends the program.
 class InterruptWatch {
  public:
-  InterruptWatch();
+  /// `at_progress`: whoever shows how far he is throws Interrupted then, too.
+  enum class Ends { as_asked, at_progress };
+  explicit InterruptWatch(Ends ends = Ends::as_asked);
   ~InterruptWatch();
   InterruptWatch(const InterruptWatch&) = delete;
   InterruptWatch& operator=(const InterruptWatch&) = delete;
   /// Throws Interrupted if one has come.
   static void check();
+  /// The same, if one lives that ends work at its progress.
+  static void check_progress();
   /// The one that has come, 0 = none.
   [[nodiscard]] static int come();
 };

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace drycut::devices::qmove {
 
@@ -263,20 +262,6 @@ std::vector<CamAxis> QmoveController::cam_axes() {
     axes.push_back(std::move(*axis));
   }
   return axes;
-}
-
-// An edge on a line that no device listens to does nothing: hardly what the wire is for.
-std::variant<Address, TerminalFault> QmoveController::terminal(const std::string& text) {
-  auto found = find_slot_terminal(cards_, text);
-  const auto* address = std::get_if<Address>(&found);
-  if (address == nullptr || address->kind != Kind::interrupt ||
-      cards_.interrupt_lines.contains(address->number))
-    return found;
-  std::vector<std::string> lines;
-  for (const auto& [line, level] : cards_.interrupt_lines) lines.push_back(fmt::format("INT{}", line));
-  return TerminalFault{
-      "wiring.no-terminal"_code, fmt::format("no device of the configuration uses {}", to_string(*address)),
-      lines.empty() ? "it uses no interrupt line" : fmt::format("it uses {}", fmt::join(lines, ", "))};
 }
 
 // A device's analogue output regulates, or its first two outputs run forward and backward; its first counter

@@ -45,7 +45,9 @@ class QmoveController : public Controller {
                   std::int64_t statement_ns = 0);
 
   Cards& cards() override { return cards_; }
-  std::variant<Address, TerminalFault> terminal(const std::string& text) override;
+  std::variant<Address, TerminalFault> terminal(const std::string& text) override {
+    return find_slot_terminal(cards_, text);
+  }
   [[nodiscard]] bool takes_wire(const Address& address) const override { return slot_takes_wire(address); }
   [[nodiscard]] std::vector<Period> periods() const override;
   [[nodiscard]] std::int64_t output_period(const Address& analogue) const override;

@@ -21,10 +21,17 @@ tune        values with the least metric that keep all limits
 sweep       a scenario at every point of a grid or a sample
 envelope    the largest value at which everything holds, at every point of a grid
 
+Every other verb of the command line has a function of its name, with the options as arguments (--max-travel is
+max_travel, --from from_; a flag is True, what may be repeated a list, `set` a dict): drycut.size(), drycut.compare(),
+drycut.check() and so on; help(drycut.size) says what it takes. It gives a Ran: status, text, verdict. `verbs` has
+all of them likewise: drycut.verbs.run(["a.yaml", "b.yaml"], jobs=2).
+
 Overrides (`set`) are those of the command line's --set: a path in the scenario and a value with its unit as
 text, or a number. What does not fit raises BadInput, whose `problems` tell file, line and column, or the argument.
 Long calls let other threads run: two simulations in two threads take two cores. Ctrl-C ends them.
 """
+
+from typing import TYPE_CHECKING, Callable
 
 from ._cams import Cam, Finding, cam
 from ._core import version as __version__
@@ -32,9 +39,19 @@ from ._loops import Bode, Margin, bode
 from ._problems import BadInput, Diverged, Problem
 from ._runs import Check, Event, Run, Simulation, run
 from ._studies import Sweep, Tuning, envelope, sweep, tune
+from ._verbs import Ran
+from ._verbs import verbs as verbs
 
 __all__ = ["BadInput", "Bode", "Cam", "Check", "Diverged", "Event", "Finding", "Margin", "Problem", "Run",
-           "Simulation", "Sweep", "Tuning", "bode", "cam", "envelope", "run", "sweep", "tune"]
+           "Ran", "Simulation", "Sweep", "Tuning", "bode", "cam", "envelope", "run", "sweep", "tune"]
+
+if TYPE_CHECKING:
+    def __getattr__(name: str) -> Callable[..., Ran]: ...
+
+for _name, _verb in vars(verbs).items():
+    if _name not in globals():
+        globals()[_name] = _verb
+        __all__.append(_name)
 
 # They are of this package, whichever of its files they stand in.
 for _name in __all__:

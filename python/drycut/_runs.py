@@ -82,7 +82,9 @@ class Run:
     trace    numpy structured array, shape (instants,): field `time` [s], then a float64 field a recorded channel
     units    of the fields of `trace`, "" = a pure number
     notes    what a reader should know that is no fault
-    outcome  all that came of it, as in checks.json: end [s], cause, warnings, alarms, drives with their figures
+    outcome  all that came of it, as in checks.json: end [s], cause, warnings, alarms, drives with their figures; and of
+             each drive points and cycle_points, numpy arrays, shape (points, 2): speed [rad/s] and torque [N m] at
+             record instants; mean speed and rms torque of each cycle
     """
 
     passed: bool

@@ -55,8 +55,7 @@ loop::CamJudgement cam_judgement(const std::vector<loop::PlayedCam>& played) {
     // A law with passes in itself begins with what is not repeated.
     if (course.runs() && !course.lets_go && course.passes == 0)
       judgement.cycles.push_back(
-          {one.axis, course.law.master_length * cam.ideal.shown, cam.ideal.master_unit,
-           course.law.slave_length * cam.ideal.shown, cam.ideal.slave_unit});
+          {one.axis, course.law.master_length * cam.ideal.shown, cam.ideal.master_unit});
     // What is wrong at any speed is wrong with the table; else its master may have been too fast.
     constexpr double slow = 1e-3;
     CamRequest slowly;

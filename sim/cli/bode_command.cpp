@@ -8,6 +8,7 @@
 
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/progress.hpp"
+#include "sim/cli/verb.hpp"
 #include "sim/file.hpp"
 #include "sim/report/report.hpp"
 #include "sim/studies/bode/report.hpp"
@@ -175,36 +176,46 @@ int measure_bode(const BodeOptions& options) {
   return verdict.exit;
 }
 
-void add_bode(CLI::App& app, int& status) {
+namespace {
+
+void bode_options(CLI::App& bode, int& status) {
   const auto chosen = std::make_shared<BodeOptions>();
   auto& options = *chosen;
-  auto* bode = app.add_subcommand(
+  bode.add_option("scenario", options.scenario, "Scenario (.yaml)")->required();
+  bode.add_option("--wire", options.loop.wire, "Analogue reference, as knife.servo.reference");
+  bode.add_option("--speed", options.loop.speed, "Channel of the motor's speed, for the speed loop");
+  bode.add_option("--at", options.loop.at, "The scenario runs undisturbed until then [s]; else to its end");
+  bode.add_option("--from", options.loop.from, "Lowest frequency [Hz]; else 1, and lower to the crossover");
+  bode.add_option("--to", options.loop.to, "Highest frequency [Hz]; else half the sampling frequency");
+  bode.add_option("--points", options.loop.points, "Frequencies between them, evenly in decades")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  bode.add_option("--amplitude", options.loop.amplitude, "Of the sine [V]")->capture_default_str();
+  bode.add_option("--settle", options.loop.settle, "Before each measurement [s]")->capture_default_str();
+  bode.add_flag(
+      "--limit-cycle", options.limit_cycle,
+      "Sweep the amplitude too: from which gain on play, stiction or limits keep an oscillation up");
+  bode.add_option("--min-phase-margin", options.min_phase_margin, "Fails if the margin is less [deg]");
+  bode.add_option("--min-gain-margin", options.min_gain_margin, "Fails if the margin is less [dB]");
+  bode.add_option("--csv", options.csv, "Write the response; - prints it, the report to standard error");
+  bode.add_option("--png", options.png, "Draw gain and phase");
+  add_force(bode, options.force);
+  add_out(bode, options.out, "Directory for report.html, plot and table");
+  add_set(bode, options.set, "scenario");
+  bode.callback([chosen, &status] { status = measure_bode(*chosen); });
+}
+
+}  // namespace
+
+Verb bode_verb() {
+  return {
       "bode",
       "Frequency response of a closed position loop: a sine is added to the analogue reference.\n"
       "Exit status: 0 measured, 1 not stable, open, not to be trusted or below a limit, 2 bad input, 3 the\n"
-      "simulation failed");
-  bode->add_option("scenario", options.scenario, "Scenario (.yaml)")->required();
-  bode->add_option("--wire", options.loop.wire, "Analogue reference, as knife.servo.reference");
-  bode->add_option("--speed", options.loop.speed, "Channel of the motor's speed, for the speed loop");
-  bode->add_option("--at", options.loop.at, "The scenario runs undisturbed until then [s]; else to its end");
-  bode->add_option("--from", options.loop.from, "Lowest frequency [Hz]; else 1, and lower to the crossover");
-  bode->add_option("--to", options.loop.to, "Highest frequency [Hz]; else half the sampling frequency");
-  bode->add_option("--points", options.loop.points, "Frequencies between them, evenly in decades")
-      ->check(CLI::Range(2, 1000))
-      ->capture_default_str();
-  bode->add_option("--amplitude", options.loop.amplitude, "Of the sine [V]")->capture_default_str();
-  bode->add_option("--settle", options.loop.settle, "Before each measurement [s]")->capture_default_str();
-  bode->add_flag(
-      "--limit-cycle", options.limit_cycle,
-      "Sweep the amplitude too: from which gain on play, stiction or limits keep an oscillation up");
-  bode->add_option("--min-phase-margin", options.min_phase_margin, "Fails if the margin is less [deg]");
-  bode->add_option("--min-gain-margin", options.min_gain_margin, "Fails if the margin is less [dB]");
-  bode->add_option("--csv", options.csv, "Write the response; - prints it, the report to standard error");
-  bode->add_option("--png", options.png, "Draw gain and phase");
-  add_force(*bode, options.force);
-  add_out(*bode, options.out, "Directory for report.html, plot and table");
-  add_set(*bode, options.set, "scenario");
-  bode->callback([chosen, &status] { status = measure_bode(*chosen); });
+      "simulation failed",
+      {"drycut bode scenes/rotary_knife.yaml"},
+      {"scenario", {FileKind::scenario}},
+      bode_options};
 }
 
 }  // namespace drycut::sim::cli

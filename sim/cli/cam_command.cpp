@@ -8,6 +8,7 @@
 #include "sim/cams/study.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/table_values.hpp"
+#include "sim/cli/verb.hpp"
 #include "sim/file.hpp"
 #include "sim/record/own_file.hpp"
 #include "sim/report/report.hpp"
@@ -90,45 +91,55 @@ int validate_cam(const CamOptions& options) {
   return cams::is_unsound(study.findings, options.strict) ? check_failed : all_passed;
 }
 
-void add_cam(CLI::App& app, int& status) {
+namespace {
+
+void cam_options(CLI::App& cam, int& status) {
   const auto chosen = std::make_shared<CamOptions>();
   auto& options = *chosen;
-  auto* cam = app.add_subcommand(
-      "cam",
-      "Validate a cam table without a machine: its sectors or rows, errors, warnings and violated limits.\n"
-      "CAMMING4: positions in Um, speeds in 10^decpt Um per minute or second (unitvel), as maxvel.\n"
-      "LX3VP: positions in pulses, speeds in pulses per second.\n"
-      "MC_CamIn: positions in 0.1 um or 0.0001 deg, speeds in mm/s or deg/s.\n"
-      "Exit status: 0 sound (warnings are printed), 1 an error or a violated limit, 2 bad input");
   std::string headers;
   std::vector<std::string> devices;
   for (const auto& kind : cams::cam_kinds()) {
     headers += (headers.empty() ? "" : "; ") + std::string(kind.header);
     devices.emplace_back(kind.name);
   }
-  cam->add_option("table", options.table, "Cam table (.csv, .tab): " + headers)->required();
-  cam->add_option("--device", options.device, "Device that runs the cam; else by the table's header")
+  cam.add_option("table", options.table, "Cam table (.csv, .tab): " + headers)->required();
+  cam.add_option("--device", options.device, "Device that runs the cam; else by the table's header")
       ->check(CLI::IsMember(devices));
-  cam->add_option(
+  cam.add_option(
       "--scene", options.scene,
       "Scenario whose values the table takes for its ${name}; else that beside it, or above, which names it");
-  cam->add_option("--master-speed", options.duty.master_speed,
-                  "Speed of the master: results in time too, and what depends on it is judged");
-  cam->add_option("--max-velocity", options.duty.max_velocity, "Limit of the slave's velocity");
-  cam->add_option("--max-acceleration", options.duty.max_acceleration,
-                  "Limit of the slave's acceleration [Um/s2, pulses/s2, mm/s2 or deg/s2]");
-  cam->add_option("--at", options.at, "Sample at these master positions, in the table's unit, M1,M2,...")
+  cam.add_option("--master-speed", options.duty.master_speed,
+                 "Speed of the master: results in time too, and what depends on it is judged");
+  cam.add_option("--max-velocity", options.duty.max_velocity, "Limit of the slave's velocity");
+  cam.add_option("--max-acceleration", options.duty.max_acceleration,
+                 "Limit of the slave's acceleration [Um/s2, pulses/s2, mm/s2 or deg/s2]");
+  cam.add_option("--at", options.at, "Sample at these master positions, in the table's unit, M1,M2,...")
       ->delimiter(',')
       ->allow_extra_args(false);
-  cam->add_option("--csv", options.csv, "Write the samples; - prints them, the report to standard error");
-  cam->add_option("--png", options.png, "Draw position, velocity, acceleration and jerk");
-  cam->add_option("--table", options.rows, "Write the rows that the device makes (# ecamtbx)");
-  cam->add_option("--loops", options.loops, "Times round, for a cam that comes back to its beginning")
+  cam.add_option("--csv", options.csv, "Write the samples; - prints them, the report to standard error");
+  cam.add_option("--png", options.png, "Draw position, velocity, acceleration and jerk");
+  cam.add_option("--table", options.rows, "Write the rows that the device makes (# ecamtbx)");
+  cam.add_option("--loops", options.loops, "Times round, for a cam that comes back to its beginning")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  add_force(*cam, options.force);
-  cam->add_flag("--strict", options.strict, "Warnings and cautions fail as well");
-  cam->callback([chosen, &status] { status = validate_cam(*chosen); });
+  add_force(cam, options.force);
+  cam.add_flag("--strict", options.strict, "Warnings and cautions fail as well");
+  cam.callback([chosen, &status] { status = validate_cam(*chosen); });
+}
+
+}  // namespace
+
+Verb cam_verb() {
+  return {
+      "cam",
+      "Validate a cam table without a machine: its sectors or rows, errors, warnings and violated limits.\n"
+      "CAMMING4: positions in Um, speeds in 10^decpt Um per minute or second (unitvel), as maxvel.\n"
+      "LX3VP: positions in pulses, speeds in pulses per second.\n"
+      "MC_CamIn: positions in 0.1 um or 0.0001 deg, speeds in mm/s or deg/s.\n"
+      "Exit status: 0 sound (warnings are printed), 1 an error or a violated limit, 2 bad input",
+      {"drycut cam scenes/cams/rotary_knife.csv"},
+      {"table", {FileKind::cam_table}},
+      cam_options};
 }
 
 }  // namespace drycut::sim::cli

@@ -18,6 +18,7 @@
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/file_kinds.hpp"
 #include "sim/cli/table_values.hpp"
+#include "sim/cli/verb.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/report/part_meshes.hpp"
@@ -183,25 +184,39 @@ int check_files(const CheckOptions& options) {
   return options.strict && told ? check_failed : all_passed;
 }
 
-void add_check(CLI::App& app, int& status) {
+namespace {
+
+void check_options(CLI::App& check, int& status) {
   const auto chosen = std::make_shared<CheckOptions>();
   auto& options = *chosen;
-  auto* check = app.add_subcommand("check", "Parse and type-check files without running anything");
-  auto* files = check->add_option(
+  auto* files = check.add_option(
       "files", options.files,
       "Scenarios (.yaml), configurations (.cnf), QCL modules (.mod) after their .cnf, instruction "
       "lists (.il), Structured Text (.st), cam tables (.csv, .tab) and registers (.csv)");
-  check->add_flag("--expand", options.expand, "Print scenarios with every default in force");
-  add_set(*check, options.set, "scenarios");
-  add_annotate(*check, options.annotate);
-  check->add_flag("--strict", options.strict, "Warnings and notes fail it, too: exit status 1");
-  check->add_flag("--schema", options.schema, "Print the JSON Schema of scenarios, for editors")
+  check.add_flag("--expand", options.expand, "Print scenarios with every default in force");
+  add_set(check, options.set, "scenarios");
+  add_annotate(check, options.annotate);
+  check.add_flag("--strict", options.strict, "Warnings and notes fail it, too: exit status 1");
+  check.add_flag("--schema", options.schema, "Print the JSON Schema of scenarios, for editors")
       ->excludes(files);
-  check->callback([chosen, files, &status] {
+  check.callback([chosen, files, &status] {
     if (chosen->schema) return fmt::print("{}\n", studies::json_schema());
     if (chosen->files.empty()) throw CLI::RequiredError(files->get_name());
     status = check_files(*chosen);
   });
+}
+
+}  // namespace
+
+Verb check_verb() {
+  return {"check",
+          "Parse and type-check files without running anything",
+          {"drycut check my_line.yaml"},
+          {"files",
+           {FileKind::scenario, FileKind::comparison, FileKind::configuration, FileKind::module,
+            FileKind::instruction_list, FileKind::structured_text, FileKind::registers,
+            FileKind::program_table, FileKind::cam_table}},
+          check_options};
 }
 
 }  // namespace drycut::sim::cli

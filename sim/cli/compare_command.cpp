@@ -7,6 +7,7 @@
 
 #include "base/output_file.hpp"
 #include "sim/cli/arguments.hpp"
+#include "sim/cli/verb.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/studies/compare/alignment.hpp"
 #include "sim/studies/compare/report.hpp"
@@ -113,41 +114,51 @@ int compare_runs(const CompareOptions& options) {
   return status;
 }
 
-void add_compare(CLI::App& app, int& status) {
+namespace {
+
+void compare_options(CLI::App& compare, int& status) {
   const auto chosen = std::make_shared<CompareOptions>();
   auto& options = *chosen;
-  auto* compare = app.add_subcommand(
+  compare.add_option("runs", options.runs, "Folders that drycut run made, such as out/rotary_knife")
+      ->required();
+  add_out(compare, options.out, "Directory for the results");
+  compare.add_option(
+      "--from", options.from,
+      "Figures look from this time on, as \"4 s\"; else where the plot with the limits begins");
+  compare.add_flag("--fail-on-difference", options.fail_on_difference,
+                   "Exit status 1 where the runs are not the same");
+  compare
+      .add_option("--tolerance", options.tolerances,
+                  "NAME=0.01mm, or a part of the largest value: NAME=0.1%, NAME=1e-6; without NAME for all "
+                  "else, 1e-7 unless given. NAME: a channel, a value of events (length, knife.cut.length), a "
+                  "figure, a check's margin, time. Exit status 1 beyond it; parameters do not count; may be "
+                  "repeated")
+      ->allow_extra_args(false);
+  compare.add_option("--without", options.without, "Channels to leave out, as gbTour,Axis.*")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  compare.add_option(
+      "--align", options.align,
+      "Event or recorded channel, as cut or gbPlace: each time it happens, or changes, the runs "
+      "are laid over each other anew; else by the clock");
+  add_no_pictures(compare, options.pictures, "No plots and no report");
+  compare.callback([chosen, &status] { status = compare_runs(*chosen); });
+}
+
+}  // namespace
+
+Verb compare_verb() {
+  return {
       "compare",
       "Compare runs: checks, cuts and other events, channels, parameters in force; report.html, plots and\n"
       "comparison.csv.\n"
       "Exit status: 0 compared, 1 different and --fail-on-difference or --tolerance, 2 bad input, 3 a "
       "result\n"
-      "could not be written");
-  compare->add_option("runs", options.runs, "Folders that drycut run made, such as out/rotary_knife")
-      ->required();
-  add_out(*compare, options.out, "Directory for the results");
-  compare->add_option(
-      "--from", options.from,
-      "Figures look from this time on, as \"4 s\"; else where the plot with the limits begins");
-  compare->add_flag("--fail-on-difference", options.fail_on_difference,
-                    "Exit status 1 where the runs are not the same");
-  compare
-      ->add_option(
-          "--tolerance", options.tolerances,
-          "NAME=0.01mm, or a part of the largest value: NAME=0.1%, NAME=1e-6; without NAME for all "
-          "else, 1e-7 unless given. NAME: a channel, a value of events (length, knife.cut.length), a "
-          "figure, a check's margin, time. Exit status 1 beyond it; parameters do not count; may be "
-          "repeated")
-      ->allow_extra_args(false);
-  compare->add_option("--without", options.without, "Channels to leave out, as gbTour,Axis.*")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  compare->add_option(
-      "--align", options.align,
-      "Event or recorded channel, as cut or gbPlace: each time it happens, or changes, the runs "
-      "are laid over each other anew; else by the clock");
-  add_no_pictures(*compare, options.pictures, "No plots and no report");
-  compare->callback([chosen, &status] { status = compare_runs(*chosen); });
+      "could not be written",
+      {"drycut compare out/before out/after",
+       "drycut compare goldens/rotary_knife out/rotary_knife --tolerance length=0.01mm"},
+      {"runs", {FileKind::run_folder, FileKind::folder}},
+      compare_options};
 }
 
 }  // namespace drycut::sim::cli

@@ -12,6 +12,7 @@
 #include "base/plain_text.hpp"
 #include "base/text.hpp"
 #include "sim/cli/arguments.hpp"
+#include "sim/cli/verb.hpp"
 #include "sim/record/own_file.hpp"
 #include "sim/record/trace_files.hpp"
 #include "sim/studies/compare/run_folder.hpp"
@@ -94,22 +95,31 @@ int convert_run(const ConvertOptions& options) {
   return bad_input;
 }
 
-void add_convert(CLI::App& app, int& status) {
+namespace {
+
+void convert_options(CLI::App& convert, int& status) {
   const auto chosen = std::make_shared<ConvertOptions>();
   auto& options = *chosen;
-  auto* convert = app.add_subcommand(
-      "convert",
-      "Write what a run recorded into a file of another format: csv, two files for channels and events;\n"
-      "hdf5 for Python, Octave, MATLAB; mcap for Foxglove and PlotJuggler.\n"
-      "Exit status: 0 converted, 2 bad input, 3 the file could not be written");
-  convert->add_option("run", options.run, "Folder that drycut run made, or trace.csv or trace.h5 of one")
+  convert.add_option("run", options.run, "Folder that drycut run made, or trace.csv or trace.h5 of one")
       ->required();
-  convert->add_option("--to", options.to, "csv, hdf5, mcap")->required();
-  convert->add_option(
+  convert.add_option("--to", options.to, "csv, hdf5, mcap")->required();
+  convert.add_option(
       "--out", options.out,
       "The file, which is replaced if drycut wrote it; else the run's name with .csv, .h5, .mcap");
-  add_force(*convert, options.force);
-  convert->callback([chosen, &status] { status = convert_run(*chosen); });
+  add_force(convert, options.force);
+  convert.callback([chosen, &status] { status = convert_run(*chosen); });
+}
+
+}  // namespace
+
+Verb convert_verb() {
+  return {"convert",
+          "Write what a run recorded into a file of another format: csv, two files for channels and events;\n"
+          "hdf5 for Python, Octave, MATLAB; mcap for Foxglove and PlotJuggler.\n"
+          "Exit status: 0 converted, 2 bad input, 3 the file could not be written",
+          {"drycut convert out/rotary_knife --to hdf5"},
+          {"run", {FileKind::run_folder, FileKind::trace, FileKind::hdf5, FileKind::folder}},
+          convert_options};
 }
 
 }  // namespace drycut::sim::cli

@@ -13,6 +13,7 @@
 #include "base/units.hpp"
 #include "sim/cams/study.hpp"
 #include "sim/cli/arguments.hpp"
+#include "sim/cli/verb.hpp"
 #include "sim/file.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/report/report.hpp"
@@ -355,27 +356,19 @@ int design_cam(const DesignOptions& options) {
   return status;
 }
 
-void add_design(CLI::App& app, int& status) {
+namespace {
+
+void design_options(CLI::App& design, int& status) {
   const auto chosen = std::make_shared<DesignOptions>();
   auto& options = *chosen;
-  auto* design = app.add_subcommand(
-      "design",
-      "Design a cam from its job: the best one there is, and the nearest that a device can play, as its "
-      "table.\n"
-      "rotary_knife: --length of a piece, --circumference of the drum. flying_saw: --length; the carriage "
-      "goes\n"
-      "out and back. feed: --feed of the slave in a --length of the master, of which it rests for --sync.\n"
-      "Exit status: 0 designed, 1 drycut cam finds fault with the table, 2 bad input or a job that cannot "
-      "be\n"
-      "done, 3 a result could not be written");
-  design->add_option("job", options.kind, "rotary_knife, flying_saw or feed")->required();
+  design.add_option("job", options.kind, "rotary_knife, flying_saw or feed")->required();
   const auto add = [&](const char* name, std::string& target, const char* help) {
-    auto* option = design->add_option(name, target, help);
+    auto* option = design.add_option(name, target, help);
     if (!target.empty()) option->capture_default_str();
   };
   add("--length", options.length, "Way of the master for a piece, as \"800 mm\"");
   add("--circumference", options.circumference, "Way of the blade in a turn of the drum, as \"600 mm\"");
-  design->add_option("--blades", options.blades, "Blades on the drum")
+  design.add_option("--blades", options.blades, "Blades on the drum")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   add("--feed", options.feed, "Way of the slave for a piece");
@@ -391,7 +384,7 @@ void add_design(CLI::App& app, int& status) {
   add("--max-velocity", options.max_velocity, "Limit of the slave's velocity, as \"1.5 m/s\"");
   add("--max-acceleration", options.max_acceleration, "Limit of its acceleration, as \"20 m/s2\"");
   add("--max-travel", options.max_travel, "Limit of a flying saw's travel from end to end");
-  design->add_flag("--no-reverse", options.no_reverse, "Knife and feed: never backwards, a dwell instead");
+  design.add_flag("--no-reverse", options.no_reverse, "Knife and feed: never backwards, a dwell instead");
   add("--inertia", options.inertia, "For energy: what is moved, in kg at the blade, of a drum also in kg m2");
   add("--viscous", options.viscous, "For energy: friction with speed, N s/m, of a drum also N m s");
   add("--coulomb", options.coulomb, "For energy: friction without, N, of a drum also N m");
@@ -405,11 +398,29 @@ void add_design(CLI::App& app, int& status) {
       "the "
       "scene's, without one 0.01 mm");
   add("--slave-pulse", options.slave_pulse, "The same of the slave; unless given the scene's, else 0.02 mm");
-  design->add_option("--decpt", options.decpt, "CAMMING4: 1 Um is 10^-decpt mm; else the coarsest that fits")
+  design.add_option("--decpt", options.decpt, "CAMMING4: 1 Um is 10^-decpt mm; else the coarsest that fits")
       ->check(CLI::Range(0, 3));
-  add_force(*design, options.force);
-  add_out(*design, options.out, "Directory for a picture: position, velocity, acceleration, jerk");
-  design->callback([chosen, &status] { status = design_cam(*chosen); });
+  add_force(design, options.force);
+  add_out(design, options.out, "Directory for a picture: position, velocity, acceleration, jerk");
+  design.callback([chosen, &status] { status = design_cam(*chosen); });
+}
+
+}  // namespace
+
+Verb design_verb() {
+  return {
+      "design",
+      "Design a cam from its job: the best one there is, and the nearest that a device can play, as its "
+      "table.\n"
+      "rotary_knife: --length of a piece, --circumference of the drum. flying_saw: --length; the carriage "
+      "goes\n"
+      "out and back. feed: --feed of the slave in a --length of the master, of which it rests for --sync.\n"
+      "Exit status: 0 designed, 1 drycut cam finds fault with the table, 2 bad input or a job that cannot "
+      "be\n"
+      "done, 3 a result could not be written",
+      {R"(drycut design rotary_knife --length "800 mm" --circumference "600 mm")"},
+      {},
+      design_options};
 }
 
 }  // namespace drycut::sim::cli

@@ -93,54 +93,12 @@ FileKind kind_of_csv(const std::string& text) {
   return devices::lx3vp::is_register_file(text, ',') ? FileKind::registers : FileKind::cam_table;
 }
 
-struct Taken {
-  std::string_view command;
-  std::string_view option;
-  std::vector<FileKind> kinds;  ///< the first is what it is for
-};
-
-const std::vector<Taken>& taken() {
-  using enum FileKind;
-  static const std::vector<Taken> all = {
-      {"run", "scenarios", {scenario, comparison, session}},
-      {"live", "scenario", {scenario}},
-      {"replay", "session", {session, session_folder}},
-      {"check",
-       "files",
-       {scenario, comparison, configuration, module, instruction_list, structured_text, registers,
-        program_table, cam_table}},
-      {"cam", "table", {cam_table}},
-      {"tune", "scenarios", {scenario}},
-      {"sweep", "scenario", {scenario}},
-      {"envelope", "scenarios", {scenario}},
-      {"size", "scenario", {scenario}},
-      {"bode", "scenario", {scenario}},
-      {"compare", "runs", {run_folder, folder}},  // of a folder that is no run it says more
-      {"convert", "run", {run_folder, trace, hdf5, folder}},
-  };
-  return all;
-}
-
 /// "name a file in it: a.yaml, b.yaml"
 std::string remedy_for(const KindRow& found, const fs::path& file) {
   std::string names;
   if (found.kind == FileKind::folder)
     for (const auto& one : files_in(file, ".yaml")) names += (names.empty() ? "" : ", ") + one.string();
   return names.empty() ? std::string(found.use) : "name a file in it: " + names;
-}
-
-void refuse(const Taken& command, const std::vector<std::string>& files) {
-  Problems problems;
-  for (const auto& file : files) {
-    const auto* found = row_of(kind_of(file));
-    if (found == nullptr || std::ranges::find(command.kinds, found->kind) != command.kinds.end()) continue;
-    problems.push_back({"file.other-kind"_code, file, 1, 1,
-                        fmt::format("this is {}, not {}", found->what, name_of(command.kinds.front())),
-                        remedy_for(*found, file)});
-  }
-  if (problems.empty()) return;
-  print_problems(problems);
-  throw CLI::RuntimeError(bad_input);
 }
 
 }  // namespace
@@ -170,12 +128,18 @@ std::string_view name_of(FileKind kind) {
   return row == nullptr ? "" : row->what;
 }
 
-void refuse_wrong_kinds(CLI::App& program) {
-  for (const auto& row : taken()) {
-    auto* command = program.get_subcommand(std::string(row.command));
-    const auto* files = command->get_option(std::string(row.option));
-    command->parse_complete_callback([&row, files] { refuse(row, files->results()); });
+void refuse_wrong_kinds(const Takes& takes, const std::vector<std::string>& files) {
+  Problems problems;
+  for (const auto& file : files) {
+    const auto* found = row_of(kind_of(file));
+    if (found == nullptr || std::ranges::find(takes.kinds, found->kind) != takes.kinds.end()) continue;
+    problems.push_back({"file.other-kind"_code, file, 1, 1,
+                        fmt::format("this is {}, not {}", found->what, name_of(takes.kinds.front())),
+                        remedy_for(*found, file)});
   }
+  if (problems.empty()) return;
+  print_problems(problems);
+  throw CLI::RuntimeError(bad_input);
 }
 
 }  // namespace drycut::sim::cli

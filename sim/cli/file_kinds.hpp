@@ -1,10 +1,8 @@
 #pragma once
 #include <filesystem>
+#include <string>
 #include <string_view>
-
-namespace CLI {
-class App;
-}
+#include <vector>
 
 namespace drycut::sim::cli {
 
@@ -42,9 +40,13 @@ FileKind kind_of(const std::filesystem::path& file);
 /// "a QMOVE configuration"; "" = unknown.
 std::string_view name_of(FileKind kind);
 
-/// Has the commands refuse a file that is of a kind which they do not take, and say what it is and who takes
-/// it: all such files of a command line, before the command begins. Then CLI::RuntimeError is thrown with the
-/// exit status.
-void refuse_wrong_kinds(CLI::App& program);
+/// The files that a command takes.
+struct Takes {
+  std::string_view option = {};
+  std::vector<FileKind> kinds = {};  ///< the first is what it is for; none: any file
+};
+/// Refuses every file of another kind, says what it is and who takes it. Then CLI::RuntimeError is thrown
+/// with the exit status.
+void refuse_wrong_kinds(const Takes& takes, const std::vector<std::string>& files);
 
 }  // namespace drycut::sim::cli

@@ -12,6 +12,7 @@
 #include "sim/cli/commands.hpp"
 #include "sim/cli/file_kinds.hpp"
 #include "sim/cli/pages.hpp"
+#include "sim/cli/verb.hpp"
 
 namespace drycut::sim::cli {
 
@@ -189,48 +190,12 @@ std::string default_of(const CLI::Option& option) {
 }
 
 std::vector<std::string_view> examples_of(std::string_view command) {
-  struct Example {
-    std::string_view command;
-    std::string_view line;
-  };
-  static const std::vector<Example> all = {
-      {"", "drycut new my_line --from rotary_knife --controller plcopen"},
-      {"", "drycut check scenes/rotary_knife.yaml"},
-      {"", "drycut run scenes/rotary_knife.yaml"},
-      {"run", "drycut run scenes/rotary_knife.yaml"},
-      {"run", "drycut run scenes/*.yaml --jobs 2 --out results"},
-      {"run", "drycut run my_line.yaml --set variables.length=\"1 m\" --no-pictures"},
-      {"run", "drycut run scenes/*.yaml --cache .drycut-cache --annotate github"},
-      {"run", "  --summary out/summary.md"},
-      {"live", "drycut live scenes/rotary_knife_mc_emergency.yaml"},
-      {"live", "drycut live my_line.yaml --record out/today --pace 0.1"},
-      {"live", "drycut live --from out/today/1@12.5s"},
-      {"replay", "drycut replay out/today/1"},
-      {"replay", "drycut replay out/today/1 --to-scenario today.yaml"},
-      {"check", "drycut check my_line.yaml"},
-      {"cam", "drycut cam scenes/cams/rotary_knife.csv"},
-      {"design", R"(drycut design rotary_knife --length "800 mm" --circumference "600 mm")"},
-      {"tune", "drycut tune scenes/rotary_knife.yaml --minimise \"rms(AxisX.follerr)\""},
-      {"tune", "  --vary controller.qmove.set.AxisX.pgain=1..400 --jobs 2"},
-      {"sweep", "drycut sweep scenes/rotary_knife_mc_camin.yaml"},
-      {"sweep", "  --over \"plants.web.speed=20..120 m/min:11\" --jobs 2"},
-      {"envelope", "drycut envelope scenes/envelope/rotary_knife_camming4.yaml"},
-      {"envelope", "  --over \"variables.length=500..1400 mm:10\""},
-      {"envelope", "  --find-max \"variables.speed=20..200 m/min:1\""},
-      {"bode", "drycut bode scenes/rotary_knife.yaml"},
-      {"compare", "drycut compare out/before out/after"},
-      {"compare", "drycut compare goldens/rotary_knife out/rotary_knife --tolerance length=0.01mm"},
-      {"index", "drycut index out"},
-      {"convert", "drycut convert out/rotary_knife --to hdf5"},
-      {"new", "drycut new --list"},
-      {"new", "drycut new my_line --from rotary_knife --controller plcopen"},
-      {"devices", "drycut devices EPICPOS"},
-      {"plants", "drycut plants rotary_knife"},
-  };
-  std::vector<std::string_view> lines;
-  for (const auto& example : all)
-    if (example.command == command) lines.push_back(example.line);
-  return lines;
+  if (command.empty())
+    return {"drycut new my_line --from rotary_knife --controller plcopen",
+            "drycut check scenes/rotary_knife.yaml", "drycut run scenes/rotary_knife.yaml"};
+  const auto& all = verbs();
+  const auto verb = std::ranges::find(all, command, &Verb::name);
+  return verb == all.end() ? std::vector<std::string_view>() : verb->examples;
 }
 
 const std::vector<StatusText>& exit_statuses() {
@@ -252,21 +217,30 @@ std::string HelpPage::make_help(const CLI::App* app, std::string /*name*/,
 void add_commands(CLI::App& app, int& status) {
   app.formatter(std::make_shared<HelpPage>());
   app.require_subcommand(1);  // and what follows is no command more: drycut help run
-  for (const auto add :
-       {add_run,     add_live,     add_replay, add_check, add_cam,       add_design, add_tune,
-        add_sweep,   add_envelope, add_size,   add_bode,  add_compare,   add_index,  add_convert,
-        add_devices, add_plants,   add_new,    add_help,  add_reference, add_work})
-    add(app, status);
-  refuse_wrong_kinds(app);
+  for (const auto& verb : verbs()) {
+    auto* command = app.add_subcommand(std::string(verb.name), std::string(verb.help));
+    verb.options(*command, status);
+    if (verb.shown == Verb::Shown::no) command->group("");
+    if (verb.takes.kinds.empty()) continue;
+    const auto* files = command->get_option(std::string(verb.takes.option));
+    command->parse_complete_callback([&verb, files] { refuse_wrong_kinds(verb.takes, files->results()); });
+  }
 }
 
-void add_help(CLI::App& program, int& status) {
-  auto* command =
-      program.add_subcommand("help", "Say more of a command, or print a page of the documentation");
+namespace {
+
+void help_options(CLI::App& command, int& status) {
   auto topic = std::make_shared<std::string>();
-  command->add_option("topic", *topic, "A command, or a page; without one: what there is");
-  command->callback(
-      [&program, &status, topic] { status = topic->empty() ? tell_topics() : tell_topic(program, *topic); });
+  command.add_option("topic", *topic, "A command, or a page; without one: what there is");
+  command.callback([&command, &status, topic] {
+    status = topic->empty() ? tell_topics() : tell_topic(*command.get_parent(), *topic);
+  });
+}
+
+}  // namespace
+
+Verb help_verb() {
+  return {"help", "Say more of a command, or print a page of the documentation", {}, {}, help_options};
 }
 
 }  // namespace drycut::sim::cli

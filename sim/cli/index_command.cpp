@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/output_file.hpp"
+#include "sim/cli/verb.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/report/index.hpp"
 
@@ -46,15 +47,26 @@ int index_folder(const fs::path& folder) {
   return all_passed;
 }
 
-void add_index(CLI::App& app, int& status) {
+namespace {
+
+void index_options(CLI::App& index, int& status) {
   const auto folder = std::make_shared<fs::path>();
-  auto* index = app.add_subcommand("index",
-                                   "A page over all results in a folder: index.html, with pictures, verdicts "
-                                   "and links, sortable. drycut run\n"
-                                   "writes it too, into its --out.\n"
-                                   "Exit status: 0 written, 2 bad input, 3 it could not be written");
-  index->add_option("folder", *folder, "Folder of results, such as out")->required();
-  index->callback([folder, &status] { status = index_folder(*folder); });
+
+  index.add_option("folder", *folder, "Folder of results, such as out")->required();
+  index.callback([folder, &status] { status = index_folder(*folder); });
+}
+
+}  // namespace
+
+Verb index_verb() {
+  return {"index",
+          "A page over all results in a folder: index.html, with pictures, verdicts "
+          "and links, sortable. drycut run\n"
+          "writes it too, into its --out.\n"
+          "Exit status: 0 written, 2 bad input, 3 it could not be written",
+          {"drycut index out"},
+          {},
+          index_options};
 }
 
 }  // namespace drycut::sim::cli

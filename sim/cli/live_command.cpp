@@ -18,6 +18,7 @@
 #include "base/plain_text.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/run_command.hpp"
+#include "sim/cli/verb.hpp"
 #include "sim/file.hpp"
 #include "sim/live/line.hpp"
 #include "sim/live/modbus/server.hpp"
@@ -231,56 +232,76 @@ int replay_session(const ReplayOptions& options) {
   return all_passed;
 }
 
-void add_live(CLI::App& app, int& status) {
+namespace {
+
+void live_options(CLI::App& command, int& status) {
   const auto chosen = std::make_shared<LiveOptions>();
   auto& options = *chosen;
-  auto* command = app.add_subcommand(
-      "live",
-      "Run a scenario in real time with a page in the browser: the machine, the operator's panel, a scope\n"
-      "It runs until Ctrl-C: status 130. Status 3: not all of it could be recorded.");
-  command->add_option("scenario", options.scenario, "Scenario file (.yaml)");
-  command->add_option(
+  command.add_option("scenario", options.scenario, "Scenario file (.yaml)");
+  command.add_option(
       "--from", options.from,
       "In place of a scenario: a session's folder, to go on from its end, or from a time in it "
       "(out/today/1@12.5s)");
-  command->add_option("--port", options.port, "Of the page; 0 = any free one")
+  command.add_option("--port", options.port, "Of the page; 0 = any free one")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   command
-      ->add_option("--modbus", options.modbus,
-                   "Port where the controller answers Modbus TCP as the real one does; 0 = any free one")
+      .add_option("--modbus", options.modbus,
+                  "Port where the controller answers Modbus TCP as the real one does; 0 = any free one")
       ->check(CLI::Range(0, 65535));
-  command->add_option("--pace", options.pace, "Machine seconds a second, or max: as fast as it goes")
+  command.add_option("--pace", options.pace, "Machine seconds a second, or max: as fast as it goes")
       ->capture_default_str();
-  command->add_flag("--paused", options.paused, "Stand still at time zero");
+  command.add_flag("--paused", options.paused, "Stand still at time zero");
   command
-      ->add_option("--listen", options.listen,
-                   "Address to listen on; from another machine the page needs the token that is printed then")
+      .add_option("--listen", options.listen,
+                  "Address to listen on; from another machine the page needs the token that is printed then")
       ->capture_default_str();
   command
-      ->add_option("--opcua", options.opcua,
-                   "Port of an OPC UA server of the line, such as 4840; 0 = any free one (needs make opcua)")
+      .add_option("--opcua", options.opcua,
+                  "Port of an OPC UA server of the line, such as 4840; 0 = any free one (needs make opcua)")
       ->check(CLI::Range(0, 65535));
-  command->add_option(
+  command.add_option(
       "--record", options.record,
       "Folder for what came from outside, trace.csv and events.csv: drycut replay runs it again");
-  add_set(*command, options.set, "scenario");
-  command->callback([chosen, &status] { status = live_scenario(*chosen); });
+  add_set(command, options.set, "scenario");
+  command.callback([chosen, &status] { status = live_scenario(*chosen); });
 }
 
-void add_replay(CLI::App& app, int& status) {
+}  // namespace
+
+Verb live_verb() {
+  return {
+      "live",
+      "Run a scenario in real time with a page in the browser: the machine, the operator's panel, a scope\n"
+      "It runs until Ctrl-C: status 130. Status 3: not all of it could be recorded.",
+      {"drycut live scenes/rotary_knife_mc_emergency.yaml",
+       "drycut live my_line.yaml --record out/today --pace 0.1", "drycut live --from out/today/1@12.5s"},
+      {"scenario", {FileKind::scenario}},
+      live_options};
+}
+
+namespace {
+
+void replay_options(CLI::App& command, int& status) {
   const auto chosen = std::make_shared<ReplayOptions>();
   auto& options = *chosen;
-  auto* command = app.add_subcommand(
-      "replay",
-      "Run a recorded live session again, to the byte: traces, events, checks, pictures and a report");
-  command->add_option("session", options.session, "Folder of the session, or its session.yaml")->required();
-  add_out(*command, options.out, "Directory for the results");
-  add_no_pictures(*command, options.pictures, "No frames, plots or report");
-  command->add_option("--to-scenario", options.to_scenario,
-                      "Write it as a scenario with a timeline, and run nothing");
-  add_force(*command, options.force);
-  command->callback([chosen, &status] { status = replay_session(*chosen); });
+  command.add_option("session", options.session, "Folder of the session, or its session.yaml")->required();
+  add_out(command, options.out, "Directory for the results");
+  add_no_pictures(command, options.pictures, "No frames, plots or report");
+  command.add_option("--to-scenario", options.to_scenario,
+                     "Write it as a scenario with a timeline, and run nothing");
+  add_force(command, options.force);
+  command.callback([chosen, &status] { status = replay_session(*chosen); });
+}
+
+}  // namespace
+
+Verb replay_verb() {
+  return {"replay",
+          "Run a recorded live session again, to the byte: traces, events, checks, pictures and a report",
+          {"drycut replay out/today/1", "drycut replay out/today/1 --to-scenario today.yaml"},
+          {"session", {FileKind::session, FileKind::session_folder}},
+          replay_options};
 }
 
 }  // namespace drycut::sim::cli

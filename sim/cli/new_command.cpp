@@ -15,6 +15,7 @@
 #include "base/problem.hpp"
 #include "base/text.hpp"
 #include "sim/cli/commands.hpp"
+#include "sim/cli/verb.hpp"
 #include "sim/file.hpp"
 
 namespace drycut::sim::cli {
@@ -233,19 +234,27 @@ int make_line(const NewOptions& options) {
   return all_passed;
 }
 
-void add_new(CLI::App& app, int& status) {
+namespace {
+
+void new_options(CLI::App& command, int& status) {
   const auto chosen = std::make_shared<NewOptions>();
   auto& options = *chosen;
-  auto* command = app.add_subcommand(
-      "new",
-      "Make a folder with a line of one's own that runs at once: scenario, program, cam, files for CI");
-  command->add_option("folder", options.folder, "Folder to make; one that is there must be empty");
-  command->add_option(
-      "--from", options.machine,
-      "Machine, one of those that --list tells: rotary_knife, flying_saw, vertical_press ...");
-  command->add_option("--controller", options.controller, "Controller: qmove, lx3vp, plcopen");
-  command->add_flag("--list", options.list, "Tell which machines there are under which controllers");
-  command->callback([chosen, &status] { status = make_line(*chosen); });
+  command.add_option("folder", options.folder, "Folder to make; one that is there must be empty");
+  command.add_option("--from", options.machine,
+                     "Machine, one of those that --list tells: rotary_knife, flying_saw, vertical_press ...");
+  command.add_option("--controller", options.controller, "Controller: qmove, lx3vp, plcopen");
+  command.add_flag("--list", options.list, "Tell which machines there are under which controllers");
+  command.callback([chosen, &status] { status = make_line(*chosen); });
+}
+
+}  // namespace
+
+Verb new_verb() {
+  return {"new",
+          "Make a folder with a line of one's own that runs at once: scenario, program, cam, files for CI",
+          {"drycut new --list", "drycut new my_line --from rotary_knife --controller plcopen"},
+          {},
+          new_options};
 }
 
 }  // namespace drycut::sim::cli

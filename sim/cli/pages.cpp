@@ -10,6 +10,7 @@
 #include "base/problem.hpp"
 #include "base/text.hpp"
 #include "sim/cli/commands.hpp"
+#include "sim/cli/verb.hpp"
 
 namespace drycut::sim::cli {
 
@@ -42,21 +43,63 @@ int unknown(const PageKind& kind, const std::string& name, const std::vector<Pag
   return bad_input;
 }
 
-CLI::App* add_pages(CLI::App& app, int& status, const std::function<int(const std::string&, bool)>& list,
-                    const char* command, const char* help, const char* about_name) {
+void add_pages(CLI::App& pages, int& status, const std::function<int(const std::string&, bool)>& list,
+               const char* about_name) {
   struct Chosen {
     std::string name;
     bool json = false;
   };
   const auto chosen = std::make_shared<Chosen>();
-  auto* pages = app.add_subcommand(command, help);
-  pages->add_option("name", chosen->name, about_name);
-  pages->add_flag("--json", chosen->json, "As JSON");
-  pages->callback([chosen, &status, list] { status = list(chosen->name, chosen->json); });
-  return pages;
+  pages.add_option("name", chosen->name, about_name);
+  pages.add_flag("--json", chosen->json, "As JSON");
+  pages.callback([chosen, &status, list] { status = list(chosen->name, chosen->json); });
+}
+
+void devices_options(CLI::App& devices, int& status) {
+  add_pages(devices, status, list_devices, "Device type, such as CAMMING4");
+}
+
+void plants_options(CLI::App& plants, int& status) {
+  struct Instead {
+    bool motors = false;
+    bool form = false;
+    bool units = false;
+  };
+  const auto instead = std::make_shared<Instead>();
+  const auto list = [instead](const std::string& name, bool json) {
+    return instead->motors  ? list_motors(name, json)
+           : instead->form  ? print_motor_template(name)
+           : instead->units ? list_units(name, json)
+                            : list_plants(name, json);
+  };
+  add_pages(plants, status, list,
+            "Plant type, such as rotary_knife; with --motors a motor, such as HG-SR202");
+  auto* motors = plants.add_flag(
+      "--motors", instead->motors,
+      "Motors for servo: {model: ...} and induction_motor: {model: ...}, or the values of one with "
+      "their sources; those in ./catalogue too");
+  auto* form = plants.add_flag(
+      "--motor-template", instead->form,
+      "A file for a motor of your own, to fill in with five values of its data sheet and keep "
+      "in catalogue/; of induction motors: --motor-template induction_motor");
+  auto* units = plants.add_flag(
+      "--units", instead->units,
+      "The units that scenarios and catalogues understand, or those of one quantity, such as torque");
+  motors->excludes(form)->excludes(units);
+  form->excludes(units);
 }
 
 }  // namespace
+
+Verb devices_verb() {
+  return {
+      "devices", "List device types, or the table of one", {"drycut devices EPICPOS"}, {}, devices_options};
+}
+
+Verb plants_verb() {
+  return {
+      "plants", "List plant types, or the table of one", {"drycut plants rotary_knife"}, {}, plants_options};
+}
 
 int show(const PageKind& kind, const std::vector<Page>& pages, const std::string& name, bool json,
          const std::vector<Sheet>& overview) {
@@ -93,41 +136,6 @@ int list_devices(const std::string& name, bool json) {
 
 int list_plants(const std::string& name, bool json) {
   return show({"drycut plants", "plant type"}, plant_pages(), name, json);
-}
-
-void add_devices(CLI::App& app, int& status) {
-  add_pages(app, status, list_devices, "devices", "List device types, or the table of one",
-            "Device type, such as CAMMING4");
-}
-
-void add_plants(CLI::App& app, int& status) {
-  struct Instead {
-    bool motors = false;
-    bool form = false;
-    bool units = false;
-  };
-  const auto instead = std::make_shared<Instead>();
-  const auto list = [instead](const std::string& name, bool json) {
-    return instead->motors  ? list_motors(name, json)
-           : instead->form  ? print_motor_template(name)
-           : instead->units ? list_units(name, json)
-                            : list_plants(name, json);
-  };
-  auto* plants = add_pages(app, status, list, "plants", "List plant types, or the table of one",
-                           "Plant type, such as rotary_knife; with --motors a motor, such as HG-SR202");
-  auto* motors = plants->add_flag(
-      "--motors", instead->motors,
-      "Motors for servo: {model: ...} and induction_motor: {model: ...}, or the values of one with "
-      "their sources; those in ./catalogue too");
-  auto* form = plants->add_flag(
-      "--motor-template", instead->form,
-      "A file for a motor of your own, to fill in with five values of its data sheet and keep "
-      "in catalogue/; of induction motors: --motor-template induction_motor");
-  auto* units = plants->add_flag(
-      "--units", instead->units,
-      "The units that scenarios and catalogues understand, or those of one quantity, such as torque");
-  motors->excludes(form)->excludes(units);
-  form->excludes(units);
 }
 
 }  // namespace drycut::sim::cli

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "sim/interrupt.hpp"
+
 namespace drycut::sim::cli {
 
 ProgressBar::ProgressBar(bool wanted) : terminal_(wanted && isatty(STDERR_FILENO) != 0) {}
@@ -13,6 +15,7 @@ ProgressBar::ProgressBar(bool wanted) : terminal_(wanted && isatty(STDERR_FILENO
 ProgressBar::~ProgressBar() { clear(); }
 
 void ProgressBar::show(const std::string& label, double done) {
+  InterruptWatch::check_progress();
   constexpr int width = 30;
   if (!terminal_) return;
   const std::lock_guard lock(mutex_);

@@ -10,6 +10,7 @@
 #include "sim/cli/commands.hpp"
 #include "sim/cli/help.hpp"
 #include "sim/cli/pages.hpp"
+#include "sim/cli/verb.hpp"
 #include "sim/file.hpp"
 
 namespace drycut::sim::cli {
@@ -210,12 +211,20 @@ int write_reference(const CLI::App& program, const std::filesystem::path& folder
 
 }  // namespace
 
-void add_reference(CLI::App& app, int& status) {
-  auto* reference = app.add_subcommand("reference", "Write the manual page, completion and pages of tables");
+namespace {
+
+void reference_options(CLI::App& reference, int& status) {
   auto folder = std::make_shared<std::filesystem::path>();
-  reference->add_option("folder", *folder, "Directory for the files")->required();
-  reference->group("");  // for those who build it
-  reference->callback([&app, &status, folder] { status = write_reference(app, *folder); });
+  reference.add_option("folder", *folder, "Directory for the files")->required();
+  reference.callback(
+      [&reference, &status, folder] { status = write_reference(*reference.get_parent(), *folder); });
+}
+
+}  // namespace
+
+Verb reference_verb() {
+  return {"reference",    "Write the manual page, completion and pages of tables", {}, {}, reference_options,
+          Verb::Shown::no};  // for those who build it
 }
 
 }  // namespace drycut::sim::cli

@@ -18,6 +18,7 @@
 #include "sim/cli/run_cache.hpp"
 #include "sim/cli/run_work.hpp"
 #include "sim/cli/summary.hpp"
+#include "sim/cli/verb.hpp"
 #include "sim/file.hpp"
 #include "sim/interrupt.hpp"
 #include "sim/loop/controller_loader.hpp"
@@ -237,19 +238,6 @@ void check_summary(const RunOptions& options, Problems& problems) {
 
 }  // namespace
 
-void print_problems(const Problems& problems) {
-  for (const auto& problem : problems) fmt::print(stderr, "{}\n", printable(to_string(problem)));
-}
-
-int print_failure(const std::string& why) {
-  fmt::print(stderr, "{} [run.failed]\n", printable(why));
-  return simulation_failed;
-}
-
-void print_left_out(const std::vector<std::string>& lost) {
-  for (const auto& what : lost) fmt::print(stderr, "{} [run.left-out]\n", printable(what));
-}
-
 int run_scenarios(const RunOptions& options) {
   Problems problems;
   check_annotate(options.annotate, problems);
@@ -293,37 +281,49 @@ int run_scenarios(const RunOptions& options) {
   return InterruptWatch::come() == 0 ? status_of(work) : interrupted_status;
 }
 
-void add_run(CLI::App& app, int& status) {
+namespace {
+
+void run_options(CLI::App& run, int& status) {
   const auto chosen = std::make_shared<RunOptions>();
   auto& options = *chosen;
-  auto* run =
-      app.add_subcommand("run", "Run scenarios: traces, events, checks, pictures and a report for each");
-  run->add_option("scenarios", options.scenarios, "Scenario files (.yaml)")->required();
-  add_out(*run, options.out, "Directory for the results");
-  run->add_option("--jobs", options.jobs, "Scenarios run at the same time")
+  run.add_option("scenarios", options.scenarios, "Scenario files (.yaml)")->required();
+  add_out(run, options.out, "Directory for the results");
+  run.add_option("--jobs", options.jobs, "Scenarios run at the same time")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  run->add_option("--seed", options.seed, "Seed of every random source, in place of the scenarios'");
-  add_no_pictures(*run, options.pictures, "No frames, plots or report");
-  run->add_flag("--gltf", options.gltf, "The run as an animated glTF file (.glb) for any 3D viewer");
-  run->add_flag("--verify-step", options.verify_step,
-                "Run again at half scene.step and tell how far every check's margin moved");
-  run->add_flag("--strict", options.strict, "Warnings fail it, too: exit status 1");
-  run->add_option("--cache", options.cache,
-                  "Folder that keeps results: what would come out the same is taken from there, and not run");
-  run->add_option("--summary", options.summary,
-                  "Write a summary in Markdown, for pull requests: verdicts, failed checks, pictures");
-  run->add_option("--links", options.links,
-                  "With --summary: where the results will be found, https://host/page");
-  run->add_flag("--force", options.force, "With --summary: replace a file, too, that drycut did not write");
-  add_annotate(*run, options.annotate);
-  add_set(*run, options.set, "scenarios");
-  auto* quiet = run->add_flag_callback(
+  run.add_option("--seed", options.seed, "Seed of every random source, in place of the scenarios'");
+  add_no_pictures(run, options.pictures, "No frames, plots or report");
+  run.add_flag("--gltf", options.gltf, "The run as an animated glTF file (.glb) for any 3D viewer");
+  run.add_flag("--verify-step", options.verify_step,
+               "Run again at half scene.step and tell how far every check's margin moved");
+  run.add_flag("--strict", options.strict, "Warnings fail it, too: exit status 1");
+  run.add_option("--cache", options.cache,
+                 "Folder that keeps results: what would come out the same is taken from there, and not run");
+  run.add_option("--summary", options.summary,
+                 "Write a summary in Markdown, for pull requests: verdicts, failed checks, pictures");
+  run.add_option("--links", options.links,
+                 "With --summary: where the results will be found, https://host/page");
+  run.add_flag("--force", options.force, "With --summary: replace a file, too, that drycut did not write");
+  add_annotate(run, options.annotate);
+  add_set(run, options.set, "scenarios");
+  auto* quiet = run.add_flag_callback(
       "-q,--quiet", [&options] { options.say = Say::failures; }, "Tell only what failed");
-  run->add_flag_callback(
+  run.add_flag_callback(
          "-v,--verbose", [&options] { options.say = Say::more; }, "Tell how long it took, too")
       ->excludes(quiet);
-  run->callback([chosen, &status] { status = run_scenarios(*chosen); });
+  run.callback([chosen, &status] { status = run_scenarios(*chosen); });
+}
+
+}  // namespace
+
+Verb run_verb() {
+  return {"run",
+          "Run scenarios: traces, events, checks, pictures and a report for each",
+          {"drycut run scenes/rotary_knife.yaml", "drycut run scenes/*.yaml --jobs 2 --out results",
+           "drycut run my_line.yaml --set variables.length=\"1 m\" --no-pictures",
+           "drycut run scenes/*.yaml --cache .drycut-cache --annotate github", "  --summary out/summary.md"},
+          {"scenarios", {FileKind::scenario, FileKind::comparison, FileKind::session}},
+          run_options};
 }
 
 }  // namespace drycut::sim::cli

@@ -12,6 +12,7 @@
 #include "plants/plant.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/progress.hpp"
+#include "sim/cli/verb.hpp"
 #include "sim/file.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/studies/size/report.hpp"
@@ -134,7 +135,7 @@ int size_drive(const SizeOptions& options) {
                                             });
     bar.clear();
     const auto order = studies::ranked(plan.candidates, sized);
-    write_file(folder->add(size_file), studies::size_csv(plan.candidates, sized, order));
+    write_file(folder->add(size_file), studies::size_table(plan.candidates, sized, order).csv());
     const studies::SizeResult result{plan.question, plan.choices, plan.candidates,
                                      plan.corners,  sized,        order};
     const int status = finish(studies::write_size_report(result, *folder), store, *folder);
@@ -149,11 +150,58 @@ int size_drive(const SizeOptions& options) {
   }
 }
 
-void add_size(CLI::App& app, int& status) {
+namespace {
+
+void size_options(CLI::App& size, int& status) {
   const auto chosen = std::make_shared<SizeOptions>();
   auto& options = *chosen;
   options.out = "out/size";
-  auto* size = app.add_subcommand(
+
+  size.add_option("scenario", options.scenario, "Scenario file (.yaml)")->required();
+  size.add_option("--drive", options.drive,
+                  "The drive, such as knife.servo; may be left out where there is one");
+  size.add_option(
+          "--motors", options.motors,
+          "all, or names and patterns of the catalogue with commas between, such as \"HG-SR202,SGM7*\", "
+          "with the amplifier of each: drycut plants --motors")
+      ->capture_default_str();
+  size.add_option(
+      "--gears", options.gears,
+      "Ratios: 5..20:16, that many from end to end, or 5,7,10; it stays as it is if not given. So that the "
+      "controller "
+      "sees the same machine, the speed at 10 V or the electronic gear goes along, and the lines of a motor "
+      "encoder "
+      "that is counted; where what goes along is tied to a variable of the scenario: variables.gear=5,7,10");
+  size.add_option(
+      "--resistors", options.resistors,
+      "Brake resistors: \"100,200 W\", \"13 ohm 100 W, 6.7 ohm 3 kW\", none; it stays as it is if not "
+      "given");
+  size.add_option(
+      "--inertia-ratio", options.inertia_ratio,
+      "The largest of load over rotor inertia, such as 15; a candidate with more is ruled out without "
+      "a run. Without it what the motor's maker says in the catalogue, else 10, of servo motors; "
+      "off: any");
+  size.add_option(
+          "--at", options.at,
+          "A corner of what the line must do: \"variables.length=500 mm,plants.web.speed=120 m/min\"; may be "
+          "repeated; the scenario as it is if there is none")
+      ->allow_extra_args(false);
+  size.add_option(
+      "--corners", options.corners,
+      "envelope.csv of drycut envelope: a corner at each of its points, at the largest value found");
+  size.add_option("--jobs", options.jobs, "Runs at the same time; the result is the same")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  add_on(size, options.cluster);
+  add_set(size, options.set, "scenario");
+  add_out(size, options.out, "Directory for the results; runs in it are not run again");
+  size.callback([chosen, &status] { status = size_drive(*chosen); });
+}
+
+}  // namespace
+
+Verb size_verb() {
+  return {
       "size",
       "Find the motor, the gear and the brake resistor of a drive: every candidate runs in closed loop at "
       "the "
@@ -163,46 +211,11 @@ void add_size(CLI::App& app, int& status) {
       "fit, "
       "why and where, what is short by the least first. Reserve: the least distance to a rating over all "
       "corners.\n"
-      "What was interrupted goes on where it was. Status 1: none fits.");
-  size->add_option("scenario", options.scenario, "Scenario file (.yaml)")->required();
-  size->add_option("--drive", options.drive,
-                   "The drive, such as knife.servo; may be left out where there is one");
-  size->add_option(
-          "--motors", options.motors,
-          "all, or names and patterns of the catalogue with commas between, such as \"HG-SR202,SGM7*\", "
-          "with the amplifier of each: drycut plants --motors")
-      ->capture_default_str();
-  size->add_option(
-      "--gears", options.gears,
-      "Ratios: 5..20:16, that many from end to end, or 5,7,10; it stays as it is if not given. So that the "
-      "controller "
-      "sees the same machine, the speed at 10 V or the electronic gear goes along, and the lines of a motor "
-      "encoder "
-      "that is counted; where what goes along is tied to a variable of the scenario: variables.gear=5,7,10");
-  size->add_option(
-      "--resistors", options.resistors,
-      "Brake resistors: \"100,200 W\", \"13 ohm 100 W, 6.7 ohm 3 kW\", none; it stays as it is if not "
-      "given");
-  size->add_option(
-      "--inertia-ratio", options.inertia_ratio,
-      "The largest of load over rotor inertia, such as 15; a candidate with more is ruled out without "
-      "a run. Without it what the motor's maker says in the catalogue, else 10, of servo motors; "
-      "off: any");
-  size->add_option(
-          "--at", options.at,
-          "A corner of what the line must do: \"variables.length=500 mm,plants.web.speed=120 m/min\"; may be "
-          "repeated; the scenario as it is if there is none")
-      ->allow_extra_args(false);
-  size->add_option(
-      "--corners", options.corners,
-      "envelope.csv of drycut envelope: a corner at each of its points, at the largest value found");
-  size->add_option("--jobs", options.jobs, "Runs at the same time; the result is the same")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
-  add_on(*size, options.cluster);
-  add_set(*size, options.set, "scenario");
-  add_out(*size, options.out, "Directory for the results; runs in it are not run again");
-  size->callback([chosen, &status] { status = size_drive(*chosen); });
+      "What was interrupted goes on where it was. Status 1: none fits.",
+      {"drycut size scenes/rotary_knife_mc_camin.yaml --drive knife.servo",
+       "  --motors \"HG-SR*\" --gears 4..10:4 --jobs 2"},
+      {"scenario", {FileKind::scenario}},
+      size_options};
 }
 
 }  // namespace drycut::sim::cli

@@ -15,6 +15,7 @@
 #include "base/text.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/progress.hpp"
+#include "sim/cli/verb.hpp"
 #include "sim/file.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/studies/sweep/answer.hpp"
@@ -182,7 +183,7 @@ int sweep_scenario(const SweepOptions& options) {
     const auto rows = studies::sweep(question, axes, points, store,
                                      [&](std::size_t done, std::size_t of) { bar.show(done, of); });
     bar.clear();
-    write_file(folder->add(sweep_file), studies::sweep_csv(question, axes, points, rows));
+    write_file(folder->add(sweep_file), studies::sweep_table(question, axes, points, rows).csv());
     auto verdict = studies::write_sweep_report(question, axes, points, rows, *folder);
     print_limits(rows);
     std::vector<studies::PointRow::Verdict> verdicts;
@@ -346,7 +347,7 @@ int envelope_scenario(const EnvelopeOptions& options) {
       bar.clear();
       points += envelope.points.size();
     }
-    write_file(folder->add(envelope_file), studies::envelope_csv(envelopes));
+    write_file(folder->add(envelope_file), studies::envelope_table(envelopes).csv());
     auto verdict = studies::write_envelope_report(envelopes, *folder);
     std::vector<studies::PointRow::Verdict> looks;
     for (const auto& envelope : envelopes) {
@@ -362,60 +363,84 @@ int envelope_scenario(const EnvelopeOptions& options) {
   });
 }
 
-void add_sweep(CLI::App& app, int& status) {
+namespace {
+
+void sweep_options(CLI::App& sweep, int& status) {
   const auto chosen = std::make_shared<SweepOptions>();
   auto& options = *chosen;
   options.out = "out/sweep";
-  auto* sweep = app.add_subcommand("sweep",
-                                   "Run a scenario at every point of a grid or a sample: sweep.csv, a row a "
-                                   "point with its verdict, what gave "
-                                   "way first, and figures.\nWhat was interrupted goes on where it was.");
-  sweep->add_option("scenario", options.scenario, "Scenario file (.yaml)")->required();
+
+  sweep.add_option("scenario", options.scenario, "Scenario file (.yaml)")->required();
   add_study(
-      *sweep, options,
+      sweep, options,
       "PATH=A..B UNIT:N, N values from end to end (PATH=A..B UNIT:N:log, each so many times the one before), "
       "or PATH=1,2,5 UNIT; may be repeated");
-  sweep->get_option("--over")->required();
-  sweep->add_option(
+  sweep.get_option("--over")->required();
+  sweep.add_option(
       "--sample", options.sample,
       "sobol:N, N points that fill the ranges evenly, in place of the grid; ranges have no :N then");
-  sweep->callback([chosen, &status] { status = sweep_scenario(*chosen); });
+  sweep.callback([chosen, &status] { status = sweep_scenario(*chosen); });
 }
 
-void add_envelope(CLI::App& app, int& status) {
+}  // namespace
+
+Verb sweep_verb() {
+  return {"sweep",
+          "Run a scenario at every point of a grid or a sample: sweep.csv, a row a "
+          "point with its verdict, what gave "
+          "way first, and figures.\nWhat was interrupted goes on where it was.",
+          {"drycut sweep scenes/rotary_knife_mc_camin.yaml",
+           "  --over \"plants.web.speed=20..120 m/min:11\" --jobs 2"},
+          {"scenario", {FileKind::scenario}},
+          sweep_options};
+}
+
+namespace {
+
+void envelope_options(CLI::App& envelope, int& status) {
   const auto chosen = std::make_shared<EnvelopeOptions>();
   auto& options = *chosen;
   options.out = "out/envelope";
-  auto* envelope =
-      app.add_subcommand("envelope",
-                         "Find the largest value of a parameter up to which every check and "
-                         "every rating holds, or the smallest, and what fails beyond it: "
-                         "envelope.csv, a row a point.\nIt tries nine evenly spaced values, up "
-                         "to 33 where none of them holds, bisects between the last pass and the "
-                         "first fail down to the tolerance, then samples below the bound: no "
-                         "stretch stays untried that is wider than a sixteenth of the range, or "
-                         "than a quarter of its distance from the bound. What fails there ends a "
-                         "lower bound; that it holds again beyond is told.\n"
-                         "Several scenarios come into one report.");
-  envelope->add_option("scenarios", options.scenarios, "Scenario files (.yaml)")->required();
+
+  envelope.add_option("scenarios", options.scenarios, "Scenario files (.yaml)")->required();
   add_study(
-      *envelope, options,
+      envelope, options,
       "[NAME:]PATH=A..B UNIT:N[:log] or [NAME:]PATH=1,2,5 UNIT; may be repeated. One with NAME: is for the "
       "scenarios whose files' names begin so, in place of those without");
   envelope
-      ->add_option("--find-max", options.find_max,
-                   "[NAME:]PATH=LO..HI UNIT[:TOLERANCE], such as \"plants.web.speed=20..300 m/min:1\"; a "
-                   "two-hundredth of the range unless given; or --find-min")
+      .add_option("--find-max", options.find_max,
+                  "[NAME:]PATH=LO..HI UNIT[:TOLERANCE], such as \"plants.web.speed=20..300 m/min:1\"; a "
+                  "two-hundredth of the range unless given; or --find-min")
       ->allow_extra_args(false);
   envelope
-      ->add_option("--find-min", options.find_min,
-                   "The smallest value in place of the largest, such as the shortest piece: "
-                   "\"variables.length=300..1500 mm:5\"")
+      .add_option("--find-min", options.find_min,
+                  "The smallest value in place of the largest, such as the shortest piece: "
+                  "\"variables.length=300..1500 mm:5\"")
       ->allow_extra_args(false);
-  envelope->callback([chosen, &status] {
+  envelope.callback([chosen, &status] {
     if (chosen->find_max.empty() && chosen->find_min.empty()) throw CLI::RequiredError("--find-max");
     status = envelope_scenario(*chosen);
   });
+}
+
+}  // namespace
+
+Verb envelope_verb() {
+  return {
+      "envelope",
+      "Find the largest value of a parameter up to which every check and "
+      "every rating holds, or the smallest, and what fails beyond it: "
+      "envelope.csv, a row a point.\nIt tries nine evenly spaced values, up "
+      "to 33 where none of them holds, bisects between the last pass and the "
+      "first fail down to the tolerance, then samples below the bound: no "
+      "stretch stays untried that is wider than a sixteenth of the range, or "
+      "than a quarter of its distance from the bound. What fails there ends a "
+      "lower bound; that it holds again beyond is told.\n"
+      "Several scenarios come into one report.",
+      {"drycut envelope scenes/envelope/rotary_knife_camming4.yaml",
+       "  --over \"variables.length=500..1400 mm:10\"", "  --find-max \"variables.speed=20..200 m/min:1\""},
+      {"scenarios", {FileKind::scenario}},
+      envelope_options};
 }
 
 }  // namespace drycut::sim::cli

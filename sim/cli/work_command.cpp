@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "sim/cli/commands.hpp"
+#include "sim/cli/verb.hpp"
 #include "sim/studies/cluster/bundle.hpp"
 #include "sim/studies/sweep/store.hpp"
 #include "sim/studies/tune/trials.hpp"
@@ -61,18 +62,25 @@ int work(const std::filesystem::path& file) {
 
 }  // namespace
 
-void add_work(CLI::App& app, int& status) {
-  auto* command = app.add_subcommand("work", "Run what a study asks on standard input, for clusters");
+namespace {
+
+void work_options(CLI::App& command, int& status) {
   const auto file = std::make_shared<std::filesystem::path>();
-  command->add_option("bundle", *file, "What all of it has in common, as --on stages it")->required();
-  command->group("");  // for the engines of --on
-  command->callback([file, &status] {
+  command.add_option("bundle", *file, "What all of it has in common, as --on stages it")->required();
+  command.callback([file, &status] {
     try {
       status = work(*file);
     } catch (const std::exception& error) {
       status = print_failure(fmt::format("{}: {}", file->string(), error.what()));
     }
   });
+}
+
+}  // namespace
+
+Verb work_verb() {
+  return {"work",         "Run what a study asks on standard input, for clusters", {}, {}, work_options,
+          Verb::Shown::no};  // for the engines of --on
 }
 
 }  // namespace drycut::sim::cli

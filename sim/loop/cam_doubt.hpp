@@ -18,14 +18,12 @@ struct CamDoubt {
 struct CamCycle {
   std::string axis;
   double length = 0;  ///< of its master, in `unit`
-  std::string unit;   ///< "mm", "Um", "pulses"
-  double advance = 0;  ///< that its slave is further behind each cycle, in its own unit
-  std::string slave_unit;
+  std::string unit;   ///< "mm", "pulses"
 };
 
 struct CamJudgement {
   std::vector<CamDoubt> doubts;
-  std::vector<CamCycle> cycles;  ///< of cams that go on for ever
+  std::vector<CamCycle> cycles;  ///< of cams whose law goes on for ever as it is
 };
 
 /// Who judges cams: the rooms above the loop do.

@@ -79,9 +79,9 @@ class Causes : public record::Observer {
   std::vector<record::Alarm> errors_;    ///< the first of each source
   std::vector<record::Alarm> warnings_;  ///< the first of each source and text
   std::vector<record::Alarm> faults_;
-  std::vector<record::Alarm> sets_;    ///< what the timeline did to the machine
-  std::vector<record::Alarm> blows_;   ///< the first of each source: it ran into a stop, it sank
-  std::optional<record::Alarm> stop_;  ///< the first at an end stop
+  std::vector<record::Alarm> sets_;         ///< what the timeline did to the machine
+  std::vector<record::Alarm> blows_;        ///< the first of each source: it ran into a stop, it sank
+  std::optional<record::Alarm> stop_;       ///< the first at an end stop
   std::optional<record::Alarm> value_cut_;  ///< the first value that a program could not keep whole
   std::vector<Limit> limits_;
   std::vector<State> states_;

@@ -246,14 +246,16 @@ void Checks::evaluate(State& state, double at, const std::string& values) {
   ++state.count;
   const auto evaluation = state.expression->evaluate();
   state.last_at = at;
-  for (auto& operand : state.operands) {
-    operand.low = std::min(operand.low, *operand.number);
-    operand.high = std::max(operand.high, *operand.number);
-  }
   if (!evaluation.holds) {
     if (++state.failed == 1) state.first_failed_at = at;
     state.last_failed_at = at;
-    for (auto& operand : state.operands) operand.failed = *operand.number;
+    const bool never_held = state.failed == state.count;
+    for (auto& operand : state.operands) {
+      operand.failed = *operand.number;
+      if (!never_held) continue;
+      operand.low = std::min(operand.low, *operand.number);
+      operand.high = std::max(operand.high, *operand.number);
+    }
   }
   const bool eventually = state.check.kind == scenario::CheckRequest::Kind::eventually;
   if (eventually && evaluation.holds && !state.held_at) state.held_at = at;
@@ -272,7 +274,8 @@ void Checks::evaluate(State& state, double at, const std::string& values) {
   }
   if (decisive) {
     state.worst_at = at;
-    for (auto& operand : state.operands) operand.worst = *operand.number;
+    if (eventually)
+      for (auto& operand : state.operands) operand.worst = *operand.number;
     state.worst_values = values;
     if (state.check.kind == scenario::CheckRequest::Kind::always && !evaluation.margin && !state.windowed) {
       note_operands(state);
@@ -390,7 +393,8 @@ std::vector<record::CheckResult> Checks::results(Time end) {
 std::vector<std::pair<std::string, record::Tolerance>> Checks::stated() const {
   std::vector<std::pair<std::string, record::Tolerance>> stated;
   for (const auto& state : states_)
-    for (auto& tolerance : tolerances_of(state)) stated.emplace_back(state.check.name.text, std::move(tolerance));
+    for (auto& tolerance : tolerances_of(state))
+      stated.emplace_back(state.check.name.text, std::move(tolerance));
   return stated;
 }
 
@@ -492,9 +496,10 @@ record::CheckResult Checks::result(State& state, Time end) {
   constexpr double far_off = 0.001;
   constexpr double rounding = 1e-7;
   if (result.passed && result.used && *result.used > rounding && *result.used < far_off)
-    result.doubt = fmt::format("check '{}' would notice no less than {:.0f} times what came: does its limit "
-                               "have the right unit",
-                               check.name.text, 1 / *result.used);
+    result.doubt = fmt::format(
+        "check '{}' would notice no less than {:.0f} times what came: does its limit "
+        "have the right unit",
+        check.name.text, 1 / *result.used);
   if (!result.passed && check.kind != scenario::CheckRequest::Kind::all)
     result.failed_at = state.first_failed_at;
   if (!result.passed) result.throughout = throughout(state);

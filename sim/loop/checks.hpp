@@ -55,10 +55,10 @@ class Checks : public record::Observer {
     std::string name;
     const double* number;
     std::string unit;
-    double noted = 0;   ///< the number at an instant to tell of
-    double failed = 0;  ///< when it did not hold last
-    double worst = 0;   ///< at the instant that decides
-    double low = std::numeric_limits<double>::infinity();  ///< over all instants
+    double noted = 0;                                      ///< the number at an instant to tell of
+    double failed = 0;                                     ///< when it did not hold last
+    double worst = 0;                                      ///< eventually: at the nearest instant
+    double low = std::numeric_limits<double>::infinity();  ///< over all instants, as long as none held
     double high = -std::numeric_limits<double>::infinity();
   };
   /// What a check has come to so far.

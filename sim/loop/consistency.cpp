@@ -64,16 +64,47 @@ bool is_declared(const std::string& terminal) {
          is_digit(terminal[2]);
 }
 
+/// The name, "" = without one or a device's, that Structured Text by AT or a configuration has for a
+/// terminal; nothing where it does not have the terminal. All in small letters.
+std::optional<std::string> declared_name(const std::string& language, const std::string& words,
+                                         const std::string& terminal) {
+  if (language == "st") {
+    const auto at = words.find("%" + terminal);
+    if (at == std::string::npos || !is_word_at(words, at + 1, terminal.size())) return {};
+    return name_before(words, at);
+  }
+  const auto at = language == "cnf" ? words.find(terminal) : std::string::npos;
+  if (at == std::string::npos) return {};
+  const auto line = words.rfind('\n', at) + 1;
+  constexpr std::size_t of_terminal = 3;  // name, type, address; a device has more
+  const auto fields =
+      split_words(std::string_view(words).substr(line, words.find('\n', at) - line), {1, 1}, " \t");
+  return fields.size() > of_terminal ? "" : fields.front().text;
+}
+
+/// A program with its words, which are taken out of the text once.
+struct ReadProgram {
+  devices::ProgramText program;
+  std::string words;
+};
+std::vector<ReadProgram> read_programs(devices::Controller& controller) {
+  std::vector<ReadProgram> read;
+  for (auto& program : controller.programs()) {
+    auto words = program_words(program);
+    read.push_back({std::move(program), std::move(words)});
+  }
+  return read;
+}
+
 /// How sure it is to be that a program works or reads a terminal: what cannot be told counts as named, or a
 /// group of terminals does not name each of them.
 enum class Named { perhaps, surely };
 
-bool is_named(const std::string& terminal, const std::vector<devices::ProgramText>& programs, Named how) {
+bool is_named(const std::string& terminal, const std::vector<ReadProgram>& programs, Named how) {
   const auto wanted = lower(terminal);
   if (wanted.find('.') != std::string::npos && is_letter(wanted.front()) && !is_declared(wanted))
     return true;  // an axis'
-  for (const auto& program : programs) {
-    const auto words = program_words(program);
+  for (const auto& [program, words] : programs) {
     if (program.language == "il") {
       if (how == Named::surely) return times_named(words, wanted) > 0;
       // A group of four bits and more, K2Y0, holds others; so do blocks of outputs. A cam's block has the
@@ -83,34 +114,28 @@ bool is_named(const std::string& terminal, const std::vector<devices::ProgramTex
       if (words.find("zrst") != std::string::npos || times_named(words, wanted) > 0) return true;
       const auto number = parsed<int>(std::string_view(wanted).substr(1), 8);
       if (number && times_named(words, fmt::format("k{}", *number)) > 0) return true;
-    } else if (program.language == "st") {
+      continue;
+    }
+    if (program.language == "st")
       for (const auto* whole : {"%qb", "%qw", "%qd"})
         if (how == Named::perhaps && words.find(whole) != std::string::npos) return true;
-      const auto at = words.find("%" + wanted);
-      if (at == std::string::npos || !is_word_at(words, at + 1, wanted.size())) continue;
-      const auto name = name_before(words, at);
-      return name.empty() || times_named(words, name) > 1;
-    } else if (program.language == "cnf") {
-      const auto at = words.find(wanted);
-      if (at == std::string::npos) continue;
-      const auto line = words.rfind('\n', at) + 1;
-      const auto fields = split_words(std::string_view(words).substr(line, at - line), {1, 1}, " \t");
-      if (fields.size() > 3) return true;  // a device's
-      int times = 0;
-      for (const auto& other : programs)
-        if (other.language == "qcl") times += times_named(program_words(other), fields.front().text);
-      return times > 0;
-    }
+    const auto name = declared_name(program.language, words, wanted);
+    if (!name) continue;
+    if (name->empty()) return true;
+    if (program.language == "st") return times_named(words, *name) > 1;
+    int times = 0;
+    for (const auto& [other, other_words] : programs)
+      if (other.language == "qcl") times += times_named(other_words, *name);
+    return times > 0;
   }
   return false;
 }
 
 /// A counter of an LX3VP, which its program has to name.
-bool is_unread(const std::string& terminal, const std::vector<devices::ProgramText>& programs) {
-  return !programs.empty() &&
-         std::all_of(programs.begin(), programs.end(), [&](const devices::ProgramText& program) {
-           return program.language == "il" && times_named(program_words(program), lower(terminal)) == 0;
-         });
+bool is_unread(const std::string& terminal, const std::vector<ReadProgram>& programs) {
+  return !programs.empty() && std::all_of(programs.begin(), programs.end(), [&](const ReadProgram& read) {
+    return read.program.language == "il" && times_named(read.words, lower(terminal)) == 0;
+  });
 }
 
 std::optional<plants::PlugScale> scale_of(const std::vector<NamedPlant>& plants, const std::string& plug) {
@@ -237,64 +262,25 @@ std::vector<Finding> different_units(const scenario::Scenario& scenario, devices
   return found;
 }
 
-namespace {
-
-/// Axes that may be masters, with the lengths of their turns [mm], of those that turn [deg].
-std::vector<std::pair<std::string, double>> modulo_masters(devices::Controller& controller) {
-  std::vector<std::pair<std::string, double>> masters;
-  constexpr std::string_view role = ".cam_gear.is_master";
-  constexpr double per_millimetre = 10000;  // the kernel counts 0.1 um
-  for (const auto& name : controller.names()) {
-    if (!name.ends_with(role)) continue;
-    const auto axis = name.substr(0, name.size() - role.size());
-    const auto is_master = controller.find(name);
-    const auto modulo = controller.find(axis + ".modulo");
-    if (is_master && is_master->read() != 0 && modulo && modulo->read() > 0)
-      masters.emplace_back(axis, modulo->read() / per_millimetre);
-  }
-  return masters;
-}
-
-}  // namespace
-
-std::vector<Finding> strange_cycles(const scenario::Scenario& scenario, devices::Controller& controller,
-                                    const std::vector<NamedPlant>& plants,
-                                    const std::vector<CamCycle>& cycles,
+std::vector<Finding> strange_cycles(const std::vector<CamCycle>& cycles,
                                     const std::vector<std::pair<std::string, record::Tolerance>>& limits) {
   constexpr double tolerance = 0.02;
-  constexpr double millimetres = 1000;
   const auto is_whole = [&](double ratio) {
     return std::round(ratio) >= 1 && std::abs(ratio - std::round(ratio)) <= tolerance * ratio;
   };
-  const auto units = machine_units(scenario, controller, plants);
   std::vector<Finding> found;
-  for (const auto& cycle : cycles) {
-    for (const auto& [axis, modulo] : modulo_masters(controller))
-      if (cycle.unit == "mm" && axis != cycle.axis && !is_whole(cycle.length / modulo) &&
-          !is_whole(modulo / cycle.length))
-        found.emplace_back(
-            "loop.cycle-no-modulo"_code,
-            fmt::format("a cycle of the cam of {} is {:.4g} mm, and the modulo of its master {} is "
-                        "{:.4g} mm",
-                        cycle.axis, cycle.length, axis, modulo));
-    double length = cycle.unit == "mm" ? cycle.length : 0;
-    // A device's first counter is its own, the second one its master's.
-    for (std::size_t i = 1; i < units.size() && cycle.unit == "Um"; ++i)
-      if (units[i].counted.axis == cycle.axis && units[i - 1].counted.axis == cycle.axis)
-        length = cycle.length * units[i].length * millimetres;
-    if (length <= 0) continue;
+  for (const auto& cycle : cycles)
     for (const auto& [check, limit] : limits) {
       const double wanted = (limit.low + limit.high) / 2;
-      if (limit.value != "length" || !std::isfinite(wanted) || wanted <= 0 || is_whole(length / wanted) ||
-          is_whole(wanted / length))
+      if (cycle.unit != "mm" || cycle.length <= 0 || limit.value != "length" || !std::isfinite(wanted) ||
+          wanted <= 0 || is_whole(cycle.length / wanted) || is_whole(wanted / cycle.length))
         continue;
       found.emplace_back(
           "loop.cycle-no-piece"_code,
           fmt::format("a cycle of the cam of {} is {:.4g} mm of material, and check '{}' wants "
                       "{:.4g} mm",
-                      cycle.axis, length, check, wanted));
+                      cycle.axis, cycle.length, check, wanted));
     }
-  }
   return found;
 }
 
@@ -326,22 +312,10 @@ std::string spelt(const std::string& name, const devices::ProgramText& program) 
 }
 
 /// The name that a program has for a terminal, of the configuration, of AT; "" = none.
-std::string name_in_program(const std::string& terminal, const std::vector<devices::ProgramText>& programs) {
-  const auto wanted = lower(terminal);
-  for (const auto& program : programs) {
-    const auto words = program_words(program);
-    if (program.language == "st") {
-      const auto at = words.find("%" + wanted);
-      if (at != std::string::npos && is_word_at(words, at + 1, wanted.size()))
-        return spelt(name_before(words, at), program);
-    } else if (program.language == "cnf") {
-      for (const auto line : split_lines(words)) {
-        const auto fields = split_words(line, {1, 1}, " \t");
-        if (fields.size() > 1 && fields.size() < 4 && fields.back().text == wanted)
-          return spelt(fields[0].text, program);
-      }
-    }
-  }
+std::string name_in_program(const std::string& terminal, const std::vector<ReadProgram>& programs) {
+  for (const auto& [program, words] : programs)
+    if (const auto name = declared_name(program.language, words, lower(terminal)); name && !name->empty())
+      return spelt(*name, program);
   return "";
 }
 
@@ -380,15 +354,15 @@ std::vector<Finding> always_enabled(const scenario::Scenario& scenario, devices:
 }  // namespace
 
 std::vector<Finding> crossed_wires(const scenario::Scenario& scenario, devices::Controller& controller) {
-  struct Named {
+  struct NamedWire {
     std::string terminal;
     std::string plug;
     std::string name;
     std::vector<std::string> words;  ///< of the plug: head, plunge
     devices::Kind kind;
   };
-  std::vector<Named> named;
-  const auto programs = controller.programs();
+  std::vector<NamedWire> named;
+  const auto programs = read_programs(controller);
   for (const auto& wire : scenario.wiring) {
     const auto found = controller.terminal(wire.terminal.text);
     const auto* address = std::get_if<devices::Address>(&found);
@@ -403,7 +377,7 @@ std::vector<Finding> crossed_wires(const scenario::Scenario& scenario, devices::
     named.push_back({terminal, wire.plug.text, std::move(name), std::move(words), address->kind});
   }
   // "headdown" has "down", "ifup" ends with "up": a word that both plugs have tells nothing.
-  const auto has = [](const Named& one, const Named& of, const Named& not_of) {
+  const auto has = [](const NamedWire& one, const NamedWire& of, const NamedWire& not_of) {
     constexpr std::size_t telling = 4;  // letters
     return std::any_of(of.words.begin(), of.words.end(), [&](const std::string& word) {
       const bool common = std::find(not_of.words.begin(), not_of.words.end(), word) != not_of.words.end();
@@ -461,7 +435,7 @@ std::vector<Finding> without_zero_pulse(const scenario::Scenario& scenario, devi
 
 std::vector<Finding> doubtful_wires(const scenario::Scenario& scenario, devices::Controller& controller) {
   std::vector<Finding> notes;
-  const auto programs = controller.programs();
+  const auto programs = read_programs(controller);
   std::map<std::string, std::string> counters;
   for (const auto& wire : scenario.wiring) {
     const auto found = controller.terminal(wire.terminal.text);
@@ -495,13 +469,12 @@ bool presets(devices::Controller& controller, const std::string& axis) {
 }
 
 std::string switched_on_by(devices::Controller& controller, const std::string& terminal) {
-  const auto programs = controller.programs();
+  const auto programs = read_programs(controller);
   const auto given = name_in_program(terminal, programs);
   std::vector<std::string> places;
-  for (const auto& program : programs) {
+  for (const auto& [program, words] : programs) {
     const auto name = lower(program.language == "il" ? terminal : given);
     if (name.empty() || program.language == "cnf") continue;
-    const auto words = program_words(program);
     int number = 0;
     for (const auto line : split_lines(words)) {
       ++number;
@@ -524,7 +497,7 @@ std::string switched_on_by(devices::Controller& controller, const std::string& t
 }
 
 bool names_terminal(devices::Controller& controller, const std::string& terminal) {
-  return is_named(terminal, controller.programs(), Named::surely);
+  return is_named(terminal, read_programs(controller), Named::surely);
 }
 
 OpenTerminals open_terminals(devices::Controller& controller, const std::vector<std::string>& unwired,
@@ -536,7 +509,7 @@ OpenTerminals open_terminals(devices::Controller& controller, const std::vector<
       return std::holds_alternative<plants::PulsePort*>(port.plug);
     });
   });
-  const auto programs = controller.programs();
+  const auto programs = read_programs(controller);
   for (const auto& name : unwired) {
     const auto found = controller.terminal(name);
     const auto* address = std::get_if<devices::Address>(&found);

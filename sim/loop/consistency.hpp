@@ -63,10 +63,8 @@ std::vector<Finding> different_units(const scenario::Scenario& scenario, devices
                                      const std::vector<NamedPlant>& plants);
 
 /// Cams of which no whole number of cycles makes the piece that a check wants, nor the other way round, a
-/// phrase each: "a cycle of the cam of AxisX is 100 mm of material, and check 'cut length' wants 1000 mm".
-std::vector<Finding> strange_cycles(const scenario::Scenario& scenario, devices::Controller& controller,
-                                    const std::vector<NamedPlant>& plants,
-                                    const std::vector<CamCycle>& cycles,
+/// phrase each: "a cycle of the cam of Saw is 660 mm of material, and check 'cut length' wants 1000 mm".
+std::vector<Finding> strange_cycles(const std::vector<CamCycle>& cycles,
                                     const std::vector<std::pair<std::string, record::Tolerance>>& limits);
 
 /// Terminals that nothing is wired to, a phrase each: "Y1 gives pulses, and nothing is wired to it".

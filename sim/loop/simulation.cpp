@@ -419,12 +419,12 @@ std::string Simulation::unpressed() const {
     std::string waits;
     for (const auto& entry : scenario_.timeline)
       for (const auto& [target, value] : entry.set)
-        if (entry.when && value.number != 0 && target.text == "panel." + name)
+        if (entry.when && value.number != 0 && target.text == "panel." + name) {
+          const auto due = timeline_->due(entry.place.line);
           waits = fmt::format(": '{}' of line {} {}", entry.when->text, entry.place.line,
-                              timeline_->due(entry.place.line)
-                                  ? fmt::format("came true and is due at {} s",
-                                                record::seconds_text(*timeline_->due(entry.place.line)))
+                              due ? fmt::format("came true and is due at {} s", record::seconds_text(*due))
                                   : "never came true");
+        }
     unpressed += fmt::format("{}nothing pressed {} (panel.{} was never on{})", unpressed.empty() ? "" : ", ",
                              name, name, waits);
   }
@@ -464,7 +464,7 @@ Causes::Known Simulation::known(const CamJudgement& cams) {
   if (controller_) {
     for (auto& units : different_units(scenario_, *controller_, named_))
       known.contradictions.push_back(std::move(units));
-    for (auto& cycle : strange_cycles(scenario_, *controller_, named_, cams.cycles, checks_->stated()))
+    for (auto& cycle : strange_cycles(cams.cycles, checks_->stated()))
       known.contradictions.push_back(std::move(cycle));
   }
   for (const auto& found : directions_ ? directions_->found() : std::vector<Directions::Found>())

@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <type_traits>
@@ -11,6 +12,9 @@ namespace drycut::sim::record {
 using Json = nlohmann::ordered_json;
 
 template <typename T>
+inline constexpr bool is_path = std::is_same_v<T, std::filesystem::path>;
+
+template <typename T>
 Json json_of(const T& value);
 
 /// Writes the members of a visited value.
@@ -18,6 +22,7 @@ struct JsonWriter {
   Json json = Json::object();
   template <typename T>
   void operator()(const char* key, const T& member) {
+    if constexpr (is_cloud<T>) return;
     if constexpr (is_optional<T>)
       if constexpr (Visited<typename T::value_type>)
         if (!member) return;
@@ -43,6 +48,8 @@ Json json_of(const T& value) {
     auto object = Json::object();
     for (const auto& [key, item] : value) object[key] = json_of(item);
     return object;
+  } else if constexpr (is_path<T>) {
+    return value.string();
   } else if constexpr (is_time<T>) {
     return seconds(value);
   } else if constexpr (std::is_enum_v<T>) {
@@ -83,6 +90,8 @@ void take_json(const Json& json, T& value) {
   } else if constexpr (is_map<T>) {
     value.clear();
     for (const auto& [key, item] : json.get_ref<const Json::object_t&>()) take_json(item, value[key]);
+  } else if constexpr (is_path<T>) {
+    value = json.get<std::string>();
   } else if constexpr (is_time<T>) {
     value = std::llround(json.get<double>() * static_cast<double>(second));
   } else if constexpr (std::is_enum_v<T>) {

@@ -70,7 +70,7 @@ struct DriveVerdict {
   /// from one run: friction and load stay, the rest of the torque goes with the speed. 1 where all are; 0
   /// where friction and load alone are too much.
   double advised = 1;
-  // Of every record instant or cycle, for pictures and for sizing; not visited.
+  // Of every record instant or cycle, for pictures and for sizing.
   std::vector<std::pair<double, double>> cycle_points;  ///< mean size of speed [rad/s], rms torque [N m]
   std::vector<std::pair<double, double>> points;        ///< speed [rad/s] and torque [N m] at record instants
 
@@ -95,6 +95,8 @@ struct DriveVerdict {
     archive("warnings", self.warnings);
     archive("advised", self.advised);
     archive("ratings", self.ratings);
+    archive("cycle_points", self.cycle_points);
+    archive("points", self.points);
   }
 };
 

@@ -44,6 +44,10 @@ inline constexpr bool is_map = false;
 template <typename T>
 inline constexpr bool is_map<std::map<std::string, T>> = true;
 
+/// Points by the thousand, for pictures: Python has them, files do not.
+template <typename T>
+inline constexpr bool is_cloud = std::is_same_v<T, std::vector<std::pair<double, double>>>;
+
 /// A list of visited values.
 template <typename T>
 inline constexpr bool is_table = false;

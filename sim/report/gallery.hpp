@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "renders/plots.hpp"
@@ -15,10 +16,15 @@ namespace drycut::sim::report {
 
 // From what was recorded to what is shown: fills the structs of renders/.
 
+/// What becomes of panels that are 0 all the time.
+enum class Flat { left_out, kept };
 /// The plots that the scenario asks for; where it asks for none, one with the recorded channels, a panel a
 /// unit. Those of motors need the drives of the machine.
 std::vector<renders::Plot> plots_of(const scenario::Scenario& scenario, const record::Recording& recording,
-                                    const MachineFacts& machine = {});
+                                    const MachineFacts& machine = {}, Flat flat = Flat::left_out);
+/// Takes panels out that are 0 all the time in all of these plots, which have the same ones, but for the last
+/// one, and names them in the first plot's title.
+void leave_out_flat(std::span<renders::Plot> alike);
 /// What the spectra that the scenario asks for tell, a line each.
 std::vector<std::string> findings_of(const scenario::Scenario& scenario, const record::Recording& recording,
                                      const MachineFacts& machine);

@@ -129,21 +129,6 @@ bool is_flat_zero(const renders::Panel& panel) {
          std::all_of(panel.curves.begin(), panel.curves.end(), silent);
 }
 
-/// Takes panels out that are 0 all the time, but for the last one, and names them in the plot's title.
-void leave_out_flat(renders::Plot& plot) {
-  std::string names;
-  for (std::size_t i = 0; i < plot.panels.size() && plot.panels.size() > 1;) {
-    const auto& panel = plot.panels[i];
-    if (!is_flat_zero(panel)) {
-      ++i;
-      continue;
-    }
-    for (const auto& curve : panel.curves) names += (names.empty() ? "" : ", ") + curve.label;
-    plot.panels.erase(plot.panels.begin() + static_cast<std::ptrdiff_t>(i));
-  }
-  if (!names.empty()) plot.title += fmt::format(" (0 all the time: {})", names);
-}
-
 renders::Panel panel_of(const record::Recording& recording, const scenario::PlotRequest& plot,
                         const scenario::PlotRequest::Panel& request) {
   renders::Panel panel;
@@ -247,7 +232,7 @@ renders::Plot overview(const record::Recording& recording) {
     found->curves.push_back(channel_curve(recording, column, all));
   }
   plot.marks = marks_of(recording, {});
-  leave_out_flat(plot);
+  leave_out_flat({&plot, 1});
   return plot;
 }
 
@@ -266,8 +251,27 @@ std::string axis_label(const std::string& title, const std::vector<std::string>&
   return fmt::format("{}{}[{}]", title, title.empty() ? "" : " ", text);
 }
 
+void leave_out_flat(std::span<renders::Plot> alike) {
+  std::string names;
+  auto& first = alike.front();
+  for (std::size_t i = 0; i < first.panels.size() && first.panels.size() > 1;) {
+    const auto tells = [i](const renders::Plot& plot) {
+      return !plot.panels[i].curves.empty() && !is_flat_zero(plot.panels[i]);
+    };
+    const auto flat =
+        std::ranges::find_if(alike, [i](const auto& plot) { return is_flat_zero(plot.panels[i]); });
+    if (flat == alike.end() || std::ranges::any_of(alike, tells)) {
+      ++i;
+      continue;
+    }
+    for (const auto& curve : flat->panels[i].curves) names += (names.empty() ? "" : ", ") + curve.label;
+    for (auto& plot : alike) plot.panels.erase(plot.panels.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  if (!names.empty()) first.title += fmt::format(" (0 all the time: {})", names);
+}
+
 std::vector<renders::Plot> plots_of(const scenario::Scenario& scenario, const record::Recording& recording,
-                                    const MachineFacts& machine) {
+                                    const MachineFacts& machine, Flat flat) {
   std::vector<renders::Plot> plots;
   for (const auto& request : scenario.pictures.plots) {
     renders::Plot plot;
@@ -280,7 +284,7 @@ std::vector<renders::Plot> plots_of(const scenario::Scenario& scenario, const re
     } else {
       if (!request.against_number) plot.marks = marks_of(recording, request);
       for (const auto& panel : request.panels) plot.panels.push_back(panel_of(recording, request, panel));
-      leave_out_flat(plot);
+      if (flat == Flat::left_out) leave_out_flat({&plot, 1});
     }
     plots.push_back(std::move(plot));
   }

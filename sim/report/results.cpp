@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "base/plain_text.hpp"
 #include "base/text.hpp"
 #include "sim/file.hpp"
-#include "sim/record/json.hpp"
 #include "sim/studies/half_step.hpp"
 
 namespace drycut::sim::report {
@@ -105,12 +105,31 @@ std::string path_from_here(const std::filesystem::path& file) {
 }
 
 std::string margin_text(const record::CheckResult& check) {
-  if (!check.margin) return "";
-  const auto unit = check.unit.empty() ? "" : " " + check.unit;
-  const double room = record::without_noise(std::abs(*check.margin));
-  auto text = fmt::format("{:.4g}{} {}", room, unit, *check.margin >= 0 ? "left" : "too far");
-  if (check.at) text += fmt::format(", at {:.4f} s", *check.at);
-  return text;
+  std::vector<std::string> parts;
+  if (check.margin) {
+    const auto unit = check.unit.empty() ? "" : " " + check.unit;
+    const double room = record::without_noise(std::abs(*check.margin));
+    const auto at = check.at ? fmt::format(", at {:.4f} s", *check.at) : "";
+    parts.push_back(fmt::format("{:.4g}{} {}{}", room, unit, *check.margin >= 0 ? "left" : "too far", at));
+  }
+  auto more = told_of(record::json_of(check), record::CheckResult::told());
+  if (!more.empty()) parts.push_back(std::move(more));
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+std::string told_of(const record::Json& visited, const std::vector<std::string_view>& keys) {
+  std::vector<std::string> parts;
+  for (const auto key : keys) {
+    const auto& value = visited.at(std::string(key));
+    if (value.is_null() || value == false || value == "") continue;
+    std::string name(key);
+    std::ranges::replace(name, '_', ' ');
+    const auto text = value.is_string()         ? value.get<std::string>()
+                      : value.is_number_float() ? fmt::format("{:.6g}", value.get<double>())
+                                                : record::json_text(value);
+    parts.push_back(value == true ? name : name + " " + text);
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 record::CheckResult no_warnings(const record::Outcome& outcome) {

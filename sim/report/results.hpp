@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/loop/simulation.hpp"
+#include "sim/record/json.hpp"
 #include "sim/record/verdict.hpp"
 
 namespace drycut::sim::report {
@@ -75,8 +77,13 @@ void write_scenario(const scenario::Scenario& scenario, const std::filesystem::p
 /// failed.
 void write_junit(const std::vector<RunResult>& results, const std::filesystem::path& file);
 
-/// "0.0530 mm left, at 7.2040 s"; "" where there is no margin to tell.
+/// "0.0530 mm left, at 7.2040 s"; "" where there is no margin to tell. Then what else
+/// people are told of a check (Check::told): terminal, junit.xml, annotations, summary, pages have it from
+/// here.
 std::string margin_text(const record::CheckResult& check);
+/// Members of a visited value (record::json_of) as they stand: "cuts 15; late by 0.25"; what is none is left
+/// out.
+std::string told_of(const record::Json& visited, const std::vector<std::string_view>& keys);
 
 /// The check of a run with --strict that has warnings: it fails.
 record::CheckResult no_warnings(const record::Outcome& outcome);

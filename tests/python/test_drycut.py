@@ -120,7 +120,12 @@ class RunTest(unittest.TestCase):
         self.assertIsNone(check.failed_at)
         again = pickle.loads(pickle.dumps(check))
         self.assertEqual((again, again.used), (check, check.used))
-        self.assertGreater(self.run_.outcome["drives"][0]["figures"][0]["share"], 0)
+        drive = self.run_.outcome["drives"][0]
+        self.assertGreater(drive["figures"][0]["share"], 0)
+        speed, torque = drive["points"].T
+        self.assertGreater(len(speed), 100)
+        self.assertLessEqual(abs(torque).max(), drive["ratings"]["peak_torque"] * 1.001)
+        self.assertTrue(np.isfinite(speed).all())
 
     def test_gives_a_frame(self):
         try:
@@ -526,6 +531,69 @@ class TuneTest(unittest.TestCase):
         run = drycut.run(KNIFE, set={**SHORT, **tuning.settings})
         later = run.trace["AxisX.follerr"][run.trace["time"] >= 3]
         self.assertAlmostEqual(np.sqrt(np.mean(later**2)) / tuning.metric, 1, delta=0.01)
+
+
+class VerbsTest(unittest.TestCase):
+    """Every verb of the program has a face, and it is the program's own: what it prints and writes has its bytes."""
+
+    def program(self, *words):
+        done = subprocess.run([PROGRAM, *words], check=False, capture_output=True, text=True)
+        return done.returncode, done.stdout
+
+    def same_files(self, one, other):
+        for folder, _, files in os.walk(one):
+            for name in files:
+                path = pathlib.Path(folder, name)
+                self.assertEqual(path.read_bytes(), pathlib.Path(other, path.relative_to(one)).read_bytes(), path)
+
+    def test_all_are_there(self):
+        _, text = self.program("--help")
+        names = [line.split()[0] for line in text.split("\n\n")[2].splitlines() if line[2:3].strip()]
+        self.assertGreater(len(names), 15)
+        for name in names:
+            self.assertTrue(callable(getattr(drycut, name)), name)
+            self.assertTrue(callable(getattr(drycut.verbs, name)), name)
+            self.assertIn(name, drycut.__all__)
+
+    def test_what_has_a_class_of_its_own_runs_as_the_program_does_too(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = os.path.join(folder, "out")
+            ran = drycut.verbs.run([KNIFE], set=SHORT, out=out, no_pictures=True, jobs=1)
+            kept = os.path.join(folder, "kept")
+            os.rename(out, kept)
+            status, text = self.program("run", KNIFE, "--set", "scene.duration=5 s", "--out", out, "--no-pictures")
+            self.assertEqual((ran.status, ran.text), (status, text))
+            self.same_files(out, kept)
+
+    def test_prints_and_writes_what_the_program_does(self):
+        with tempfile.TemporaryDirectory() as folder:
+            runs = []
+            for speed in ("60 m/min", "61 m/min"):
+                runs.append(os.path.join(folder, speed[:2]))
+                drycut.run(KNIFE, set={**SHORT, "plants.web.speed": speed}, out=runs[-1], pictures=False)
+            out = os.path.join(folder, "out")
+            ran = drycut.compare(runs, out=out, tolerance=["time=1e-6", "0.1%"])
+            kept = os.path.join(folder, "kept")
+            os.rename(out, kept)
+            status, text = self.program("compare", *runs, "--out", out, "--tolerance", "time=1e-6", "--tolerance", "0.1%")
+            self.assertEqual((ran.status, ran.text), (status, text))
+            self.assertEqual((ran.passed, ran.verdict["verdict"], ran.verdict["exit"]), (False, "failed", 1))
+            self.same_files(out, kept)
+
+    def test_takes_flags_numbers_and_settings(self):
+        _, text = self.program("plants", "rotary_knife", "--json")
+        self.assertEqual(drycut.plants("rotary_knife", json=True).text, text)
+        _, text = self.program("check", KNIFE, "--expand", "--set", "scene.duration=5 s")
+        self.assertEqual(drycut.check([KNIFE], expand=True, set=SHORT).text, text)
+
+    def test_raises_what_the_program_refuses(self):
+        with self.assertRaises(drycut.BadInput) as told:
+            drycut.size(KNIFE, drive="knife.none")
+        self.assertEqual(told.exception.problems[0].file, "drive")
+        with self.assertRaises(TypeError):
+            drycut.size(KNIFE, drives="knife.servo")
+        with self.assertRaises(drycut.BadInput):
+            drycut.convert("none", to="csv")
 
 
 class HelpTest(unittest.TestCase):

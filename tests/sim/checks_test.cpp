@@ -63,14 +63,24 @@ TEST_F(ChecksTest, ACheckThatHeldAtNoInstantSaysWhatThereWas) {
   EXPECT_EQ(result().throughout, "");
 }
 
+TEST_F(ChecksTest, ALimitAThousandTimesOffIsDoubted) {
+  add(scenario::CheckRequest::Kind::always, "", "error < 100000");
+  start();
+  sample(second, 2);
+  EXPECT_THAT(result().doubt, testing::HasSubstr("no less than 50000 times what came"));
+  sample(2 * second, 200);
+  EXPECT_EQ(result().doubt, "");
+}
+
 TEST_F(ChecksTest, WhatNeverCameSaysHowNearItCame) {
   add(scenario::CheckRequest::Kind::eventually, "", "error > 5").within = 3 * second;
   start();
   sample(1 * second, 1);
   sample(2 * second, 4);
   sample(3 * second, 2);
-  EXPECT_EQ(result().detail,
-            "not true at any of 3 instants, nearest at 2.0000 s: error=4 Um, the last at 3.0000 s: error=2 Um");
+  EXPECT_EQ(
+      result().detail,
+      "not true at any of 3 instants, nearest at 2.0000 s: error=4 Um, the last at 3.0000 s: error=2 Um");
 }
 
 // What a check multiplies by a condition is judged only where that holds.
@@ -303,8 +313,8 @@ TEST_F(ChecksTest, UnknownNamesAreProblems) {
 }
 
 TEST(Statistics, AgreesWithClosedForms) {
-  std::vector<double> line;
-  for (int i = 0; i < 101; ++i) line.push_back(5 + 0.25 * i);
+  std::vector<double> line(101);
+  for (size_t i = 0; i < line.size(); ++i) line[i] = 5 + 0.25 * static_cast<double>(i);
   const auto [mean, low, high, sd, slope, slope_error] = loop::statistics(line);
   EXPECT_DOUBLE_EQ(mean, 17.5);
   EXPECT_DOUBLE_EQ(low, 5);

@@ -11,8 +11,12 @@
 
 namespace drycut::sim::fakes {
 
+/// Its devices listen to all interrupt lines.
 class FakeController : public devices::Controller {
  public:
+  FakeController() {
+    for (int line = 1; line <= 8; ++line) cards_.interrupt_lines[line];
+  }
   devices::Cards& cards() override { return cards_; }
   std::variant<devices::Address, devices::TerminalFault> terminal(const std::string& text) override {
     return devices::find_slot_terminal(cards_, text);

@@ -170,15 +170,19 @@ std::string cause_of_saw(const std::string& line, const std::string& program, co
   return outcome_of(folder.file("line.yaml", "extends: " + (lines / line).string() + "\n" + more)).cause();
 }
 
-TEST(WhyItFailed, AZeroPulseThatIsNotWiredIsTold) {
+/// What a line comes to without one of its wires, in 9 s.
+record::Outcome outcome_without(const std::string& wire, const std::string& name) {
   TestFolder folder;
-  std::ifstream shipped(lines / "flying_saw_qmove.yaml");
-  auto line =
-      replaced(std::string(std::istreambuf_iterator<char>(shipped), {}), "  INT1: saw.encoder.index\n", "");
-  for (int i = 0; i < 2; ++i)
-    line = replaced(line, "../programs", (lines.parent_path() / "programs").string());
-  const auto file = folder.file("line.yaml", line);
-  EXPECT_THAT(outcome_of(file, {{"scene.duration", "4 s"}}).cause(),
+  std::ifstream shipped(lines / name);
+  auto line = replaced(std::string(std::istreambuf_iterator<char>(shipped), {}), "  " + wire + "\n", "");
+  for (const std::string of : {" ../", "[../", " cams/"})  // what it names lies beside the shipped one
+    for (auto at = line.find(of); at != std::string::npos; at = line.find(of, at))
+      line.insert(at + 1, lines.string() + "/");
+  return outcome_of(folder.file("line.yaml", line), {{"scene.duration", "9 s"}});
+}
+
+TEST(WhyItFailed, AZeroPulseThatIsNotWiredIsTold) {
+  EXPECT_THAT(outcome_without("INT1: saw.encoder.index", "flying_saw_qmove.yaml").cause(),
               StartsWith("because INT1 is the zero pulse that PRESET of AxisX seeks (prsmode 1), and nothing "
                          "is wired to it"));
 }
@@ -205,6 +209,53 @@ TEST(WhyItFailed, TheLineThatSwitchedALampOnIsTold) {
                  {{"controller.qmove.set.slTravel", "700"}, {"scene.duration", "10 s"}})
           .cause(),
       ContainsRegex("panel.too_long is on since [0-9.]+ s, by flying_saw.mod:66, ofTooLong = slTravel GT 0"));
+}
+
+// Each terminal has the name of the other's plug in the program.
+TEST(WhyItFailed, CrossedWiresAreAWarningAndTheCause) {
+  const auto outcome = outcome_of(
+      lines / "flying_saw_plcopen.yaml",
+      {{"wiring.QX0.0", "saw.head.plunge"}, {"wiring.QX0.1", "saw.clamp"}, {"scene.duration", "9 s"}});
+  const auto told = HasSubstr(
+      "QX0.0, which the program calls clampValve, is wired to saw.head.plunge, and "
+      "QX0.1, headValve, to saw.clamp");
+  EXPECT_THAT(sentences(outcome.warnings()), testing::Contains(told));
+  EXPECT_THAT(outcome.cause(), AllOf(StartsWith("because QX0.0"), told));
+}
+
+TEST(WhyItFailed, ADriveThatIsAlwaysOnIsAWarning) {
+  EXPECT_THAT(
+      sentences(outcome_without("Saw.enable: saw.servo.enable", "flying_saw_plcopen.yaml").warnings()),
+      testing::Contains(HasSubstr("Saw.enable is not wired: saw.servo.enable is on always")));
+}
+
+// Nobody looks at the mains monitor; who has wired it knows.
+TEST(WhyItFailed, MainsThatWereMissingAreAWarning) {
+  TestFolder folder;
+  const auto knife = folder.file("line.yaml", "extends: " + (lines / "rotary_knife_qmove.yaml").string() +
+                                                  "\nscene: {duration: 9 s}\ntimeline:\n  - {at: 1 s, fault: "
+                                                  "{knife.mains: {phase_lost: 1}}}\n");
+  EXPECT_THAT(sentences(outcome_of(knife).warnings()),
+              testing::Contains(HasSubstr("and nothing is wired to knife.servo.mains_ok")));
+  EXPECT_THAT(
+      sentences(outcome_of(lines / "rotary_knife_qmove.yaml", {{"scene.duration", "9 s"}}).warnings()),
+      testing::Each(Not(HasSubstr("mains_ok"))));
+}
+
+TEST(WhyItFailed, AMasterThatCountsBackwardsIsTold) {
+  EXPECT_THAT(cause_of_saw("flying_saw_qmove.yaml", "flying_saw.mod", "CNTDIRM AxisX", "CNTREVM AxisX",
+                           "scene: {duration: 9 s}\ncontroller: {qmove: {tasks: [flying_saw.mod]}}\n"),
+              StartsWith("because AxisX counts its master backwards (st_cntrevm 1, tube.wheel)"));
+}
+
+TEST(WhyItFailed, AnEntryThatIsDueBehindTheEndIsTold) {
+  TestFolder folder;
+  const auto saw =
+      folder.file("line.yaml", "extends: " + (lines / "flying_saw_qmove.yaml").string() +
+                                   "\nscene: {duration: 9 s}\ntimeline:\n  - {when: gbPhase == 2, "
+                                   "after: 100 s, set: {panel.start: 1}}\n");
+  EXPECT_THAT(outcome_of(saw).cause(),
+              ContainsRegex("'gbPhase == 2' of line [0-9]+ came true and is due at 103"));
 }
 
 TEST(WhyItFailed, ForwardAndBackwardSwappedAreTold) {

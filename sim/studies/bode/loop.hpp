@@ -48,6 +48,18 @@ struct LoopRequest {
   double amplitude = 0.1;  ///< [V]
   double settle = 0.5;     ///< [s]
   bool pushes = true;      ///< where there is play or stiction: whether it hunts after a push
+
+  template <typename Archive, typename Self>
+  static void visit(Archive& archive, Self& self) {
+    archive("wire", self.wire);
+    archive("speed", self.speed);
+    archive("at", self.at);
+    archive("from", self.from);
+    archive("to", self.to);
+    archive("points", self.points);
+    archive("amplitude", self.amplitude);
+    archive("settle", self.settle);
+  }
 };
 
 /// A measurement with what its text needs.

@@ -32,7 +32,7 @@ BodeColumns columns_of(const std::vector<BodePoint>& points,
   return columns;
 }
 
-struct Table {
+struct BodeTable {
   BodeColumns open;
   BodeColumns closed;
   BodeColumns sensitivity;
@@ -46,9 +46,9 @@ std::vector<BodePoint> heard(const LoopResult& result) {
   return points;
 }
 
-Table table_of(const LoopResult& result) {
+BodeTable table_of(const LoopResult& result) {
   const auto points = heard(result);
-  Table table;
+  BodeTable table;
   table.open = columns_of(points, [](const BodePoint& p) { return p.open_loop; });
   table.closed = columns_of(points, [](const BodePoint& p) { return p.closed_loop(); });
   table.sensitivity = columns_of(points, [](const BodePoint& p) { return p.sensitivity(); });

@@ -39,33 +39,35 @@ std::string some_of(const std::vector<std::string>& names) {
   return names.size() > most ? fmt::format("{}; and {} more", text, names.size() - most) : text;
 }
 
-class CsvText {
+/// Rows of words and numbers, a cell a run.
+class RunRows {
  public:
-  void row(const std::string& what, const std::string& name, const std::string& unit,
-           const std::vector<std::string>& cells) {
-    text_ += fmt::format("{},{},{}", csv_cell(what), csv_cell(name), csv_cell(unit));
-    for (const auto& cell : cells) text_ += "," + csv_cell(cell);
-    text_ += "\n";
+  explicit RunRows(const Comparison& comparison) : comparison_(comparison), table_(columns_of(comparison)) {}
+  template <typename Cell>
+  void add(const std::string& what, const std::string& name, const std::string& unit, Cell cell) {
+    std::vector<Table::Cell> cells = {what, name, unit};
+    for (std::size_t i = 0; i < comparison_.runs.size(); ++i) cells.emplace_back(cell(i));
+    table_.add(std::move(cells));
   }
   void numbers(const std::string& what, const std::string& name, const std::string& unit,
                const std::vector<double>& numbers) {
-    std::vector<std::string> cells;
-    for (const double number : numbers)
-      cells.push_back(std::isnan(number) ? "" : fmt::format("{:.9g}", record::without_noise(number)));
-    row(what, name, unit, cells);
+    add(what, name, unit, [&](std::size_t i) {
+      return std::isnan(numbers[i]) ? numbers[i] : record::without_noise(numbers[i]);
+    });
   }
-  [[nodiscard]] std::string text() && { return std::move(text_); }
+  [[nodiscard]] Table table() && { return std::move(table_); }
 
  private:
-  std::string text_;
-};
+  static std::vector<Column> columns_of(const Comparison& comparison) {
+    std::vector<Column> columns = {{"what", "what"}, {"name", "name"}, {"unit", "unit"}};
+    for (std::size_t i = 0; i < comparison.runs.size(); ++i)
+      columns.push_back({fmt::format("run.{}", i), comparison.runs[i].label});
+    return columns;
+  }
 
-template <typename Text>
-std::vector<std::string> of_runs(const Comparison& comparison, Text text) {
-  std::vector<std::string> cells;
-  for (std::size_t i = 0; i < comparison.runs.size(); ++i) cells.push_back(text(i));
-  return cells;
-}
+  const Comparison& comparison_;
+  Table table_;
+};
 
 }  // namespace
 
@@ -160,46 +162,42 @@ std::string result_text(const std::optional<record::CheckResult>& result) {
   return fmt::format("{}{}{}", result->passed ? "passed" : "FAILED", margin.empty() ? "" : ", ", margin);
 }
 
-std::string comparison_csv(const Comparison& comparison, const std::vector<Figure>& figures) {
-  CsvText csv;
+Table comparison_table(const Comparison& comparison, const std::vector<Figure>& figures) {
+  RunRows rows(comparison);
   const auto& runs = comparison.runs;
-  csv.row("what", "name", "unit", of_runs(comparison, [&](auto i) { return runs[i].label; }));
-  csv.row("run", "drycut", "", of_runs(comparison, [&](auto i) { return runs[i].version; }));
-  csv.row("run", "passed", "",
-          of_runs(comparison, [&](auto i) { return runs[i].outcome.passed() ? "yes" : "no"; }));
-  csv.row("run", "simulated", "s",
-          of_runs(comparison, [&](auto i) { return fmt::format("{}", seconds(runs[i].outcome.end)); }));
-  for (const auto& figure : figures) csv.numbers("figure", figure.name, figure.unit, figure.numbers);
+  rows.add("run", "drycut", "", [&](auto i) { return runs[i].version; });
+  rows.add("run", "passed", "", [&](auto i) { return runs[i].outcome.passed() ? "yes" : "no"; });
+  rows.add("run", "simulated", "s", [&](auto i) { return fmt::format("{}", seconds(runs[i].outcome.end)); });
+  for (const auto& figure : figures) rows.numbers("figure", figure.name, figure.unit, figure.numbers);
   for (const auto& row : comparison.checks) {
     const auto& results = row.results;
-    csv.row("check", row.name, "", of_runs(comparison, [&](auto i) -> std::string {
-              return results[i] ? results[i]->passed ? "passed" : "failed" : "";
-            }));
+    rows.add("check", row.name, "", [&](auto i) -> std::string {
+      return results[i] ? results[i]->passed ? "passed" : "failed" : "";
+    });
     const auto known =
         std::find_if(results.begin(), results.end(), [](const auto& r) { return r && r->margin; });
     if (known == results.end()) continue;
-    csv.row("margin", row.name, (*known)->unit, of_runs(comparison, [&](auto i) {
-              return results[i] && results[i]->margin ? fmt::format("{:.9g}", *results[i]->margin) : "";
-            }));
+    rows.add("margin", row.name, (*known)->unit,
+             [&](auto i) { return results[i] && results[i]->margin ? *results[i]->margin : NAN; });
   }
-  for (const auto& figure : comparison.events) csv.numbers("event", figure.name, figure.unit, figure.numbers);
-  for (const auto& rows : comparison.pieces) {
+  for (const auto& figure : comparison.events)
+    rows.numbers("event", figure.name, figure.unit, figure.numbers);
+  for (const auto& pieces : comparison.pieces) {
     std::size_t most = 0;
-    for (const auto& run : rows.runs) most = std::max(most, run.size());
+    for (const auto& run : pieces.runs) most = std::max(most, run.size());
     for (std::size_t k = 0; k < most; ++k) {
       std::vector<double> numbers;
-      for (const auto& run : rows.runs) numbers.push_back(k < run.size() ? run[k] : NAN);
-      csv.numbers("piece", fmt::format("{} length {}", rows.event, k + 1), rows.unit, numbers);
+      for (const auto& run : pieces.runs) numbers.push_back(k < run.size() ? run[k] : NAN);
+      rows.numbers("piece", fmt::format("{} length {}", pieces.event, k + 1), pieces.unit, numbers);
     }
   }
   for (const auto& row : comparison.channels) {
-    csv.numbers("channel", row.name + ": rms", row.unit, row.rms);
-    csv.numbers("channel", row.name + ": peak", row.unit, row.peak);
+    rows.numbers("channel", row.name + ": rms", row.unit, row.rms);
+    rows.numbers("channel", row.name + ": peak", row.unit, row.peak);
   }
   for (const auto& row : comparison.parameters)
-    csv.row("parameter", row.path, "",
-            of_runs(comparison, [&](auto i) { return row.values[i].value_or(""); }));
-  return std::move(csv).text();
+    rows.add("parameter", row.path, "", [&](auto i) { return row.values[i].value_or(""); });
+  return std::move(rows).table();
 }
 
 }  // namespace drycut::sim::studies

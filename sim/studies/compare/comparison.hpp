@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/table.hpp"
 #include "sim/studies/compare/differences.hpp"
 
 namespace drycut::sim::studies {
@@ -45,6 +46,6 @@ std::string apart_text(const ChannelRow& channel, const Comparison& comparison);
 std::string result_text(const std::optional<record::CheckResult>& result);
 
 /// One row a fact: what, name, unit, a column a run. Numbers with nine digits.
-std::string comparison_csv(const Comparison& comparison, const std::vector<Figure>& figures);
+Table comparison_table(const Comparison& comparison, const std::vector<Figure>& figures);
 
 }  // namespace drycut::sim::studies

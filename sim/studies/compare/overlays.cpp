@@ -64,7 +64,7 @@ renders::Plot plot_of(const ComparedRun& run, const OverlayRequest& request) {
   const auto origin = request.around ? time_of(run, *request.around) : std::nullopt;
   scenario::Scenario view;
   view.pictures.plots.push_back(request_for(run, request, origin));
-  auto plot = report::plots_of(view, run.recording).front();
+  auto plot = report::plots_of(view, run.recording, {}, report::Flat::kept).front();
   if (request.around && !origin)
     for (auto& panel : plot.panels) panel.curves.clear();
   if (!request.behind_start.empty()) count_from_first(plot);
@@ -98,24 +98,24 @@ void add_marks(renders::Plot& to, const renders::Plot& from, const std::string& 
 }
 
 renders::Plot overlay(const std::vector<ComparedRun>& runs, const OverlayRequest& request) {
-  renders::Plot whole;
-  for (const auto& run : runs) {
-    auto plot = plot_of(run, request);
-    if (&run == &runs.front()) {
-      whole = plot;
-      whole.marks.clear();
-      for (auto& panel : whole.panels) {
-        panel.curves.clear();
-        panel.lanes.clear();
-      }
-      if (!request.behind_start.empty()) whole.x_label += ", counted from the first behind the start-up";
-      if (request.around)
-        whole.x_label =
-            fmt::format("time from {} {} [s]", request.around->event.text, request.around->number);
-    }
-    for (std::size_t i = 0; i < plot.panels.size(); ++i)
-      add_panel(whole.panels[i], std::move(plot.panels[i]), run.label);
-    add_marks(whole, plot, run.label);
+  std::vector<renders::Plot> plots;
+  plots.reserve(runs.size());
+  for (const auto& run : runs) plots.push_back(plot_of(run, request));
+  // What is 0 in one run may move in another.
+  report::leave_out_flat(plots);
+  auto whole = plots.front();
+  whole.marks.clear();
+  for (auto& panel : whole.panels) {
+    panel.curves.clear();
+    panel.lanes.clear();
+  }
+  if (!request.behind_start.empty()) whole.x_label += ", counted from the first behind the start-up";
+  if (request.around)
+    whole.x_label = fmt::format("time from {} {} [s]", request.around->event.text, request.around->number);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    for (std::size_t i = 0; i < whole.panels.size(); ++i)
+      add_panel(whole.panels[i], std::move(plots[k].panels[i]), runs[k].label);
+    add_marks(whole, plots[k], runs[k].label);
   }
   return whole;
 }

@@ -249,7 +249,7 @@ renders::Report report_of(const Comparison& comparison, const ComparisonPage& pa
 int write_comparison(const Comparison& comparison, const ComparisonPage& page, OutputFolder& folder,
                      bool pictures) {
   const auto verdict = verdict_of(comparison, page);
-  write_file(folder.add(csv_file), comparison_csv(comparison, page.figures));
+  write_file(folder.add(csv_file), comparison_table(comparison, page.figures).csv());
   if (pictures)
     report::write_report(report_of(comparison, page, verdict), drawn_plots(comparison, page), folder);
   record::write_verdict(verdict, folder);

@@ -137,13 +137,12 @@ class CornerJudge {
   /// Why no machine cycle has ended.
   [[nodiscard]] std::string no_cycle() const {
     const auto plant = question_.rated.substr(0, question_.rated.find('.'));
-    const auto& columns = question_.columns;
-    const auto cuts = std::find(columns.begin(), columns.end(), plant + ".cut number") - columns.begin();
-    if (cuts == std::ssize(columns)) return "no machine cycle ended";
+    const auto cuts = Table(question_.columns).find(piece_key(plant, "number"));
+    if (!cuts) return "no machine cycle ended";
     const auto piece = std::find_if(question_.pieces.begin(), question_.pieces.end(),
                                     [&](const auto& known) { return known.source == plant; });
     const auto since = piece->from > 0 ? fmt::format(" from {:g} s on", piece->from) : std::string();
-    const double pieces = run_.row.numbers.at(static_cast<std::size_t>(cuts));
+    const double pieces = run_.row.numbers.at(*cuts);
     return pieces > 0 ? fmt::format("of {} cut{} none was a machine cycle",
                                     counted(std::lround(pieces), "piece"), since)
                       : fmt::format("no piece was cut{}", since);
@@ -269,8 +268,6 @@ class CandidateJudge {
   double worst_ = 0;  // share at the corner that is told
 };
 
-std::string sized_cell(double number) { return std::isnan(number) ? "" : fmt::format("{:.9g}", number); }
-
 }  // namespace
 
 std::string_view name_of(Sized::Kind kind) {
@@ -348,38 +345,62 @@ std::vector<std::size_t> ranked(const std::vector<Candidate>& candidates, const 
   return order;
 }
 
-std::string size_csv(const std::vector<Candidate>& candidates, const std::vector<Sized>& sized,
-                     const std::vector<std::size_t>& order) {
-  std::string text =
-      "rank,verdict,motor,motor values,rated power [kW],gear ratio,other values of the gear,brake "
-      "resistor,reserve [%],nearest limit,at,short by [%],short of,short at,inertia ratio,inertia ratio at "
-      "most";
-  for (const auto& rating : ratings)
-    text += fmt::format(",{}", csv_cell(fmt::format("{} [% of its rating]", rating.name)));
-  text += ",energy a cycle [J],reason,where,set\n";
+Table size_table(const std::vector<Candidate>& candidates, const std::vector<Sized>& sized,
+                 const std::vector<std::size_t>& order) {
+  constexpr int rated = 6;
+  constexpr int all = 15;  // as the command line takes it
+  std::vector<Column> columns = {{"rank", "rank"},
+                                 {"verdict", "verdict"},
+                                 {"motor", "motor"},
+                                 {"motor_values", "motor values"},
+                                 {"rated_power", "rated power", "kW", rated},
+                                 {"gear_ratio", "gear ratio", "", all},
+                                 {"gear_values", "other values of the gear"},
+                                 {"brake_resistor", "brake resistor"},
+                                 {"reserve", "reserve", "%"},
+                                 {"nearest_limit", "nearest limit"},
+                                 {"at", "at"},
+                                 {"short_by", "short by", "%"},
+                                 {"short_of", "short of"},
+                                 {"short_at", "short at"},
+                                 {"inertia_ratio", "inertia ratio", "", rated},
+                                 {"most_inertia_ratio", "inertia ratio at most", "", rated}};
+  for (std::size_t i = 0; i < ratings.size(); ++i)
+    columns.push_back({fmt::format("share.{}", i), std::string(ratings[i].name), "% of its rating"});
+  columns.insert(
+      columns.end(),
+      {{"energy", "energy a cycle", "J"}, {"reason", "reason"}, {"where", "where"}, {"set", "set"}});
+  Table table(std::move(columns));
   for (std::size_t rank = 0; rank < order.size(); ++rank) {
     const auto& candidate = candidates[order[rank]];
     const auto& one = sized[order[rank]];
-    text += fmt::format("{},{},{},{},{:.6g},{},{},{},{},{},{}", rank + 1, name_of(one.kind),
-                        csv_cell(candidate.motor), csv_cell(candidate.values), candidate.rated_power / 1e3,
-                        candidate.ratio > 0 ? number_text(candidate.ratio) : "",
-                        candidate.ratio > 0 ? "as in the scenario" : "", csv_cell(candidate.resistor.text),
-                        sized_cell(one.reserve), csv_cell(one.nearest), csv_cell(one.hardest));
     const auto& distance = one.distance;
+    const bool has_gear = candidate.ratio > 0;
     const bool is_short = one.kind == Sized::Kind::does_not_fit && distance.unknown == 0;
-    text += fmt::format(",{},{},{}", is_short ? sized_cell(distance.short_by) : "", csv_cell(distance.rating),
-                        csv_cell(distance.corner));
-    text += fmt::format(",{:.6g},{}", candidate.inertia_ratio,
-                        std::isfinite(candidate.most_inertia_ratio)
-                            ? fmt::format("{:.6g}", candidate.most_inertia_ratio)
-                            : "");
-    for (const double share : one.shares) text += "," + sized_cell(share);
+    std::vector<Table::Cell> cells = {
+        static_cast<double>(rank + 1),
+        std::string(name_of(one.kind)),
+        candidate.motor,
+        candidate.values,
+        candidate.rated_power / 1e3,
+        has_gear ? candidate.ratio : no_share,
+        has_gear ? "as in the scenario" : "",
+        candidate.resistor.text,
+        one.reserve,
+        one.nearest,
+        one.hardest,
+        is_short ? distance.short_by : no_share,
+        distance.rating,
+        distance.corner,
+        candidate.inertia_ratio,
+        std::isfinite(candidate.most_inertia_ratio) ? candidate.most_inertia_ratio : no_share};
+    cells.insert(cells.end(), one.shares.begin(), one.shares.end());
     std::vector<std::string> set;
     for (const auto& [path, value] : candidate.overrides) set.push_back(fmt::format("{}={}", path, value));
-    text += fmt::format(",{},{},{},{}\n", sized_cell(one.energy), csv_cell(one.reason), csv_cell(one.where),
-                        csv_cell(fmt::format("{}", fmt::join(set, "; "))));
+    cells.insert(cells.end(), {one.energy, one.reason, one.where, fmt::format("{}", fmt::join(set, "; "))});
+    table.add(std::move(cells));
   }
-  return text;
+  return table;
 }
 
 }  // namespace drycut::sim::studies

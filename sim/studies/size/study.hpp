@@ -56,7 +56,7 @@ std::vector<Sized> size_drives(const PointQuestion& question, const SizedDrive& 
 std::vector<std::size_t> ranked(const std::vector<Candidate>& candidates, const std::vector<Sized>& sized);
 
 /// size.csv: a row a candidate, in that order.
-std::string size_csv(const std::vector<Candidate>& candidates, const std::vector<Sized>& sized,
-                     const std::vector<std::size_t>& order);
+Table size_table(const std::vector<Candidate>& candidates, const std::vector<Sized>& sized,
+                 const std::vector<std::size_t>& order);
 
 }  // namespace drycut::sim::studies

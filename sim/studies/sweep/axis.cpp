@@ -160,8 +160,13 @@ double at_share(const SweepAxis& axis, double share) {
 
 std::string number_text(double value) { return fmt::format("{:.15g}", value); }
 
-std::string heading(const TunedParameter& parameter) {
-  return parameter.unit.empty() ? parameter.path : fmt::format("{} [{}]", parameter.path, parameter.unit);
+Column column_of(const TunedParameter& parameter) { return {parameter.path, parameter.path, parameter.unit}; }
+std::string heading(const TunedParameter& parameter) { return column_of(parameter).heading(); }
+
+std::vector<Column> columns_of(const SweepAxes& axes) {
+  std::vector<Column> columns;
+  for (const auto& axis : axes) columns.push_back(column_of(axis.parameter));
+  return columns;
 }
 
 std::optional<SweepAxis> parse_axis(const std::string& text, const std::string& option, bool sampled,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/problem.hpp"
+#include "base/table.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/studies/tune/parameter.hpp"
 
@@ -34,6 +35,9 @@ void fill_axis(SweepAxis& axis, Problems& problems);
 std::string number_text(double value);
 /// How the axis is headed in a table: "variables.length [mm]".
 std::string heading(const TunedParameter& parameter);
+/// The same as a column: its path is its key.
+Column column_of(const TunedParameter& parameter);
+std::vector<Column> columns_of(const SweepAxes& axes);
 /// The point as overrides of the scenario.
 std::vector<scenario::Override> overrides_of(const SweepAxes& axes, const SweepPoint& point);
 

@@ -236,51 +236,46 @@ std::string gaps_cell(const Bound& bound) {
   return text;
 }
 
-using Cell = std::pair<std::string, std::string>;  // heading and what stands under it
-std::vector<Cell> cells_of(const Envelope& envelope, std::size_t point) {
-  const auto& bound = envelope.bounds[point];
+Table table_of(const Envelope& envelope, const std::string& scene) {
   const auto& sought = envelope.request.parameter;
-  const auto unit = sought.unit.empty() ? "" : fmt::format(" [{}]", sought.unit);
-  std::vector<Cell> cells;
-  for (std::size_t i = 0; i < envelope.axes.size(); ++i)
-    cells.emplace_back(heading(envelope.axes[i].parameter), csv_cell(envelope.points[point][i]));
-  cells.emplace_back(heading(sought), number_cell(bound.value));
-  cells.emplace_back("verdict", name_of(bound.kind));
-  cells.emplace_back("limit", csv_cell(bound.beyond.limit));
-  cells.emplace_back("rating", csv_cell(bound.beyond.rating));
-  cells.emplace_back((envelope.request.least ? "holds to" : "holds from") + unit, number_cell(bound.from));
-  cells.emplace_back("fails at" + unit, gaps_cell(bound));
-  cells.emplace_back("holds again at" + unit, number_cell(bound.again.value_or(no_bound)));
-  const auto& columns = envelope.question.columns;
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    cells.emplace_back(columns[k], k < bound.numbers.size() ? number_cell(bound.numbers[k]) : "");
-  return cells;
+  auto columns = columns_of(envelope.axes);
+  if (!scene.empty()) columns.insert(columns.begin(), {"scene", "scene"});
+  const char* holds = envelope.request.least ? "holds to" : "holds from";
+  columns.insert(columns.end(), {column_of(sought),
+                                 {"verdict", "verdict"},
+                                 {"limit", "limit"},
+                                 {"rating", "rating"},
+                                 {holds, holds, sought.unit},
+                                 {"fails at", "fails at", sought.unit},
+                                 {"holds again at", "holds again at", sought.unit}});
+  columns.insert(columns.end(), envelope.question.columns.begin(), envelope.question.columns.end());
+  Table table(std::move(columns));
+  for (std::size_t i = 0; i < envelope.points.size(); ++i) {
+    const auto& bound = envelope.bounds[i];
+    std::vector<Table::Cell> cells;
+    if (!scene.empty()) cells.emplace_back(scene);
+    cells.insert(cells.end(), envelope.points[i].begin(), envelope.points[i].end());
+    cells.emplace_back(bound.value);
+    cells.emplace_back(std::string(name_of(bound.kind)));
+    cells.emplace_back(bound.beyond.limit);
+    cells.emplace_back(bound.beyond.rating);
+    cells.emplace_back(bound.from);
+    cells.emplace_back(gaps_cell(bound));
+    cells.emplace_back(bound.again.value_or(no_bound));
+    cells.insert(cells.end(), bound.numbers.begin(), bound.numbers.end());
+    table.add(std::move(cells));
+  }
+  return table;
 }
 
 }  // namespace
 
-std::string envelope_csv(const std::vector<Envelope>& envelopes) {
-  std::vector<std::string> headings;
-  for (const auto& envelope : envelopes)
-    for (const auto& [name, text] : cells_of(envelope, 0))
-      if (std::find(headings.begin(), headings.end(), name) == headings.end()) headings.push_back(name);
-  const bool several = envelopes.size() > 1;
-  std::string text = several ? "scene" : "";
-  for (const auto& name : headings) text += (text.empty() ? "" : ",") + csv_cell(name);
-  text += "\n";
-  for (const auto& envelope : envelopes) {
-    for (std::size_t i = 0; i < envelope.points.size(); ++i) {
-      const auto cells = cells_of(envelope, i);
-      if (several) text += csv_cell(envelope.scene) + ",";
-      for (const auto& name : headings) {
-        const auto found =
-            std::find_if(cells.begin(), cells.end(), [&](const Cell& cell) { return cell.first == name; });
-        text += (&name == &headings.front() ? "" : ",") + (found == cells.end() ? "" : found->second);
-      }
-      text += "\n";
-    }
-  }
-  return text;
+Table envelope_table(const std::vector<Envelope>& envelopes) {
+  const auto scene_of = [&](const Envelope& one) { return envelopes.size() > 1 ? one.scene : ""; };
+  auto table = table_of(envelopes.front(), scene_of(envelopes.front()));
+  for (std::size_t i = 1; i < envelopes.size(); ++i)
+    table.append(table_of(envelopes[i], scene_of(envelopes[i])));
+  return table;
 }
 
 }  // namespace drycut::sim::studies

@@ -22,32 +22,34 @@ std::string fails_heading(const BoundRequest& request) {
   return request.least ? "fails below" : "fails above";
 }
 
-std::string without_unit(const std::string& heading) { return heading.substr(0, heading.rfind(" [")); }
-
 /// The bounds as a page shows them: the bound is the first number.
 Studied studied(const Envelope& envelope) {
   const auto& question = envelope.question;
-  Studied study{envelope.scene, question, envelope.axes, envelope.points,
-                axis_headings(question, envelope.axes)};
-  study.columns = {with_check_names(question, heading(envelope.request.parameter))};
-  study.columns.insert(study.columns.end(), question.columns.begin(), question.columns.end());
-  study.headings.insert(study.headings.end(),
-                        {study.columns[0], "verdict", fails_heading(envelope.request), "rating"});
-  study.headings.insert(study.headings.end(), question.columns.begin(), question.columns.end());
-  renders::MapLines lines{study.columns[0], {}, {}};
+  std::vector<Column> numbered = {named_column(question, envelope.request.parameter)};
+  numbered.insert(numbered.end(), question.columns.begin(), question.columns.end());
+  auto columns = named_columns(question, envelope.axes);
+  columns.insert(columns.end(), {numbered[0],
+                                 {"verdict", "verdict"},
+                                 {"limit", fails_heading(envelope.request)},
+                                 {"rating", "rating"}});
+  columns.insert(columns.end(), question.columns.begin(), question.columns.end());
+  Studied study{envelope.scene, question, envelope.axes, envelope.points, Table(std::move(columns))};
+  study.columns = std::move(numbered);
+  renders::MapLines lines{study.columns[0].heading(), {}, {}};
   for (std::size_t i = 0; i < envelope.points.size(); ++i) {
     const auto& bound = envelope.bounds[i];
     const bool good = bound.kind != Bound::Kind::nowhere;
-    auto& cells = study.cells.emplace_back(short_point(envelope.points[i]));
-    cells.push_back(good ? bound_text(envelope.request, bound) : "");
-    cells.emplace_back(name_of(bound.kind));
-    cells.push_back(bound.beyond.limit);
-    cells.push_back(bound.beyond.rating);
+    auto cells = cells_of(envelope.points[i]);
+    cells.emplace_back(good ? bound_text(envelope.request, bound) : "");
+    cells.emplace_back(std::string(name_of(bound.kind)));
+    cells.emplace_back(bound.beyond.limit);
+    cells.emplace_back(bound.beyond.rating);
     auto& numbers = study.numbers.emplace_back();
     numbers = {good ? bound.value : unknown};
     numbers.insert(numbers.end(), bound.numbers.begin(), bound.numbers.end());
     numbers.resize(study.columns.size(), unknown);
-    for (std::size_t k = 1; k < numbers.size(); ++k) cells.push_back(short_text(numbers[k]));
+    cells.insert(cells.end(), numbers.begin() + 1, numbers.end());
+    study.table.add(std::move(cells));
     study.good.push_back(good);
     study.kept.push_back(bound.kind == Bound::Kind::throughout);
     study.region.push_back(!good               ? std::string(holds_nowhere)
@@ -60,14 +62,14 @@ Studied studied(const Envelope& envelope) {
 }
 
 std::vector<std::string> x_headings(const Studied& study) {
-  return axis_headings(study.question, study.axes);
+  return Table(named_columns(study.question, study.axes)).headings();
 }
 
 /// Scenes whose curves lie on the same axes.
 struct Family {
   std::vector<const Envelope*> envelopes;
   std::vector<const Studied*> studies;
-  std::string of;  ///< the heading of what is sought
+  Column of;  ///< what is sought
   [[nodiscard]] bool least() const { return envelopes[0]->request.least; }
   /// "Largest variables.speed"
   [[nodiscard]] std::string sought() const { return sought_text(*envelopes[0]); }
@@ -76,7 +78,7 @@ std::vector<Family> families_of(const std::vector<Envelope>& envelopes, const st
   std::vector<Family> families;
   for (std::size_t i = 0; i < studies.size(); ++i) {
     const auto alike = [&](const Family& family) {
-      return family.of == studies[i].columns[0] && family.least() == envelopes[i].request.least &&
+      return family.of.is_same(studies[i].columns[0]) && family.least() == envelopes[i].request.least &&
              x_headings(*family.studies[0]) == x_headings(studies[i]);
     };
     auto family = std::find_if(families.begin(), families.end(), alike);
@@ -89,13 +91,14 @@ std::vector<Family> families_of(const std::vector<Envelope>& envelopes, const st
 
 /// A row a point that any of the scenes has, a column a scene: how far, and what fails beyond it.
 renders::ReportTable key_figures(const Family& family) {
-  renders::ReportTable table{fmt::format("{} {}", family.least() ? "Smallest" : "Largest", family.of),
-                             x_headings(*family.studies[0]),
-                             {}};
+  renders::ReportTable table{
+      fmt::format("{} {}", family.least() ? "Smallest" : "Largest", family.of.heading()),
+      x_headings(*family.studies[0]),
+      {}};
   table.verdicts = true;  // what fails stands small under the number
   std::vector<SweepPoint> points;
   for (const auto* study : family.studies) {
-    table.headings.push_back(family.studies.size() > 1 ? study->scene : family.of);
+    table.headings.push_back(family.studies.size() > 1 ? study->scene : family.of.heading());
     for (const auto& point : study->points)
       if (std::find(points.begin(), points.end(), point) == points.end()) points.push_back(point);
   }
@@ -171,8 +174,8 @@ renders::Panel scene_panel(const Envelope& envelope, const Studied& study, const
 
 /// The bounds over each other, then each alone.
 renders::Plot bounds_plot(const Family& family, const std::string& name) {
-  const auto x_label = family.studies[0]->headings[0];
-  renders::Plot plot{name, fmt::format("{} over {}", family.sought(), without_unit(x_label)), x_label, {}};
+  const auto& x = family.studies[0]->table.columns()[0];
+  renders::Plot plot{name, fmt::format("{} over {}", family.sought(), x.name), x.heading(), {}};
   const bool several = family.studies.size() > 1;
   if (several) {
     std::vector<renders::Curve> curves;
@@ -182,27 +185,29 @@ renders::Plot bounds_plot(const Family& family, const std::string& name) {
   }
   for (std::size_t i = 0; i < family.studies.size(); ++i)
     plot.panels.push_back(scene_panel(*family.envelopes[i], *family.studies[i],
-                                      several ? family.studies[i]->scene : without_unit(family.of)));
+                                      several ? family.studies[i]->scene : family.of.name));
   return plot;
 }
 
 /// What the figures are at the bound, those of the same name over each other.
 renders::Plot figures_plot(const Family& family, const std::string& name) {
-  renders::Plot plot{
-      name, "At the bound: figures of the pieces and drives", family.studies[0]->headings[0], {}};
+  renders::Plot plot{name,
+                     "At the bound: figures of the pieces and drives",
+                     family.studies[0]->table.columns()[0].heading(),
+                     {}};
   plot.panel_height = 220;
-  std::vector<std::string> columns;
+  std::vector<Column> columns;
   for (const auto* study : family.studies)
     for (auto& column : curve_columns(*study))
-      if (column != family.of && std::find(columns.begin(), columns.end(), column) == columns.end())
+      if (!column.is_same(family.of) &&
+          std::ranges::none_of(columns, [&](const Column& one) { return one.is_same(column); }))
         columns.push_back(std::move(column));
   for (const auto& column : columns) {
     std::vector<renders::Curve> curves;
     for (const auto* study : family.studies) {
-      const auto found = std::find(study->columns.begin(), study->columns.end(), column);
-      if (found == study->columns.end()) continue;
-      auto curve = curve_of(*study, static_cast<std::size_t>(found - study->columns.begin()),
-                            family.studies.size() > 1 ? study->scene : "");
+      const auto place = place_of(column, *study);
+      if (!place) continue;
+      auto curve = curve_of(*study, *place, family.studies.size() > 1 ? study->scene : "");
       if (std::any_of(curve.y.begin(), curve.y.end(), [](double y) { return std::isfinite(y); }))
         curves.push_back(std::move(curve));
     }

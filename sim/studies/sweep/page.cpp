@@ -33,29 +33,36 @@ std::vector<double> scale_of(const SweepAxis& axis) {
   return numbers && values.size() > 1 ? values : std::vector<double>();
 }
 
-bool ends_with_word(const std::string& column, std::string_view word) {
-  return column.substr(0, column.rfind(" [")).ends_with(word);
-}
-
 }  // namespace
 
-std::vector<std::string> axis_headings(const PointQuestion& question, const SweepAxes& axes) {
-  std::vector<std::string> headings;
-  headings.reserve(axes.size());
-  for (const auto& axis : axes) headings.push_back(with_check_names(question, heading(axis.parameter)));
-  return headings;
+Column named_column(const PointQuestion& question, const TunedParameter& parameter) {
+  auto column = column_of(parameter);
+  column.name = with_check_names(question, column.name);
+  return column;
+}
+
+std::vector<Column> named_columns(const PointQuestion& question, const SweepAxes& axes) {
+  std::vector<Column> columns;
+  columns.reserve(axes.size());
+  for (const auto& axis : axes) columns.push_back(named_column(question, axis.parameter));
+  return columns;
 }
 
 std::string short_text(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
 
-std::vector<std::string> short_point(const SweepPoint& point) {
-  std::vector<std::string> cells;
-  cells.reserve(point.size());
+std::vector<Table::Cell> cells_of(const SweepPoint& point) {
+  std::vector<Table::Cell> cells;
   for (const auto& text : point) {
     const double number = number_in(text);
-    cells.push_back(std::isfinite(number) ? short_text(number) : text);
+    cells.push_back(std::isfinite(number) ? Table::Cell(number) : Table::Cell(text));
   }
   return cells;
+}
+
+std::vector<std::string> short_point(const SweepPoint& point) {
+  Table table(std::vector<Column>(point.size()));
+  table.add(cells_of(point));
+  return table.shown(0);
 }
 
 double number_in(const std::string& text) { return number_of(text).value_or(unknown); }
@@ -85,8 +92,8 @@ std::vector<renders::ReportRow> facts_of(const std::vector<const Studied*>& stud
   std::vector<std::string> over;  // each once
   for (const auto* study : studies) {
     files.push_back(study->question.file.string());
-    for (auto& axis : axis_headings(study->question, study->axes))
-      if (std::find(over.begin(), over.end(), axis) == over.end()) over.push_back(std::move(axis));
+    for (const auto& axis : named_columns(study->question, study->axes))
+      if (std::find(over.begin(), over.end(), axis.heading()) == over.end()) over.push_back(axis.heading());
   }
   std::vector<renders::ReportRow> facts;
   facts.push_back(
@@ -123,10 +130,10 @@ renders::ReportTable counts_of(const Studied& study, const std::string& title) {
 }
 
 renders::ReportTable rows_of(const Studied& study, const std::string& title) {
-  renders::ReportTable rows{title, study.headings, {}, true};
-  for (std::size_t i = 0; i < std::min(most_rows, study.cells.size()); ++i)
-    rows.rows.push_back({study.cells[i]});
-  if (study.cells.size() > most_rows) rows.title = fmt::format("{}: the first {}", title, most_rows);
+  renders::ReportTable rows{title, study.table.headings(), {}, true};
+  const auto count = study.table.rows().size();
+  for (std::size_t i = 0; i < std::min(most_rows, count); ++i) rows.rows.push_back({study.table.shown(i)});
+  if (count > most_rows) rows.title = fmt::format("{}: the first {}", title, most_rows);
   return rows;
 }
 
@@ -136,8 +143,8 @@ renders::ReportMap map_of(const Studied& study, const std::string& name, const s
   auto& map = shown.map;
   map.name = name;
   map.title = title;
-  map.x = {study.headings[0], scale_of(study.axes[0])};
-  map.y = {study.headings[1], scale_of(study.axes[1])};
+  map.x = {study.table.columns()[0].heading(), scale_of(study.axes[0])};
+  map.y = {study.table.columns()[1].heading(), scale_of(study.axes[1])};
   map.regions = regions_of(study);
   if (sought == nullptr) map.bound = "the bound: between these";
   const auto count = map.x.values.size() * map.y.values.size();
@@ -155,14 +162,14 @@ renders::ReportMap map_of(const Studied& study, const std::string& name, const s
         std::find_if(map.regions.begin(), map.regions.end(),
                      [&](const auto& region) { return region.label == study.region[i]; }) -
         map.regions.begin());
-    shown.cells[at] = study.cells[i];
+    shown.cells[at] = study.table.shown(i);
     // Behind what is told, what the command sets: to the last digit.
     shown.cells[at].insert(shown.cells[at].end(), study.points[i].begin(), study.points[i].end());
     if (sought != nullptr) shown.cells[at].push_back(study.good[i] ? number_text(study.numbers[i][0]) : "");
     for (std::size_t k = 0; k < map.lines.size(); ++k) map.lines[k].values[at] = study.lines[k].values[i];
   }
-  shown.headings = study.headings;
-  const auto slot = [&](std::size_t behind) { return fmt::format("{{{}}}", study.headings.size() + behind); };
+  shown.headings = study.table.headings();
+  const auto slot = [&](std::size_t behind) { return fmt::format("{{{}}}", shown.headings.size() + behind); };
   std::vector<std::string> more;
   if (sought != nullptr) more.push_back(setting(*sought, slot(2)));
   shown.command = point_command(study, {slot(0), slot(1)}, more);
@@ -185,19 +192,28 @@ renders::Curve curve_of(const Studied& study, std::size_t column, const std::str
   return curve;
 }
 
-std::vector<std::string> curve_columns(const Studied& study) {
-  std::vector<std::string> worth;
-  for (const auto& column : study.columns)
-    if (!column.starts_with("margin of ") && !ends_with_word(column, ".cut number") &&
-        !ends_with_word(column, ".cut mean length"))
+std::vector<Column> curve_columns(const Studied& study) {
+  std::vector<Column> worth;
+  for (const auto& column : study.columns) {
+    const auto tells = [&](const auto& piece) {
+      return column.key == piece_key(piece.source, "number") ||
+             column.key == piece_key(piece.source, "mean_length");
+    };
+    if (!column.key.starts_with(margin_key) && std::ranges::none_of(study.question.pieces, tells))
       worth.push_back(column);
+  }
   return worth;
 }
 
-renders::Panel panel_of(const std::string& heading, std::vector<renders::Curve> curves) {
-  const auto bracket = std::min(heading.rfind(" ["), heading.size());
-  renders::Panel panel{
-      heading.substr(0, bracket), std::string(heading, std::min(bracket + 1, heading.size())), {}, {}, {}};
+std::optional<std::size_t> place_of(const Column& column, const Studied& study) {
+  const auto found =
+      std::ranges::find_if(study.columns, [&](const Column& one) { return one.is_same(column); });
+  if (found == study.columns.end()) return {};
+  return static_cast<std::size_t>(found - study.columns.begin());
+}
+
+renders::Panel panel_of(const Column& column, std::vector<renders::Curve> curves) {
+  renders::Panel panel{column.name, column.unit.empty() ? "" : fmt::format("[{}]", column.unit), {}, {}, {}};
   double low = 0;
   double high = 0;
   for (const auto& curve : curves) {

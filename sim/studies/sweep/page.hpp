@@ -1,5 +1,6 @@
 #pragma once
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,19 +22,21 @@ struct Studied {
   const PointQuestion& question;
   const SweepAxes& axes;
   const std::vector<SweepPoint>& points;
-  std::vector<std::string> headings = {};            ///< of `cells`
-  std::vector<std::vector<std::string>> cells = {};  ///< a row a point, the axes' first
-  std::vector<std::string> region = {};              ///< of each point
-  std::vector<bool> good = {};                       ///< has numbers to show
-  std::vector<bool> kept = {};                       ///< nothing fails: green
-  std::vector<std::string> columns = {};             ///< of `numbers`
+  Table table;                                    ///< a row a point, the axes' first
+  std::vector<std::string> region = {};           ///< of each point
+  std::vector<bool> good = {};                    ///< has numbers to show
+  std::vector<bool> kept = {};                    ///< nothing fails: green
+  std::vector<Column> columns = {};               ///< of `numbers`
   std::vector<std::vector<double>> numbers = {};  ///< a row a point; only of good points, else not a number
   std::vector<renders::MapLines> lines = {};      ///< that a map shows, with a value a point
 };
 
-/// The headings of the axes, checks by their names, and numbers as cells show them.
-std::vector<std::string> axis_headings(const PointQuestion& question, const SweepAxes& axes);
+/// The axes and what is sought as columns that say checks by their names, and numbers as cells show them.
+std::vector<Column> named_columns(const PointQuestion& question, const SweepAxes& axes);
+Column named_column(const PointQuestion& question, const TunedParameter& parameter);
 std::string short_text(double value);
+/// The point as cells of a table: numbers as numbers.
+std::vector<Table::Cell> cells_of(const SweepPoint& point);
 /// The point as cells show it: numbers in six digits.
 std::vector<std::string> short_point(const SweepPoint& point);
 double number_in(const std::string& text);
@@ -66,9 +69,11 @@ renders::ReportMap map_of(const Studied& study, const std::string& name, const s
 renders::Curve curve_of(const Studied& study, std::size_t column, const std::string& label);
 /// The columns that are worth a curve: margins are in the table, and number and mean length of the pieces say
 /// nothing about a machine that works.
-std::vector<std::string> curve_columns(const Studied& study);
-/// "rms torque [N m]" as title and unit. From 0 where nothing is below it; up to 1e-4 at least, for what is
+std::vector<Column> curve_columns(const Studied& study);
+/// Where such a column is among those of the numbers.
+std::optional<std::size_t> place_of(const Column& column, const Studied& study);
+/// A column as title and unit. From 0 where nothing is below it; up to 1e-4 at least, for what is
 /// less is the noise of numbers.
-renders::Panel panel_of(const std::string& heading, std::vector<renders::Curve> curves);
+renders::Panel panel_of(const Column& column, std::vector<renders::Curve> curves);
 
 }  // namespace drycut::sim::studies

@@ -115,30 +115,31 @@ std::vector<PointQuestion::Piece> pieces_of(const std::vector<loop::KnownEvent>&
   return pieces;
 }
 
-std::vector<std::string> columns_of(const PointQuestion& question,
-                                    const std::vector<record::CheckResult>& checks,
-                                    const scenario::Scenario& scenario) {
-  std::vector<std::string> columns;
+std::vector<Column> columns_of(const PointQuestion& question, const std::vector<record::CheckResult>& checks,
+                               const scenario::Scenario& scenario) {
+  std::vector<Column> columns;
   for (const auto& piece : question.pieces) {
-    columns.push_back(piece.source + ".cut number");
-    columns.push_back(fmt::format("{}.cut mean length [{}]", piece.source, piece.length_unit));
-    columns.push_back(fmt::format("{}.cut accuracy [{}]", piece.source, piece.length_unit));
-    if (piece.has_mismatch)
-      columns.push_back(fmt::format("{}.cut mismatch [{}]", piece.source, piece.mismatch_unit));
+    const auto add = [&](const char* what, const std::string& name, const std::string& unit) {
+      columns.push_back({piece_key(piece.source, what), piece.source + ".cut " + name, unit});
+    };
+    add("number", "number", "");
+    add("mean_length", "mean length", piece.length_unit);
+    add("accuracy", "accuracy", piece.length_unit);
+    if (piece.has_mismatch) add("mismatch", "mismatch", piece.mismatch_unit);
   }
   for (const auto& drive : question.drives) {
-    columns.push_back(drive + " rms torque [N m]");
-    columns.push_back(drive + " peak torque [N m]");
-    columns.push_back(drive + " energy a cycle [J]");
+    columns.push_back({drive_key(drive, "rms_torque"), drive + " rms torque", "N m"});
+    columns.push_back({drive_key(drive, "peak_torque"), drive + " peak torque", "N m"});
+    columns.push_back({drive_key(drive, "energy"), drive + " energy a cycle", "J"});
   }
   for (std::size_t i = 0; i < checks.size(); ++i) {
     const bool in_time =
         i < scenario.checks.size() && scenario.checks[i].kind == scenario::CheckRequest::Kind::eventually;
     const auto unit = in_time ? std::string("s") : checks[i].unit;
     columns.push_back(
-        fmt::format("margin of {}{}", checks[i].name, unit.empty() ? "" : fmt::format(" [{}]", unit)));
+        {std::string(margin_key) + checks[i].name, fmt::format("margin of {}", checks[i].name), unit});
   }
-  for (const auto& figure : question.figures) columns.push_back(figure.name);
+  for (const auto& figure : question.figures) columns.push_back({"figure." + figure.name, figure.name});
   if (!question.rated.empty())
     for (auto& column : rated_columns(question.rated)) columns.push_back(std::move(column));
   return columns;
@@ -196,6 +197,13 @@ PointRow row_without_run(PointRow::Verdict verdict, std::string limit, const Poi
 }
 
 }  // namespace
+
+std::string piece_key(const std::string& source, std::string_view what) {
+  return fmt::format("{}.cut.{}", source, what);
+}
+std::string drive_key(const std::string& drive, std::string_view what) {
+  return fmt::format("{}.{}", drive, what);
+}
 
 std::string_view name_of(PointRow::Verdict verdict) { return verdicts.at(static_cast<std::size_t>(verdict)); }
 
@@ -261,7 +269,7 @@ PointScenario read_point(const PointQuestion& question, const std::vector<scenar
   strip(point.scenario);
   Problems ignored;  // prepare() has told them
   record_names(question, metrics_of(question, ignored), point.scenario);
-  for (const auto& column : question.columns) hash.add(column);
+  for (const auto& column : question.columns) hash.add(column.heading());
   for (const auto& figure : question.figures) hash.add(figure.term);
   for (const auto& problem : point.problems) hash.add(to_string(problem));
   if (point.problems.empty()) hash.add(point.scenario);
@@ -333,10 +341,14 @@ std::string with_check_names(const PointQuestion& question, const std::string& t
   return named.append(rest, text.cend());
 }
 
+std::string in_one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 std::string row_text(const PointRow& row) {
-  auto limit = row.limit;
-  std::replace(limit.begin(), limit.end(), '\n', ' ');
-  auto text = fmt::format("{},{},{}", name_of(row.verdict), csv_cell(limit), csv_cell(row.rating));
+  auto text =
+      fmt::format("{},{},{}", name_of(row.verdict), csv_cell(in_one_line(row.limit)), csv_cell(row.rating));
   for (const double number : row.numbers)
     text += std::isnan(number) ? std::string(",") : fmt::format(",{:.9g}", number);
   return text;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/problem.hpp"
+#include "base/table.hpp"
 #include "sim/loop/known_events.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -24,6 +25,12 @@ struct PointQuestion {
   struct Figure {
     std::string name;
     std::string term;  ///< as in `drycut tune`: "max(abs(knife.motor.torque))"
+
+    template <typename Archive, typename Self>
+    static void visit(Archive& archive, Self& self) {
+      archive("name", self.name);
+      archive("term", self.term);
+    }
   };
   std::vector<Figure> figures;
   std::string rated =
@@ -40,11 +47,26 @@ struct PointQuestion {
     std::string mismatch_unit;
     double tolerance = 0;  ///< of the length, either way, as a plot states it; 0 = not said
   };
-  std::vector<Piece> pieces = {};         ///< what cuts
-  std::vector<std::string> drives = {};   ///< "knife.servo"
-  std::vector<std::string> checks = {};   ///< by name
-  std::vector<std::string> columns = {};  ///< headings of a row's numbers
+  std::vector<Piece> pieces = {};        ///< what cuts
+  std::vector<std::string> drives = {};  ///< "knife.servo"
+  std::vector<std::string> checks = {};  ///< by name
+  std::vector<Column> columns = {};      ///< of a row's numbers
+
+  /// What prepare() does not find out.
+  template <typename Archive, typename Self>
+  static void visit(Archive& archive, Self& self) {
+    archive("file", self.file);
+    archive("text", self.text);
+    archive("set", self.set);
+    archive("figures", self.figures);
+    archive("rated", self.rated);
+  }
 };
+
+/// Columns by what they are of: a piece's source, a drive, a check, a figure.
+std::string piece_key(const std::string& source, std::string_view what);
+std::string drive_key(const std::string& drive, std::string_view what);
+inline constexpr std::string_view margin_key = "margin.";
 
 /// What came of a point.
 struct PointRow {
@@ -90,6 +112,7 @@ PointRow run_point(const PointQuestion& question, const PointScenario& point);
 /// "checks[cut length].from" in place of "checks.0.from".
 std::string with_check_names(const PointQuestion& question, const std::string& text);
 
+std::string in_one_line(std::string text);
 /// A row's cells behind the point's own: "passed,,,0.04,...", always the same way and back; nothing if `text`
 /// is no such row.
 std::string row_text(const PointRow& row);

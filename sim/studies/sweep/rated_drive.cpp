@@ -76,18 +76,23 @@ std::string failed_rating(const std::vector<record::DriveVerdict>& drives) {
               : worst->trips.front());
 }
 
-std::vector<std::string> rated_columns(const std::string& drive) {
-  std::vector<std::string> columns;
+std::vector<Column> rated_columns(const std::string& drive) {
+  std::vector<Column> columns;
+  const auto add = [&](const std::string& name, const std::string& unit) {
+    columns.push_back({fmt::format("rated.{}", columns.size()), fmt::format("{} {}", drive, name), unit});
+  };
   for (const auto& [name, unit, mean] : ratings) {
-    columns.push_back(fmt::format("{} {} [{}]", drive, name, unit));
-    columns.push_back(fmt::format("{} {}, share", drive, name));
+    add(std::string(name), std::string(unit));
+    add(fmt::format("{}, share", name), "");
   }
-  for (const auto* name : {"inertia ratio", "energy [J]", "trips", "cycles", "steady", "mean speed [rad/s]",
-                           "rms torque then [N m]"})
-    columns.push_back(fmt::format("{} {}", drive, name));
+  add("inertia ratio", "");
+  add("energy", "J");
+  for (const auto* name : {"trips", "cycles", "steady"}) add(name, "");
+  add("mean speed", "rad/s");
+  add("rms torque then", "N m");
   for (std::size_t i = 0; i < RatedDrive{}.outline.size(); ++i) {
-    columns.push_back(fmt::format("{} speed {} [rad/s]", drive, i));
-    columns.push_back(fmt::format("{} torque {} [N m]", drive, i));
+    add(fmt::format("speed {}", i), "rad/s");
+    add(fmt::format("torque {}", i), "N m");
   }
   return columns;
 }

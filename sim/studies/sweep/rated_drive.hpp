@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/table.hpp"
 #include "sim/loop/drive_judge.hpp"
 
 namespace drycut::sim::studies {
@@ -55,7 +56,7 @@ struct RatedDrive {
 };
 
 /// Headings of a row's numbers.
-std::vector<std::string> rated_columns(const std::string& drive);
+std::vector<Column> rated_columns(const std::string& drive);
 /// The numbers, and read back from the last of a row.
 std::vector<double> rated_numbers(const record::DriveVerdict& verdict);
 RatedDrive rated_drive(const std::vector<double>& row);

@@ -16,21 +16,31 @@ namespace {
 
 constexpr double least_share = 0.2;  ///< of a tolerance: a line of equal accuracy below it is noise
 
+/// A table of points as a page has it: checks by their names, values of the axes as numbers.
+Table named(const Table& table, const PointQuestion& question, const SweepAxes& axes,
+            const std::vector<SweepPoint>& points) {
+  auto columns = table.columns();
+  const auto of_axes = named_columns(question, axes);
+  std::copy(of_axes.begin(), of_axes.end(), columns.begin());
+  Table made(std::move(columns));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    auto cells = table.rows()[i];
+    const auto of_point = cells_of(points[i]);
+    std::copy(of_point.begin(), of_point.end(), cells.begin());
+    made.add(std::move(cells));
+  }
+  return made;
+}
+
 /// The rows as a page shows them.
 Studied studied(const PointQuestion& question, const SweepAxes& axes, const std::vector<SweepPoint>& points,
                 const std::vector<PointRow>& rows) {
-  Studied study{question.file.stem().string(), question, axes, points, axis_headings(question, axes)};
+  Studied study{question.file.stem().string(), question, axes, points,
+                named(sweep_table(question, axes, points, rows), question, axes, points)};
   study.columns = question.columns;
-  study.headings.insert(study.headings.end(), {"verdict", "limit", "rating"});
-  study.headings.insert(study.headings.end(), question.columns.begin(), question.columns.end());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& row = rows[i];
     const bool good = row.verdict == PointRow::Verdict::passed;
-    auto& cells = study.cells.emplace_back(short_point(points[i]));
-    cells.emplace_back(name_of(row.verdict));
-    cells.push_back(row.limit);
-    cells.push_back(row.rating);
-    for (const double number : row.numbers) cells.push_back(short_text(number));
     study.good.push_back(good);
     study.kept.push_back(good);
     study.region.push_back(region_of(row));
@@ -50,8 +60,7 @@ std::string dust_of(const Studied& study) {
   std::string text;
   for (std::size_t column = 0; column < study.columns.size(); ++column) {
     for (const auto& piece : study.question.pieces) {
-      if (piece.tolerance <= 0 || !study.columns[column].starts_with(piece.source + ".cut accuracy ["))
-        continue;
+      if (piece.tolerance <= 0 || study.columns[column].key != piece_key(piece.source, "accuracy")) continue;
       const bool reached = std::any_of(study.numbers.begin(), study.numbers.end(), [&](const auto& numbers) {
         return numbers[column] > least_share * piece.tolerance;
       });
@@ -68,11 +77,13 @@ std::string dust_of(const Studied& study) {
 std::vector<renders::MapLines> lines_of(const Studied& study) {
   std::vector<renders::MapLines> lines;
   for (std::size_t column = 0; column < study.columns.size(); ++column) {
-    const auto& name = study.columns[column];
-    renders::MapLines shown{name, {}, {}};
-    bool drawn = name.find(" rms torque [") != std::string::npos;
+    const auto& key = study.columns[column].key;
+    renders::MapLines shown{study.columns[column].heading(), {}, {}};
+    bool drawn = std::ranges::any_of(study.question.drives, [&](const std::string& drive) {
+      return key == drive_key(drive, "rms_torque");
+    });
     for (const auto& piece : study.question.pieces) {
-      if (!name.starts_with(piece.source + ".cut accuracy [")) continue;
+      if (key != piece_key(piece.source, "accuracy")) continue;
       drawn = true;
       if (piece.tolerance > 0)
         for (const double share : {least_share, 0.5, 1.0}) shown.levels.push_back(share * piece.tolerance);
@@ -146,7 +157,7 @@ void leave_out_of_proportion(const renders::Curve& holds, renders::Curve& all) {
 
 /// Every figure over the one axis, a dot a run.
 renders::Plot curves_of(const Studied& study, const std::vector<PointRow>& rows, const std::string& title) {
-  renders::Plot plot{"curves", title, study.headings[0], {}};
+  renders::Plot plot{"curves", title, study.table.columns()[0].heading(), {}};
   plot.panel_height = 240;
   if (const auto bound = first_bound(study)) {
     plot.marks = {{number_in(study.points[bound->first][0]), "passes at " + shown_value(study, bound->first)},
@@ -165,11 +176,10 @@ renders::Plot curves_of(const Studied& study, const std::vector<PointRow>& rows,
   for (std::size_t i = 0; i < rows.size(); ++i)
     failing.numbers[i] =
         study.good[i] ? std::vector<double>(rows[i].numbers.size(), unknown) : rows[i].numbers;
-  for (const auto& name : curve_columns(study)) {
-    const auto column = static_cast<std::size_t>(std::find(study.columns.begin(), study.columns.end(), name) -
-                                                 study.columns.begin());
-    auto passes = curve_of(study, column, "passes");
-    auto fails = curve_of(failing, column, "fails");
+  for (const auto& column : curve_columns(study)) {
+    const auto place = *place_of(column, study);
+    auto passes = curve_of(study, place, "passes");
+    auto fails = curve_of(failing, place, "fails");
     leave_out_of_proportion(passes, fails);
     // What joins the dots is a guide for the eye; pale, and without a name.
     auto joined = passes;
@@ -183,7 +193,7 @@ renders::Plot curves_of(const Studied& study, const std::vector<PointRow>& rows,
       curve->style = renders::Curve::Style::points;
       if (!has_points(*curve)) curve->label.clear();
     }
-    plot.panels.push_back(panel_of(name, {std::move(joined), std::move(fails), std::move(passes)}));
+    plot.panels.push_back(panel_of(column, {std::move(joined), std::move(fails), std::move(passes)}));
   }
   return plot;
 }

@@ -6,56 +6,30 @@
 #include <limits>
 #include <memory>
 #include <mutex>
-#include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <utility>
 
-#include "sim/file.hpp"
 #include "sim/studies/override_json.hpp"
-#include "sim/studies/proven_line.hpp"
 
 namespace drycut::sim::studies {
 
 namespace {
 
-using nlohmann::json;
 using Overrides = std::vector<scenario::Override>;
 
 constexpr std::size_t key_digits = 16;
 
-/// What prepare() has not found out.
-std::string text_of(const PointQuestion& question) {
-  auto figures = json::array();
-  for (const auto& figure : question.figures) figures.push_back({figure.name, figure.term});
-  return json{{"file", question.file.string()},
-              {"text", question.text},
-              {"set", question.set},
-              {"figures", figures},
-              {"rated", question.rated}}
-      .dump();
-}
-
 }  // namespace
 
 PointStore::PointStore(const std::filesystem::path& file, cluster::Workers workers)
-    : workers_(std::move(workers)) {
-  std::string kept;
-  std::ifstream old(file, std::ios::binary);
-  for (std::string line; std::getline(old, line) && !old.eof();) {
-    std::uint64_t key = 0;
-    const auto whole = unharmed(line);
-    if (!whole || whole->size() <= key_digits) continue;
-    std::from_chars(whole->data(), whole->data() + key_digits, key, 16);
-    const std::string row(whole->substr(key_digits + 1));
-    if (!parse_row(row)) continue;
-    rows_[key] = row;
-    kept += line + "\n";
-  }
-  old.close();
-  write_file(file, kept);
-  stream_.exceptions(std::ios::failbit | std::ios::badbit);
-  stream_.open(file, std::ios::binary | std::ios::app);
-}
+    : workers_(std::move(workers)), lines_(file, "", [this](std::string_view line) -> std::string {
+        std::uint64_t key = 0;
+        if (line.size() <= key_digits) return {};
+        std::from_chars(line.data(), line.data() + key_digits, key, 16);
+        const std::string row(line.substr(key_digits + 1));
+        if (!parse_row(row)) return {};
+        rows_[key] = row;
+        return std::string(line);
+      }) {}
 
 std::vector<PointRow> PointStore::rows(const PointQuestion& question, const std::vector<Overrides>& points,
                                        const StudyProgress& progress) {
@@ -79,7 +53,7 @@ std::vector<PointRow> PointStore::rows(const PointQuestion& question, const std:
       twins.push_back(i);
       return {};
     }
-    return cluster::Ask{json(points[i]).dump(),
+    return cluster::Ask{record::json_text(record::json_of(points[i])),
                         [&question, point] { return row_text(run_point(question, *point)); }};
   };
   const auto take = [&](std::size_t i, const cluster::WorkerAnswer& answer) {
@@ -98,11 +72,11 @@ std::vector<PointRow> PointStore::rows(const PointQuestion& question, const std:
     // As it is read back: numbers of as many digits, whoever has run it.
     rows[i] = parse_row(answer.text).value();
     rows_.emplace(keys[i], answer.text);
-    stream_ << proven(fmt::format("{:0{}x},{}", keys[i], key_digits, answer.text)) + '\n' << std::flush;
+    lines_.add(fmt::format("{:0{}x},{}", keys[i], key_digits, answer.text));
     ++(rows[i].verdict == PointRow::Verdict::refused ? refused_ : simulated_);
     progress(++done, points.size());
   };
-  workers_.run({"point", text_of(question), points.size(), ask, take});
+  workers_.run({"point", record::json_text(record::json_of(question)), points.size(), ask, take});
   for (const auto i : twins) {
     rows[i] = rows[asked.at(keys[i])];
     progress(++done, points.size());
@@ -111,19 +85,11 @@ std::vector<PointRow> PointStore::rows(const PointQuestion& question, const std:
 }
 
 std::function<std::string(const std::string&)> point_answerer(const std::string& text) {
-  const auto asked = json::parse(text);
-  auto question = std::make_shared<PointQuestion>();
-  question->file = asked.at("file").get<std::string>();
-  question->text = asked.at("text").get<std::string>();
-  question->set = asked.at("set").get<Overrides>();
-  question->rated = asked.at("rated").get<std::string>();
-  for (const auto& figure : asked.at("figures"))
-    question->figures.push_back({figure.at(0).get<std::string>(), figure.at(1).get<std::string>()});
-  Problems problems;
-  prepare(*question, problems);
-  if (!problems.empty()) throw std::runtime_error(to_string(problems.front()));
+  const auto question = question_in<PointQuestion>(text);
   return [question](const std::string& ask) {
-    return row_text(run_point(*question, read_point(*question, json::parse(ask).get<Overrides>())));
+    Overrides overrides;
+    record::take_json(record::Json::parse(ask), overrides);
+    return row_text(run_point(*question, read_point(*question, overrides)));
   };
 }
 

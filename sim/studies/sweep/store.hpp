@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <optional>
 #include <string>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "sim/studies/cluster/workers.hpp"
+#include "sim/studies/kept_lines.hpp"
 #include "sim/studies/sweep/point.hpp"
 
 namespace drycut::sim::studies {
@@ -40,7 +40,7 @@ class PointStore {
  private:
   cluster::Workers workers_;
   std::unordered_map<std::uint64_t, std::string> rows_;
-  std::ofstream stream_;
+  KeptLines lines_;
   std::size_t simulated_ = 0;
   std::size_t refused_ = 0;
   std::vector<std::string> lost_;

@@ -206,22 +206,22 @@ std::vector<PointRow> sweep(const PointQuestion& question, const SweepAxes& axes
   return store.rows(question, asked, progress);
 }
 
-std::string csv_heading(const PointQuestion& question, const SweepAxes& axes, const std::string& between) {
-  std::string line;
-  for (const auto& axis : axes) line += csv_cell(heading(axis.parameter)) + ",";
-  line += between;
-  for (const auto& column : question.columns) line += "," + csv_cell(column);
-  return line + "\n";
-}
-
-std::string sweep_csv(const PointQuestion& question, const SweepAxes& axes,
-                      const std::vector<SweepPoint>& points, const std::vector<PointRow>& rows) {
-  auto text = csv_heading(question, axes, "verdict,limit,rating");
+Table sweep_table(const PointQuestion& question, const SweepAxes& axes, const std::vector<SweepPoint>& points,
+                  const std::vector<PointRow>& rows) {
+  auto columns = columns_of(axes);
+  columns.insert(columns.end(), {{"verdict", "verdict"}, {"limit", "limit"}, {"rating", "rating"}});
+  columns.insert(columns.end(), question.columns.begin(), question.columns.end());
+  Table table(std::move(columns));
   for (std::size_t i = 0; i < points.size(); ++i) {
-    for (const auto& value : points[i]) text += value + ",";
-    text += row_text(rows[i]) + "\n";
+    const auto& row = rows[i];
+    std::vector<Table::Cell> cells(points[i].begin(), points[i].end());
+    cells.emplace_back(std::string(name_of(row.verdict)));
+    cells.emplace_back(in_one_line(row.limit));
+    cells.emplace_back(row.rating);
+    cells.insert(cells.end(), row.numbers.begin(), row.numbers.end());
+    table.add(std::move(cells));
   }
-  return text;
+  return table;
 }
 
 }  // namespace drycut::sim::studies

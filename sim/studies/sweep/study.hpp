@@ -22,11 +22,9 @@ std::vector<SweepPoint> planned(SweepAxes& axes, std::optional<std::size_t> samp
 std::vector<PointRow> sweep(const PointQuestion& question, const SweepAxes& axes,
                             const std::vector<SweepPoint>& points, PointStore& store,
                             const StudyProgress& progress);
-/// The heading of a table of points: the axes, `between`, the question's numbers.
-std::string csv_heading(const PointQuestion& question, const SweepAxes& axes, const std::string& between);
-/// As sweep.csv: a line a point, headed "variables.length [mm],verdict,limit,...".
-std::string sweep_csv(const PointQuestion& question, const SweepAxes& axes,
-                      const std::vector<SweepPoint>& points, const std::vector<PointRow>& rows);
+/// A row a point: its values on the axes, verdict, limit, rating, the question's numbers.
+Table sweep_table(const PointQuestion& question, const SweepAxes& axes, const std::vector<SweepPoint>& points,
+                  const std::vector<PointRow>& rows);
 
 /// A value of the sought parameter that was looked at.
 struct ValueLook {
@@ -90,7 +88,7 @@ inline constexpr int scanned_values = 9;
 inline constexpr double widest_share = 1.0 / 16;   ///< of the range
 inline constexpr double distance_share = 1.0 / 4;  ///< of the way to the bound
 void seek(Envelope& envelope, PointStore& store, const StudyProgress& progress);
-/// A line a point; of several scenes under the headings of all of them, the first of them "scene".
-std::string envelope_csv(const std::vector<Envelope>& envelopes);
+/// A row a point; of several scenes with the columns of all of them, the first of them "scene".
+Table envelope_table(const std::vector<Envelope>& envelopes);
 
 }  // namespace drycut::sim::studies

@@ -21,6 +21,12 @@ struct Study {
     std::vector<loop::KnownEvent> events;           ///< that its plants can report
     std::map<std::string, std::string> units = {};  ///< of the channels that metric and constraints look at
     std::string play = {};  ///< and stiction of the plant at the wire: "axis.gap 0.4 mm"
+
+    template <typename Archive, typename Self>
+    static void visit(Archive& archive, Self& self) {
+      archive("file", self.file);
+      archive("text", self.text);
+    }
   };
   std::vector<Case> cases;
   std::vector<scenario::Override> set;  ///< applied before what the tuning changes
@@ -32,6 +38,18 @@ struct Study {
   bool ignore_checks = false;
   std::string metric_unit;              ///< by prepare(); "" = none that could be said
   std::vector<std::string> room_units;  ///< of the room that each constraint leaves, likewise
+
+  /// What prepare() does not find out.
+  template <typename Archive, typename Self>
+  static void visit(Archive& archive, Self& self) {
+    archive("cases", self.cases);
+    archive("set", self.set);
+    archive("minimise", self.minimise);
+    archive("constraints", self.constraints);
+    archive("loop", self.loop);
+    archive("from", self.from);
+    archive("ignore_checks", self.ignore_checks);
+  }
 
   /// Simulated runs that one set of values may take: two more a scenario where the loop is measured, and two
   /// more where there is play or stiction, for pushes.

@@ -6,27 +6,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 #include <span>
-#include <sstream>
-#include <stdexcept>
 
 #include "base/text.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/controller_loader.hpp"
 #include "sim/studies/fingerprint.hpp"
 #include "sim/studies/override_json.hpp"
-#include "sim/studies/proven_line.hpp"
 #include "sim/studies/recorded_csv.hpp"
 
 namespace drycut::sim::studies {
 
 namespace {
 
-using nlohmann::json;
 using Overrides = std::vector<scenario::Override>;
 
 /// A verdict as the cells of a row behind the values, the same way and back: numbers keep every digit.
@@ -71,24 +65,24 @@ std::optional<Verdict> parsed_verdict(const std::string& text, std::size_t rooms
 std::string row_of(std::size_t number, const Trials::Trial& trial) {
   std::string row = fmt::format("{},{}", number, trial.phase);
   for (const double value : trial.point) row += fmt::format(",{}", value);
-  return proven(row + "," + text_of(trial.verdict)) + "\n";
+  return row + "," + text_of(trial.verdict);
 }
 
-/// What prepare() has not found out.
-std::string text_of(const Study& study) {
-  auto cases = json::array();
-  for (const auto& entry : study.cases) cases.push_back({entry.file.string(), entry.text});
-  const auto& loop = study.loop;
-  json question = {{"cases", cases},
-                   {"set", study.set},
-                   {"minimise", study.minimise},
-                   {"constraints", study.constraints},
-                   {"from", study.from},
-                   {"ignore_checks", study.ignore_checks},
-                   {"wire", loop.wire},
-                   {"amplitude", loop.amplitude}};
-  if (loop.at) question["at"] = *loop.at;
-  return question.dump();
+/// What is asked of one trial.
+struct TrialAsk {
+  Overrides overrides;
+  std::optional<double> to_beat;
+
+  template <typename Archive, typename Self>
+  static void visit(Archive& archive, Self& self) {
+    archive("overrides", self.overrides);
+    archive("to_beat", self.to_beat);
+  }
+};
+
+std::string answer_of(const Study& study, const TrialAsk& ask) {
+  return text_of(
+      measure(study, ask.overrides, ask.to_beat.value_or(std::numeric_limits<double>::infinity())));
 }
 
 /// Reads all that the trials read; their values, numbers, name no files.
@@ -104,17 +98,18 @@ void read_cases(const Study& study) {
 }  // namespace
 
 Trials::Trials(const Study& study, TunedParameters parameters, std::vector<scenario::Override> fixed,
-               std::filesystem::path file, cluster::Workers workers, std::function<void(int)> progress)
+               const std::filesystem::path& file, cluster::Workers workers, std::function<void(int)> progress)
     : study_(study),
       parameters_(std::move(parameters)),
       fixed_(std::move(fixed)),
-      file_(std::move(file)),
       workers_(std::move(workers)),
-      progress_(std::move(progress)) {
-  load();
-  stream_.exceptions(std::ios::failbit | std::ios::badbit);
-  stream_.open(file_, std::ios::binary | std::ios::app);
-}
+      progress_(std::move(progress)),
+      lines_(file, fingerprint() + "\n" + heading() + "\n", [this](std::string_view line) -> std::string {
+        const auto trial = trial_of(line);
+        if (!trial) return {};
+        kept_.emplace(trial->point, trial->verdict);
+        return row_of(++rows_, *trial);
+      }) {}
 
 std::string Trials::fingerprint() const {
   Fingerprint hash;
@@ -143,31 +138,10 @@ std::string Trials::heading() const {
   return line + ",hunts_from,failed_checks,violation,stopped,doubtful,runs,note,checksum";
 }
 
-// Takes what an earlier run of the same study left, but lines that are cut short or damaged.
-void Trials::load() {
-  const auto first = fingerprint() + "\n" + heading() + "\n";
-  std::string text = first;
-  std::ifstream old(file_, std::ios::binary);
-  std::ostringstream content;
-  content << old.rdbuf();
-  const std::string all = old ? content.str() : "";
-  if (all.starts_with(first)) {
-    for (const auto line : split_lines(std::string_view(all).substr(first.size()))) {
-      const auto trial = trial_of(line);
-      if (!trial) continue;
-      kept_.emplace(trial->point, trial->verdict);
-      text += row_of(++rows_, *trial);
-    }
-  }
-  write_file(file_, text);
-}
-
 std::optional<Trials::Trial> Trials::trial_of(std::string_view line) const {
-  const auto whole = unharmed(line);
-  if (!whole) return {};
   Problems ignored;
   cams::TableProblems broken("", ignored);
-  const auto text = std::string(*whole) + "\n";
+  const auto text = std::string(line) + "\n";
   CsvRows rows(text, broken);
   CsvRow row;
   if (!rows.next(row)) return {};
@@ -186,7 +160,7 @@ std::optional<Trials::Trial> Trials::trial_of(std::string_view line) const {
 }
 
 void Trials::append(const Trial& trial) {
-  stream_ << row_of(++rows_, trial) << std::flush;
+  lines_.add(row_of(++rows_, trial));
   ++simulated_;
 }
 
@@ -212,13 +186,11 @@ std::vector<std::size_t> Trials::run(const std::string& phase, const std::vector
   int runs_done = runs();
   const auto ask = [&](std::size_t i) {
     if (i == 0) read_cases(study_);
-    auto overrides = fixed_;
+    TrialAsk asked{fixed_, std::isfinite(to_beat) ? std::optional(to_beat) : std::nullopt};
     for (auto& override : overrides_of(parameters_, trials_[open[i]].point))
-      overrides.push_back(std::move(override));
-    json asked = {{"overrides", overrides}};
-    if (std::isfinite(to_beat)) asked["to_beat"] = to_beat;
-    return std::optional(cluster::Ask{
-        asked.dump(), [this, overrides, to_beat] { return text_of(measure(study_, overrides, to_beat)); }});
+      asked.overrides.push_back(std::move(override));
+    return std::optional(cluster::Ask{record::json_text(record::json_of(asked)),
+                                      [this, asked] { return answer_of(study_, asked); }});
   };
   const auto take = [&](std::size_t i, const cluster::WorkerAnswer& answer) {
     auto& trial = trials_[open[i]];
@@ -238,7 +210,7 @@ std::vector<std::size_t> Trials::run(const std::string& phase, const std::vector
     }
     if (progress_) progress_(runs_done);
   };
-  workers_.run({"trial", text_of(study_), open.size(), ask, take});
+  workers_.run({"trial", record::json_text(record::json_of(study_)), open.size(), ask, take});
   return indices;
 }
 
@@ -262,25 +234,11 @@ std::size_t Trials::best() const {
 }
 
 std::function<std::string(const std::string&)> trial_answerer(const std::string& text) {
-  const auto asked = json::parse(text);
-  auto study = std::make_shared<Study>();
-  for (const auto& entry : asked.at("cases"))
-    study->cases.push_back({entry.at(0).get<std::string>(), entry.at(1).get<std::string>(), {}});
-  study->set = asked.at("set").get<Overrides>();
-  study->minimise = asked.at("minimise").get<std::string>();
-  study->constraints = asked.at("constraints").get<std::vector<std::string>>();
-  study->from = asked.at("from").get<Time>();
-  study->ignore_checks = asked.at("ignore_checks").get<bool>();
-  study->loop.wire = asked.at("wire").get<std::string>();
-  study->loop.amplitude = asked.at("amplitude").get<double>();
-  if (asked.contains("at")) study->loop.at = asked.at("at").get<std::string>();
-  Problems problems;
-  prepare(*study, problems);
-  if (!problems.empty()) throw std::runtime_error(to_string(problems.front()));
+  const auto study = question_in<Study>(text);
   return [study](const std::string& ask) {
-    const auto trial = json::parse(ask);
-    return text_of(measure(*study, trial.at("overrides").get<Overrides>(),
-                           trial.value("to_beat", std::numeric_limits<double>::infinity())));
+    TrialAsk asked;
+    record::take_json(record::Json::parse(ask), asked);
+    return answer_of(*study, asked);
   };
 }
 

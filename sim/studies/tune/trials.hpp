@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <limits>
 #include <map>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "sim/studies/cluster/workers.hpp"
+#include "sim/studies/kept_lines.hpp"
 #include "sim/studies/tune/parameter.hpp"
 #include "sim/studies/tune/study.hpp"
 
@@ -29,7 +29,7 @@ class Trials {
   /// many threads here; `progress` is told the runs so far. Throws std::runtime_error if the file cannot be
   /// written.
   Trials(const Study& study, TunedParameters parameters, std::vector<scenario::Override> fixed,
-         std::filesystem::path file, cluster::Workers workers, std::function<void(int)> progress = {});
+         const std::filesystem::path& file, cluster::Workers workers, std::function<void(int)> progress = {});
 
   /// Tries all of `points`, several at the same time; returns the index of each in trials(). `to_beat`: see
   /// measure().
@@ -59,7 +59,6 @@ class Trials {
   [[nodiscard]] std::size_t best() const;
 
  private:
-  void load();
   [[nodiscard]] std::optional<Trial> trial_of(std::string_view line) const;
   void append(const Trial& trial);
   [[nodiscard]] std::string heading() const;
@@ -68,16 +67,15 @@ class Trials {
   const Study& study_;
   TunedParameters parameters_;
   std::vector<scenario::Override> fixed_;
-  std::filesystem::path file_;
   cluster::Workers workers_;
   std::function<void(int)> progress_;
-  std::ofstream stream_;
   std::map<Point, Verdict> kept_;  ///< of the file, not asked for yet
   std::size_t rows_ = 0;           ///< in the file
   std::vector<Trial> trials_;
   std::map<Point, std::size_t> index_;
   int simulated_ = 0;
   std::vector<std::string> lost_;
+  KeptLines lines_;  ///< reads the members above
 };
 
 /// Answers the trials of a study as Trials asks them elsewhere: JSON in, the row's cells behind the values

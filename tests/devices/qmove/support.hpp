@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "devices/qmove/catalogue.hpp"
@@ -20,7 +21,8 @@ class Puppet : public Device {
   enum States { st_init, st_still, st_locked, st_int };
   enum Commands { init, halt, go, delcnt, lock };
 
-  Puppet(const Resources& resources, Cards& cards) : Device(table()), resources_(resources), cards_(cards) {}
+  Puppet(Resources resources, Cards& cards)
+      : Device(table()), resources_(std::move(resources)), cards_(cards) {}
 
   static constexpr DeviceVariable variable(std::string_view name, Size size, std::string_view unit,
                                            double limit, Retention retention,

@@ -125,5 +125,13 @@ TEST(QmoveCards, HoldEveryTerminalOfTheConfiguration) {
   EXPECT_TRUE(cards.interrupt_lines.contains(5));
 }
 
+// An edge on a line that no device listens to does nothing.
+TEST(QmoveCards, AnInterruptLineThatNoDeviceUsesIsNoTerminal) {
+  const Bench bench({"END\n"});
+  EXPECT_EQ(std::get<Address>(bench.controller->terminal("INT5")), (Address{Kind::interrupt, 0, 5}));
+  EXPECT_EQ(std::get<TerminalFault>(bench.controller->terminal("INT2")).what,
+            "the configuration uses no INT2");
+}
+
 }  // namespace
 }  // namespace drycut::devices::qmove

@@ -140,6 +140,16 @@ TEST_F(ToldServices, GitLabHasAFileOfBoth) {
   EXPECT_EQ(content(gitlab_file), "[]\n") << "what was told before is over";
 }
 
+// A member of a check that people are to be told needs no word in the program but its key.
+TEST_F(ToldServices, MembersOfACheckAreToldAsTheyStand) {
+  auto check = record::json_of(record::CheckResult());
+  for (const auto key : record::CheckResult::told()) EXPECT_TRUE(check.contains(key)) << key;
+  check.update(
+      {{"cuts", 15}, {"late_by", 0.25}, {"forced", true}, {"unsure", false}, {"of", nullptr}, {"by", "x"}});
+  const auto told = report::told_of(check, {"cuts", "late_by", "forced", "unsure", "of", "by"});
+  EXPECT_EQ(told, "cuts 15; late by 0.25; forced; by x");
+}
+
 TEST_F(ToldServices, JunitHasPlacesTimesPropertiesAndTheReport) {
   options.seed = 7;
   options.pictures = true;

@@ -248,6 +248,24 @@ TEST_F(Compare, OverlaysHoldACurveOfEachRun) {
   EXPECT_EQ(plots[2].panels[0].y_label, "AxisX.follerr [bits x4]");
 }
 
+// A channel that stands at 0 in one run has its panel still, or the others' curves would come into wrong ones.
+TEST_F(Compare, AChannelThatIsZeroInOneRunIsStillLaidOverTheOthers) {
+  RunTexts still;
+  RunTexts moving;
+  still.trace = "time [s],AxisX.vel [mm/s],AxisX.follerr [bits x4],AxisX.frb [1]\n0.0,0,1,0\n0.1,0,2,0\n";
+  moving.trace = "time [s],AxisX.vel [mm/s],AxisX.follerr [bits x4],AxisX.frb [1]\n0.0,5,3,0\n0.1,6,4,0\n";
+  for (const bool still_first : {true, false}) {
+    const auto comparison = still_first ? compared(still, moving) : compared(moving, still);
+    const auto plot = overlay(comparison.runs, usual_overlays(comparison)).back();
+    EXPECT_EQ(plot.title, "Channels of AxisX (0 all the time: AxisX.frb)");
+    ASSERT_EQ(plot.panels.size(), 2U);
+    const std::size_t one = still_first ? 0 : 1;
+    EXPECT_THAT(plot.panels[0].curves.at(one).y, ElementsAre(0, 0));
+    EXPECT_THAT(plot.panels[0].curves.at(1 - one).y, ElementsAre(5, 6));
+    EXPECT_THAT(plot.panels[1].curves.at(one).y, ElementsAre(1, 2));
+  }
+}
+
 TEST_F(Compare, AWindowAboutAnEventCountsFromItInEachRun) {
   RunTexts late;
   late.events = with(late.events, "0.100000000,knife", "0.120000000,knife");
@@ -276,7 +294,7 @@ TEST_F(Compare, PiecesAreAlignedByTheirOrderBehindTheStartUp) {
   EXPECT_THAT(comparison.pieces[0].runs, ElementsAre(ElementsAre(800.1, 799.9), ElementsAre(800.1, 799.9)));
   const auto plots = overlay(comparison.runs, usual_overlays(comparison));
   for (const auto& curve : plots[0].panels[0].curves) EXPECT_THAT(curve.x, ElementsAre(1, 2));
-  EXPECT_THAT(comparison_csv(comparison, {}), HasSubstr("\npiece,knife.cut length 2,mm,799.9,799.9\n"));
+  EXPECT_THAT(comparison_table(comparison, {}).csv(), HasSubstr("\npiece,knife.cut length 2,mm,799.9,799.9\n"));
 }
 
 // No plot states limits: the first check that looks at the cuts later than from the start says where they
@@ -334,7 +352,7 @@ TEST(Lots, BeginWhereTwoPiecesInARowAreAnotherLength) {
 TEST_F(Compare, CsvTellsFiguresChecksAndParametersOfEachRun) {
   RunTexts other;
   other.scenario = with(other.scenario, "speed: 60 m/min", "speed: \"80, m/min\"");
-  const auto text = comparison_csv(compared({}, other), {{"drift", "mm", {0.5, NAN}}});
+  const auto text = comparison_table(compared({}, other), {{"drift", "mm", {0.5, NAN}}}).csv();
   EXPECT_THAT(text, testing::StartsWith("what,name,unit,a,b\nrun,drycut,,0.1.0,0.1.0\n"));
   EXPECT_THAT(text, HasSubstr("\nfigure,drift,mm,0.5,\n"));
   EXPECT_THAT(text, HasSubstr("\ncheck,cut length,,passed,passed\nmargin,cut length,mm,0.053,0.053\n"));
