@@ -195,6 +195,7 @@ class Controller {
   struct Period {
     std::string name;
     std::int64_t ns;
+    bool samples_axes = false;  ///< position loops are closed in it
   };
   [[nodiscard]] virtual std::vector<Period> periods() const = 0;
   /// Sampling time of the device whose output `analogue` is, the shortest if devices share it [ns]; 0 if

@@ -26,17 +26,16 @@ class CamReader {
     if (!seen_.contains("interpolation") && cam_.table.type == 5)
       cam_.interpolation = Interpolation::polynom_3_koeff;
     cam_.table.interpolation = cam_.interpolation;
-    cam_.lines = reader_.rows();
+    cam_.table.places = reader_.rows();
     return finished();
   }
 
   /// What the comments of a .tab file say, for its table.
-  std::optional<CamFile> tab(std::string_view text, McCamTable table, std::vector<int> lines) {
+  std::optional<CamFile> tab(std::string_view text, McCamTable table) {
     tab_ = true;
     cam_.interpolation = table.interpolation;
     cam_.table = std::move(table);
-    cam_.header = lines.empty() ? 1 : lines.front();
-    cam_.lines = std::move(lines);
+    if (!cam_.table.places.empty()) cam_.header = cam_.table.places.front();
     int number = 0;
     for (const std::string_view line : split_lines(text)) {
       ++number;
@@ -270,10 +269,9 @@ std::optional<CamFile> read_cam(std::string_view text, const std::string& file, 
     if (cam) cam->table.file = file;
     return cam;
   }
-  std::vector<int> lines;
-  std::optional<McCamTable> table = parse_tab(text, file, problems, &lines);
+  std::optional<McCamTable> table = parse_tab(text, file, problems);
   // The comments' faults are told even where the table has its own.
-  std::optional<CamFile> cam = reader.tab(text, table.value_or(McCamTable{}), std::move(lines));
+  std::optional<CamFile> cam = reader.tab(text, table.value_or(McCamTable{}));
   return table ? cam : std::nullopt;
 }
 
@@ -296,7 +294,7 @@ std::optional<CamFile> parse_cam_csv(std::string_view text, const std::string& f
   }
   for (const CamRefusal& refusal : refused)
     problems.push_back({"cam.refused-by-device"_code, file,
-                        refusal.row == 0 ? cam->header : cam->lines[refusal.row - 1], 1,
+                        refusal.row == 0 ? cam->header : cam->table.places[refusal.row - 1], 1,
                         fmt::format("error {}{}: {}", static_cast<unsigned>(refusal.error), behind,
                                     meaning_of(refusal.error)),
                         refusal.remedy});

@@ -47,6 +47,7 @@ struct McCamTable {
   int type = 2;                                                ///< 1..7
   Interpolation interpolation = Interpolation::table_defined;  ///< the header's; table_defined = it has none
   std::vector<double> values;                                  ///< line by line
+  std::vector<int> places = {};  ///< of its lines in its file; empty = it came of none
 
   [[nodiscard]] int columns() const;
   [[nodiscard]] std::size_t lines() const;

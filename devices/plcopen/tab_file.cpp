@@ -57,8 +57,7 @@ void header_line(TableReader& reader, McCamTable& table, std::map<std::string, i
 
 }  // namespace
 
-std::optional<McCamTable> parse_tab(std::string_view text, const std::string& file, Problems& problems,
-                                    std::vector<int>* lines) {
+std::optional<McCamTable> parse_tab(std::string_view text, const std::string& file, Problems& problems) {
   TableReader reader(file, problems);
   McCamTable table{.file = file, .name = {}, .type = 0, .values = {}};
   std::map<std::string, int> seen;
@@ -101,7 +100,7 @@ std::optional<McCamTable> parse_tab(std::string_view text, const std::string& fi
     reader.fault("cam.table-form"_code, {seen.at("lines"), 1},
                  fmt::format("Lines = {}, but there are {}", count, rows), fmt::format("write {}", rows));
   if (!reader.sound()) return std::nullopt;
-  if (lines != nullptr) *lines = reader.rows();
+  table.places = reader.rows();
   return table;
 }
 

@@ -45,9 +45,8 @@ class TableReader : private Complaints {
 /// Reads a cam table of the ISG kernel, `*.tab`: header lines `Tablename = ...`, `Tabletype`, `Table-ID`,
 /// `Functiontype` (may be missing) and `Lines`, then `Begintable`, one line a row of numbers between blanks,
 /// with decimal comma or point, and `EndTable`. `#` begins a comment. Faults go to `problems`; nullopt if
-/// there is one. `lines` gets the line of each row.
-std::optional<McCamTable> parse_tab(std::string_view text, const std::string& file, Problems& problems,
-                                    std::vector<int>* lines = nullptr);
+/// there is one.
+std::optional<McCamTable> parse_tab(std::string_view text, const std::string& file, Problems& problems);
 
 /// What a slave may do, as far as a file says it, in mm or deg and s; positions in 0.1 um or 0.0001 deg.
 struct CamFileLimits {
@@ -71,8 +70,7 @@ struct CamFile {
   std::string master_unit = "deg";   ///< or "mm": what the master's increments are 10000 to one of
   std::string slave_unit = "deg";
   CamFileLimits limits;
-  std::vector<int> lines;  ///< of the file, for each row
-  int header = 1;          ///< line of the header, or of the first row's columns
+  int header = 1;  ///< line of the header, or of the first row's columns
   bool operator==(const CamFile&) const = default;
 };
 

@@ -77,7 +77,7 @@ void QmoveController::add_terminal(const Address& address) {
 std::vector<Controller::Period> QmoveController::periods() const {
   std::vector<Period> periods;
   for (std::size_t i = 0; i < device_due_.size(); ++i)
-    periods.push_back({configuration_.devices[i].name + " TCamp", device_due_[i].period_ns});
+    periods.push_back({configuration_.devices[i].name + " TCamp", device_due_[i].period_ns, true});
   periods.push_back({"task cycle", round_.period_ns});
   return periods;
 }

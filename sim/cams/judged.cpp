@@ -25,12 +25,13 @@ MasterRange range_of(const loop::PlayedCam& played) {
 
 }  // namespace
 
-JudgedCam judged(const loop::PlayedCam& played, const std::string& name) {
+JudgedCam judged(const loop::PlayedCam& played, const std::string& name, Lines lines) {
   JudgedCam cam{played.text, {}, {}};
   const auto file = name + ".csv";
   if (played.table) {
-    cam.table = *played.table;
-    cam.text = cam_file(cam.table, file);
+    auto written = cam.table = *played.table;
+    cam.text = cam_file(written, file);
+    if (lines == Lines::written) cam.table = std::move(written);
   }
   // Also of a table that was written just now: will drycut cam take the file?
   auto read = read_cam(played.table ? played.table->kind() : "mc_camin", cam.text, file, cam.problems);
@@ -49,7 +50,7 @@ loop::CamJudgement cam_judgement(const std::vector<loop::PlayedCam>& played) {
   constexpr std::size_t most = 3;  // of a cam
   loop::CamJudgement judgement;
   for (const auto& one : played) {
-    const auto cam = judged(one, "cam");
+    const auto cam = judged(one, "cam", Lines::own);
     if (!cam.problems.empty()) continue;
     const auto& course = cam.study.course;
     // A law with passes in itself begins with what is not repeated.
@@ -70,11 +71,13 @@ loop::CamJudgement cam_judgement(const std::vector<loop::PlayedCam>& played) {
                                   other.number == finding.number && other.where == finding.where;
                          });
     };
+    const auto file = cam.study.file.empty() ? "" : fmt::format(" ({})", cam.study.file);
     std::size_t told = 0;
     for (const auto& finding : cam.study.findings)
       if (finding.grade < CamFinding::Grade::caution && ++told <= most)
-        judgement.doubts.push_back({{finding.kind, fmt::format("cam of {}, {}", one.axis, sentence(finding))},
-                                    is_of_table(finding)});
+        judgement.doubts.push_back(
+            {{finding.kind, fmt::format("cam of {}{}, {}", one.axis, file, sentence(finding))},
+             is_of_table(finding)});
   }
   return judgement;
 }

@@ -19,8 +19,10 @@ struct JudgedCam {
   CamStudy study = {};      ///< at the fastest that the master was ...
   double master_speed = 0;  ///< ... 0 = it did not move, or the table itself says how fast it is
 };
+/// Of which file findings name lines: the one that the run leaves, or the user's own.
+enum class Lines { written, own };
 /// `name` is that of its file and its plot.
-JudgedCam judged(const loop::PlayedCam& played, const std::string& name);
+JudgedCam judged(const loop::PlayedCam& played, const std::string& name, Lines lines = Lines::written);
 
 /// What speaks against the cams: errors and passed limits of the tables themselves are slips; what is only
 /// too much at the speed that the master had, and warnings, are none. Cautions are left out.

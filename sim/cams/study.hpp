@@ -29,6 +29,7 @@ struct CamStudy {
   CamText text = {};
   std::vector<CamFinding> findings = {};
   std::string master_unit = {};  ///< of the table
+  std::string file = {};         ///< from which its rows were read; "" = from none
   bool rows_are_given = true;    ///< the device does not make them from parameters
   std::string table = {};        ///< rows that were generated, as a table that reads back; "" = none were
   std::vector<CamPoint> points = {};

@@ -25,6 +25,15 @@ void print_problems(const Problems& problems) {
   if (kept_problems != nullptr) kept_problems->insert(kept_problems->end(), problems.begin(), problems.end());
 }
 
+int print_failure(const std::string& why) {
+  fmt::print(stderr, "{} [run.failed]\n", printable(why));
+  return simulation_failed;
+}
+
+void print_left_out(const std::vector<std::string>& lost) {
+  for (const auto& what : lost) fmt::print(stderr, "{} [run.left-out]\n", printable(what));
+}
+
 ProblemKeeper::ProblemKeeper(Problems& problems) { kept_problems = &problems; }
 ProblemKeeper::~ProblemKeeper() { kept_problems = nullptr; }
 
@@ -41,13 +50,15 @@ int run_program(std::vector<std::string> words) {
     std::vector<std::string> names;
     for (const auto* command : commands)
       if (!command->get_group().empty()) names.push_back(command->get_name());
-    fmt::print(stderr, "drycut: there is no command '{}'; {}\n", words[0], did_you_mean(words[0], names));
+    fmt::print(stderr, "drycut: there is no command '{}'; {} [option.unknown-choice]\n", words[0],
+               did_you_mean(words[0], names));
     return bad_input;
   }
   for (std::size_t i = 0; i < words.size(); ++i) {
     const auto fault = text_fault(words[i]);
     if (!fault) continue;
-    fmt::print(stderr, "drycut: in argument {} {}: {}\n", i + 1, fault->what, printable(words[i]));
+    fmt::print(stderr, "drycut: in argument {} {}: {} [option.value]\n", i + 1, fault->what,
+               printable(words[i]));
     return bad_input;
   }
   try {

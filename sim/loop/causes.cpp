@@ -90,6 +90,11 @@ std::string text_of_fault(const record::Alarm& fault) {
 
 void Causes::happened(const record::RecordedEvent& event) {
   const double at = event.at_seconds();
+  if (event.text.empty()) machines_.insert(event.source);
+  if (const bool cut = event.event == "value_cut"; !odd_value_ && (cut || event.event == "out_of_range")) {
+    odd_value_ = record::Alarm{at, event.source, event.text};
+    is_cut_ = cut;
+  }
   const auto keep = [&](std::vector<record::Alarm>& list, bool each_text) {
     auto text = text_of(event);
     const bool known = std::any_of(list.begin(), list.end(), [&](const record::Alarm& told) {
@@ -97,6 +102,8 @@ void Causes::happened(const record::RecordedEvent& event) {
     });
     if (!known && list.size() < most_causes) list.push_back({at, event.source, std::move(text)});
   };
+  if (const auto* blade = event.find("blade"); grip_.empty() && event.event == "clamped_moving")
+    grip_ = event.source + (blade != nullptr && blade->number != 0 ? ".head.plunge" : ".clamp");
   if (event.source == "timeline") {
     if ((event.event == "fault" || event.text == "off") && faults_.size() < most_causes)
       faults_.push_back({at, event.event, event.text});
@@ -112,7 +119,6 @@ void Causes::happened(const record::RecordedEvent& event) {
     keep(errors_, false);
   } else if (event.severity == Severity::warning && !event.text.empty()) {
     keep(warnings_, true);
-    if (!value_cut_ && event.event == "value_cut") value_cut_ = record::Alarm{at, event.source, event.text};
   } else if (event.event == "saturated" && limits_.size() < most_causes) {
     const auto* begin = event.find("begin");
     const auto* end = event.find("end");
@@ -194,7 +200,9 @@ std::optional<Causes::Cause> Causes::by_time(double failed_at, const Known& know
                        (warning != nullptr && warning->at >= fault->at);
     return Cause{shown ? Link::because : Link::after, {"loop.fault-put-in"_code, text_of_fault(*fault)}};
   }
-  if (error != nullptr) return Cause{Link::because, {"loop.error"_code, with_warning(*error)}};
+  if (error != nullptr)
+    return Cause{
+        Link::because, {"loop.error"_code, with_warning(*error)}, !machines_.contains(error->source)};
   if (known.hunting && known.hunting->first <= failed_at &&
       (warning == nullptr || known.hunting->first <= warning->at))
     return Cause{Link::because, known.hunting->second};
@@ -234,8 +242,10 @@ std::optional<Causes::Cause> Causes::cause_of(const std::vector<record::CheckRes
     const auto* error = first_error(ever);
     return error != nullptr ? text_of(*error) : "";
   };
-  if (value_cut_ && value_cut_->at <= failed_at.value_or(ever))
-    return Cause{Link::because, {"loop.value-cut"_code, text_of(*value_cut_)}}.with(then_error());
+  if (odd_value_ && odd_value_->at <= failed_at.value_or(ever))
+    return Cause{Link::because,
+                 {is_cut_ ? "loop.value-cut"_code : "loop.value-out-of-range"_code, text_of(*odd_value_)}}
+        .with(then_error());
   if (!known.contradictions.empty())
     return Cause{Link::because, known.contradictions.front()}.with(then_error());
   for (const auto& [at, found] : known.astray)
@@ -256,7 +266,7 @@ std::optional<Causes::Cause> Causes::cause_of(const std::vector<record::CheckRes
   if (!faults_.empty()) return cause;
   if (found_nothing(checks) && !known.hindrances.empty()) {
     const auto& first = known.hindrances.front();
-    const auto both = first_error(failed_at.value_or(ever)) != nullptr
+    const auto both = first_error(failed_at.value_or(ever)) != nullptr || cause->of_controller
                           ? cause->with(first.text)
                           : Cause{Link::because, first}.with(cause->what.text);
     return both.with(known.doubts.empty() ? "" : known.doubts.front().text);
@@ -273,7 +283,9 @@ std::optional<Causes::Cause> Causes::last_resort(const std::vector<record::Check
     if (announced && before)
       return Cause{Link::because, {"loop.error"_code, with_warning(*error)}}.with(
           known.hindrances.front().text);
-    return Cause{Link::meanwhile, known.hindrances.front()}.with(error != nullptr ? text_of(*error) : "");
+    return Cause{Link::meanwhile, known.hindrances.front()}
+        .with(error != nullptr ? text_of(*error) : "")
+        .with(known.doubts.empty() ? "" : known.doubts.front().text);
   }
   if (before) return known.doubts.empty() ? before : before->with(known.doubts.front().text);
   if (!known.doubts.empty()) return Cause{Link::meanwhile, known.doubts.front()};

@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,6 +44,8 @@ class Causes : public record::Observer {
   [[nodiscard]] std::optional<Finding> state_that_stands(double now) const;
   /// The first time that a plant ran into its end stop; nullptr = none did.
   [[nodiscard]] const record::Alarm* first_stop() const { return stop_ ? &*stop_ : nullptr; }
+  /// The machine whose clamps or blade first took hold of what ran at another speed, and its plug; "" = none.
+  [[nodiscard]] const std::string& grip() const { return grip_; }
   /// The first errors and warnings in the order of their times, twenty at most.
   [[nodiscard]] std::vector<record::Alarm> alarms() const;
 
@@ -64,6 +67,7 @@ class Causes : public record::Observer {
   struct Cause {
     Link link;
     Finding what;
+    bool of_controller = false;  ///< an error that it told itself
     /// The same, and behind it a phrase that tells more; "" = none.
     [[nodiscard]] Cause with(const std::string& more) const;
   };
@@ -82,7 +86,10 @@ class Causes : public record::Observer {
   std::vector<record::Alarm> sets_;         ///< what the timeline did to the machine
   std::vector<record::Alarm> blows_;        ///< the first of each source: it ran into a stop, it sank
   std::optional<record::Alarm> stop_;       ///< the first at an end stop
-  std::optional<record::Alarm> value_cut_;  ///< the first value that a program could not keep whole
+  std::optional<record::Alarm> odd_value_;  ///< the first that was cut, or is outside of the manual's range
+  bool is_cut_ = false;                     ///< that one
+  std::set<std::string> machines_;          ///< sources that tell numbers and no text
+  std::string grip_;
   std::vector<Limit> limits_;
   std::vector<State> states_;
 };

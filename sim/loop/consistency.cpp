@@ -353,6 +353,30 @@ std::vector<Finding> always_enabled(const scenario::Scenario& scenario, devices:
 
 }  // namespace
 
+std::vector<Finding> faults_of_nothing(const scenario::Scenario& scenario,
+                                       const std::vector<NamedPlant>& plants) {
+  std::vector<Finding> found;
+  const auto is_encoder = [&](const std::string& component) {
+    for (const auto& [name, plant] : plants)
+      for (const auto& port : plant->ports())
+        if (name + "." + port.name == component)
+          return std::holds_alternative<plants::EncoderPort*>(port.plug);
+    return false;
+  };
+  const auto is_wired = [&](const std::string& component) {
+    return std::ranges::any_of(scenario.wiring, [&](const scenario::Wire& wire) {
+      return wire.plug.text == component || wire.plug.text.starts_with(component + ".");
+    });
+  };
+  for (const auto& entry : scenario.timeline)
+    for (const auto& fault : entry.faults)
+      if (const auto& component = fault.component.text; is_encoder(component) && !is_wired(component))
+        found.emplace_back("wiring.fault-of-nothing"_code,
+                           fmt::format("{} of {} in line {} changes nothing: nothing is wired to {}",
+                                       fault.fault.text, component, entry.place.line, component));
+  return found;
+}
+
 std::vector<Finding> crossed_wires(const scenario::Scenario& scenario, devices::Controller& controller) {
   struct NamedWire {
     std::string terminal;

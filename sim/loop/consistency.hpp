@@ -19,6 +19,10 @@ std::vector<Finding> contradictions(const scenario::Scenario& scenario,
 /// encoder on two counters.
 std::vector<Finding> doubtful_wires(const scenario::Scenario& scenario, devices::Controller& controller);
 
+/// Faults of the timeline at encoders that nothing is wired to, a phrase each.
+std::vector<Finding> faults_of_nothing(const scenario::Scenario& scenario,
+                                       const std::vector<NamedPlant>& plants);
+
 /// Two wires whose terminals have each the name of the other's plug in the program, a phrase each.
 std::vector<Finding> crossed_wires(const scenario::Scenario& scenario, devices::Controller& controller);
 

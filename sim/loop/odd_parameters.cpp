@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
 
 namespace drycut::sim::loop {
 
@@ -24,6 +25,7 @@ constexpr double full_scale = 32767;  // offset: 10 V
 constexpr double much_offset = 0.05;  // of it
 constexpr double long_delay = 200;    // 1/100 s
 constexpr double long_ramp = 1e6;     // us
+constexpr double slow_start = 10;     // s
 constexpr double low_gain = 8;        // 1/s: it takes a third of a second to come to rest
 constexpr OddRow rows[] = {
     {"feedfw", [](double value, const Value&) { return value > 0 && value < all_speed / 2; },
@@ -55,6 +57,18 @@ constexpr OddRow rows[] = {
      "in 0.01/s, and position loops of drives have 2000 to 10000"},
     {"dynamik.tr_min", [](double value, const Value&) { return value > long_ramp; },
      "the acceleration is built up in no less, and the axis brakes as slowly"},
+    {"dynamik.a_max",
+     [](double value, const Value& other) {
+       return value > 0 && other("dynamik.vb_max") > 1000 * slow_start * value;
+     },
+     "in mm/s2, and so it takes more than 10 s from rest to dynamik.vb_max"},
+};
+
+// What an axis may well do without: told where nothing else is.
+constexpr OddRow plain_rows[] = {
+    {"feedfw", [](double value, const Value& other) { return value == 0 && other("pgain") > 0; },
+     "the following error grows with the speed"},
+    {"inertmode", [](double value, const Value&) { return value == 0; }, "the axis learns nothing"},
 };
 
 }  // namespace
@@ -62,30 +76,46 @@ constexpr OddRow rows[] = {
 std::vector<Finding> odd_parameters(devices::Controller& controller) {
   constexpr double slow_ns = 10e6;
   std::vector<Finding> found;
-  for (const auto& loop : controller.position_loops()) {
-    const auto value = [&](const char* name) {
-      const auto parameter = controller.find(fmt::format("{}.{}", loop.name, name));
-      return parameter ? parameter->read() : std::nan("");
-    };
-    for (const auto& [name, is_odd, why] : rows)
+  const auto value_of = [&](const std::string& axis, const char* name) {
+    const auto parameter = controller.find(fmt::format("{}.{}", axis, name));
+    return parameter ? parameter->read() : std::nan("");
+  };
+  const auto tell = [&](const std::string& axis, std::span<const OddRow> odd) {
+    const auto value = [&](const char* name) { return value_of(axis, name); };
+    for (const auto& [name, is_odd, why] : odd)
       if (const double is = value(name); is_odd(is, value))
-        found.emplace_back("loop.odd-parameter"_code,
-                           fmt::format("{}.{} is {:g}: {}", loop.name, name, is, why));
+        found.emplace_back("loop.odd-parameter"_code, fmt::format("{}.{} is {:g}: {}", axis, name, is, why));
+  };
+  for (const auto& loop : controller.position_loops()) {
+    tell(loop.name, rows);
     auto period = loop.reference ? static_cast<double>(controller.output_period(*loop.reference)) : 0;
     if (!loop.reference)  // all its axes have one
-      for (const auto& [name, ns] : controller.periods()) period = std::max(period, static_cast<double>(ns));
-    const double gain = period > 0 ? value("pgain") / 1000 / (period * 1e-9) : std::nan("");
+      for (const auto& one : controller.periods())
+        if (one.samples_axes) period = std::max(period, static_cast<double>(one.ns));
+    const double gain = period > 0 ? value_of(loop.name, "pgain") / 1000 / (period * 1e-9) : std::nan("");
     if (gain > 0 && gain < low_gain)
       found.emplace_back(
           "loop.odd-parameter"_code,
           fmt::format("{0}.pgain is {1:g}, every {2:g} ms: a gain of {3:.3g} 1/s, and position "
                       "loops of drives have 20 to 100",
-                      loop.name, value("pgain"), period * 1e-6, gain));
+                      loop.name, value_of(loop.name, "pgain"), period * 1e-6, gain));
     if (period > slow_ns)
       found.emplace_back("loop.odd-parameter"_code,
                          fmt::format("{} is sampled every {:g} ms, too rarely for a position loop", loop.name,
                                      period * 1e-6));
   }
+  for (const auto& loop : controller.position_loops()) tell(loop.name, plain_rows);
+  return found;
+}
+
+std::vector<Finding> rarely_sampled(devices::Controller& controller) {
+  constexpr std::int64_t rare_ns = 50'000'000;
+  std::vector<Finding> found;
+  for (const auto& period : controller.periods())
+    if (period.samples_axes && period.ns > rare_ns)
+      found.emplace_back("loop.rarely-sampled"_code,
+                         fmt::format("{} is {:g} s, far too long for a position loop", period.name,
+                                     static_cast<double>(period.ns) * 1e-9));
   return found;
 }
 

@@ -108,6 +108,8 @@ void Simulation::compare_with_machine() {
   if (!controller_) return;
   contradictions_ = contradictions(scenario_, named_);
   for (const auto& note : contradictions_) notes_of_setup_.push_back(note);
+  auto rarely = rarely_sampled(*controller_);
+  contradictions_.insert(contradictions_.end(), rarely.begin(), rarely.end());
   *open_ = open_terminals(*controller_, bus_.unwired(), named_);
   warnings_ = open_->moving;
   warnings_.insert(warnings_.end(), open_->others.begin(), open_->others.end());
@@ -117,6 +119,8 @@ void Simulation::compare_with_machine() {
   warnings_.insert(warnings_.end(), doubts_of_program_.begin(), doubts_of_program_.end());
   for (auto& doubt : doubtful_wires(scenario_, *controller_)) warnings_.push_back(std::move(doubt));
   for (auto& crossed : crossed_wires(scenario_, *controller_)) warnings_.push_back(std::move(crossed));
+  for (auto& idle : faults_of_nothing(scenario_, named_)) warnings_.push_back(std::move(idle));
+  std::ranges::move(rarely, std::back_inserter(warnings_));
 }
 
 // Its axes' directions, and the numbers of its programs that say how far they are, of those that are looked
@@ -499,12 +503,25 @@ Causes::Known Simulation::known(const CamJudgement& cams) {
     for (auto& odd : odd_parameters(*controller_)) known.doubts.push_back(std::move(odd));
     for (const auto& cam : cams.doubts)
       if (!cam.is_slip) known.doubts.push_back(cam.what);
+    if (auto line = line_of_grip(); known.doubts.empty() && line) known.doubts.push_back(std::move(*line));
   }
   if (auto first = unpressed(); !first.empty())
     known.hindrances.emplace_back("loop.not-pressed"_code, first + (standing ? "; " + standing->text : ""));
   else if (standing)
     known.hindrances.push_back(*standing);
   return known;
+}
+
+// Who took hold of material at another speed was told to.
+std::optional<Finding> Simulation::line_of_grip() const {
+  for (const auto& wire : scenario_.wiring) {
+    if (causes_.grip().empty() || wire.plug.text != causes_.grip()) continue;
+    const auto lines = switched_on_by(*controller_, wire.terminal.text);
+    if (!lines.empty())
+      return Finding{"loop.switched-on"_code,
+                     fmt::format("{} ({}) is switched on{}", wire.plug.text, wire.terminal.text, lines)};
+  }
+  return {};
 }
 
 // The home switch lies the other way, or is dead.

@@ -154,6 +154,7 @@ class Simulation {
   void warn_of_program(std::vector<Finding>& warnings);
   /// Switches that nobody pressed.
   [[nodiscard]] std::string unpressed() const;
+  [[nodiscard]] std::optional<Finding> line_of_grip() const;
   [[nodiscard]] std::optional<std::pair<double, Finding>> search_that_met_a_stop() const;
 
   void run_to_end(const std::function<void(Time)>& progress);

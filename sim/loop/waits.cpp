@@ -74,6 +74,7 @@ Waits waits_of(devices::Controller& controller, Time now) {
     const auto program = std::find_if(programs.begin(), programs.end(),
                                       [&](const auto& one) { return one.name == wait.program; });
     if (program == programs.end()) continue;
+    if (wait.ended && wait.since_ns > now / 2) continue;  // it may well be done
     found.since = std::max(found.since, seconds(wait.since_ns));
     if (wait.ended) {
       found.texts.emplace_back("loop.program-ended"_code,

@@ -161,13 +161,13 @@ void add_drives(const record::Outcome& outcome, bool all_judged, std::vector<ren
   for (const auto* drive : drives) {
     for (const auto& figure : drive->figures) {
       if (figure.name != "rms torque" && figure.name != "peak torque") continue;
-      const bool judged = figure.judged && all_judged;
+      if (all_judged && !figure.judged) continue;  // a limit that works as one
       keys.push_back(
           {fmt::format("{} of {}", figure.name, drive->drive),
            fmt::format("{:.3g} {}", figure.value, figure.unit),
-           {fmt::format("limit {:.4g} {}{}", figure.rating, figure.unit, judged ? "" : "; not judged"),
+           {fmt::format("limit {:.4g} {}{}", figure.rating, figure.unit, all_judged ? "" : "; not judged"),
             figure.window},
-           judged ? std::optional(figure.share) : std::nullopt});
+           all_judged ? std::optional(figure.share) : std::nullopt});
     }
   }
 }

@@ -135,6 +135,39 @@ TEST(Causes, WhereNothingWasFoundToJudgeWhatStandsComesBeforeOldWarnings) {
             "because gbPhase stands at 2 since 3.4 s; AxisX at 0.1 s: a value is out of range");
 }
 
+// What a controller stops at comes before what then stands, also if a check failed just before.
+TEST(Causes, AnErrorOfTheControllerComesBeforeWhatStands) {
+  Causes::Known known;
+  known.hindrances = {said("saw.clamp off since 3.854 s")};
+  auto idle = failed({});
+  idle.idle = true;
+  Causes causes;
+  causes.happened(told(4.168, "AxisX", "st_error", "error 4 in row 7"));
+  EXPECT_EQ(cause(causes, {failed(4.1), idle}, known),
+            "because AxisX at 4.168 s: error 4 in row 7; saw.clamp off since 3.854 s");
+  Causes machine;
+  machine.happened({4'168'000'000, 0, "tube", "held_back", {{"force", 1500, "N"}}, "", Severity::error});
+  EXPECT_THAT(cause(machine, {failed(4.1), idle}, known), testing::StartsWith("because saw.clamp off"));
+}
+
+TEST(Causes, AValueOutOfRangeLeads) {
+  Causes causes;
+  causes.happened(told(0.002, "Axis", "out_of_range", "taccdec: 1000 is outside 0..999, taken anyway"));
+  Causes::Known known;
+  known.hindrances = {said("line 65, WAIT Axis:st_still")};
+  EXPECT_EQ(cause(causes, {failed(5)}, known),
+            "because Axis at 0.002 s: taccdec: 1000 is outside 0..999, taken anyway");
+}
+
+TEST(Causes, WhatStandsIsToldWithWhatLooksOdd) {
+  Causes::Known known;
+  known.hindrances = {said("line 57, WAIT AxisX:st_toll")};
+  known.doubts = {said("AxisX.pgain is 5")};
+  auto idle = failed({});
+  idle.idle = true;
+  EXPECT_EQ(cause(Causes(), {failed(2), idle}, known), "while line 57, WAIT AxisX:st_toll; AxisX.pgain is 5");
+}
+
 TEST(Causes, ABlowIsToldWhereNothingElseIs) {
   Causes causes;
   causes.happened(told(0.5, "press", "sag", "", {{"speed", -214.47, "mm/s"}, {"position", 245, "mm"}}));

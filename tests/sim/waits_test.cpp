@@ -143,6 +143,12 @@ TEST(WhyItFailed, ALowGainIsTold) {
               HasSubstr("AxisX.pgain is 10, every 2 ms: a gain of 5 1/s"));
 }
 
+TEST(WhyItFailed, WithoutFeedForwardTheFollowingErrorIsToldLast) {
+  const auto stiff = replaced(studies::tuning::scenario, "AxisX.pgain: 0", "AxisX.pgain: 100");
+  EXPECT_THAT(cause_of(studies::tuning::program, replaced(stiff, "feedfw: 900", "feedfw: 0")),
+              HasSubstr("AxisX.feedfw is 0: the following error grows with the speed"));
+}
+
 // A timer that elapses soon lets its program go on.
 TEST(WhyItFailed, AProgramAtARunningTimerDoesNotStand) {
   const auto waits = [](const std::string& time) {
@@ -227,6 +233,37 @@ TEST(WhyItFailed, ADriveThatIsAlwaysOnIsAWarning) {
   EXPECT_THAT(
       sentences(outcome_without("Saw.enable: saw.servo.enable", "flying_saw_plcopen.yaml").warnings()),
       testing::Contains(HasSubstr("Saw.enable is not wired: saw.servo.enable is on always")));
+}
+
+TEST(WhyItFailed, ACycleThatIsTooLongForItsAxesIsAWarningAndTheCause) {
+  const auto outcome = outcome_of(lines / "flying_saw_plcopen.yaml",
+                                  {{"controller.plcopen.cycle", "1 s"}, {"scene.duration", "9 s"}});
+  EXPECT_THAT(codes(outcome.warnings()), testing::Contains("loop.rarely-sampled"));
+  EXPECT_THAT(outcome.cause(), StartsWith("because cycle is 1 s, far too long for a position loop"));
+}
+
+TEST(WhyItFailed, AnAccelerationInTheWrongUnitIsTold) {
+  EXPECT_THAT(
+      outcome_of(lines / "flying_saw_plcopen.yaml",
+                 {{"controller.plcopen.axes.Saw.dynamik.a_max", "15 mm/s2"}, {"scene.duration", "12 s"}})
+          .cause(),
+      HasSubstr("Saw.dynamik.a_max is 15: in mm/s2"));
+}
+
+TEST(WhyItFailed, WhoToldTheClampsToCloseIsTold) {
+  EXPECT_THAT(cause_of_saw("flying_saw_lx3vp.yaml", "flying_saw.il", "LDP     D1001.A", "LDF     D1001.A",
+                           "scene: {duration: 9 s}\ncontroller: {lx3vp: {program: flying_saw.il}}\n"),
+              ContainsRegex("the clamps took hold of material.*; saw.clamp [(]Y10[)] is switched on, by "
+                            "flying_saw.il:[0-9]+"));
+}
+
+TEST(WhyItFailed, AFaultWhereNothingIsWiredIsAWarning) {
+  TestFolder folder;
+  const auto saw = folder.file("line.yaml", "extends: " + (lines / "flying_saw_lx3vp.yaml").string() +
+                                                "\nscene: {duration: 4 s}\ntimeline:\n  - {at: 1 s, fault: "
+                                                "{saw.encoder: {stuck: 1}, tube.wheel: {stuck: 1}}}\n");
+  const auto told = codes(outcome_of(saw).warnings());
+  EXPECT_EQ(std::count(told.begin(), told.end(), "wiring.fault-of-nothing"), 1);
 }
 
 // Nobody looks at the mains monitor; who has wired it knows.

@@ -191,7 +191,7 @@ std::string PlcopenController::terminal_name(const Address& address) const {
 }
 
 std::vector<Controller::Period> PlcopenController::periods() const {
-  std::vector<Period> periods{{"cycle", configuration_.cycle_ns}, {"task_cycle", configuration_.task_ns}};
+  std::vector<Period> periods{{"cycle", configuration_.cycle_ns, true}, {"task_cycle", configuration_.task_ns}};
   for (const auto& task : configuration_.tasks.empty() ? program_.tasks() : configuration_.tasks)
     if (task.interval_ns > 0) periods.push_back({"task " + task.name, task.interval_ns});
   return periods;

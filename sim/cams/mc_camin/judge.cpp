@@ -55,7 +55,10 @@ class CamInJudge {
     add(kind, grade, where(worst.row), text + others, std::move(remedy));
   }
   [[nodiscard]] std::string where(int row) const {
-    return fmt::format("row {} (line {})", row, cam_.lines[static_cast<std::size_t>(row) - 1]);
+    const auto index = static_cast<std::size_t>(row) - 1;
+    const auto& places = cam_.table.places;
+    if (index >= places.size()) return fmt::format("row {}", row);
+    return fmt::format("row {} (line {})", row, places[index]);
   }
   [[nodiscard]] std::string per(int order) const {
     return unit_ + (order == 1 ? "/s" : fmt::format("/s{}", order));

@@ -246,6 +246,7 @@ CamStudy study_of(const CamFile& cam, const CamRequest& request, Problems& /*pro
   const CamInRun run = run_cam_in(cam, request.duty, request.loops);
   CamStudy study;
   study.course = run;
+  if (!cam.table.places.empty()) study.file = cam.table.file;
   study.text = text_of(run);
   study.findings = judge_cam_in(run, request.duty);
   study.master_unit = increments_of(cam.master_unit);
@@ -312,10 +313,11 @@ std::string file_of(CamFile& cam, const std::string& file) {
         static_cast<int>(cam.interpolation), name_of(cam.interpolation), table.lines());
   const int columns = table.columns();
   cam.header = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1;
+  table.places.clear();
   text += tab ? "# " : "";
   text += columns == 4 ? "a0,a1,a2,a3\n" : columns == 2 ? "master,slave\n" : "slave\n";
   for (std::size_t line = 0; line < table.lines(); ++line) {
-    cam.lines.push_back(cam.header + 1 + static_cast<int>(line));
+    table.places.push_back(cam.header + 1 + static_cast<int>(line));
     for (int column = 0; column < columns; ++column)
       fmt::format_to(std::back_inserter(text), "{}{}", table.value(line, column),
                      column + 1 == columns ? '\n'

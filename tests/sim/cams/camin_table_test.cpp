@@ -25,7 +25,7 @@ TEST(CamInTable, ATabFileTellsItsAxesInComments) {
   EXPECT_EQ(cam.endless, Endless::negative);
   EXPECT_EQ(cam.master_modulo, 8'000'000);
   EXPECT_EQ(cam.limits.acceleration, 50);
-  EXPECT_THAT(cam.lines, ElementsAre(10, 11));
+  EXPECT_THAT(cam.table.places, ElementsAre(10, 11));
   EXPECT_TRUE(cam.periodic);
 }
 
