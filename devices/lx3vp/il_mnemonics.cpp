@@ -164,6 +164,7 @@ const Spelling* find_spelling(std::string_view text) {
 }
 
 bool is_not_simulated(std::string_view text) {
+  if (find_spelling(text) != nullptr) return false;
   // FX, and the pulse and CAN instructions of the LX3V series.
   static constexpr std::string_view names[] = {
       "IRET", "WDT",  "EI",   "DI",   "DSZR", "DVIT", "TBL",  "ABS",  "PLSR", "PWM",  "PTO",  "SPD",  "HSCS",

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "base/text.hpp"
 #include "devices/lx3vp/ecamtbx_registers.hpp"
@@ -79,8 +80,9 @@ constexpr OperandKind operand_kinds[] = {
 };
 
 const OperandKind& operand_kind(char letter) {
-  return *std::find_if(std::begin(operand_kinds), std::end(operand_kinds),
-                       [&](const OperandKind& kind) { return kind.letter == letter; });
+  const auto* const found = std::ranges::find(operand_kinds, letter, &OperandKind::letter);
+  if (found == std::end(operand_kinds)) throw std::logic_error("an instruction with an operand of no kind");
+  return *found;
 }
 
 const OperandFamily* family_of(char letter) {

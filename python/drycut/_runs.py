@@ -56,6 +56,9 @@ class Check(_Check):
     idle         it failed for it found nothing to judge
     doubt        though it passed: why it may have judged nothing; "" = none
     too_few      from when on there were too few of the events that it counts [s]; None: there were not
+    names        of what it looks at: "length", "AxisX.follerr"
+    deadline     its limit is a time by which something has come
+    throughout   where it held at none of its instants: what there was; "" else
     """
 
     failed_at: float | None
@@ -64,6 +67,9 @@ class Check(_Check):
     idle: bool
     doubt: str
     too_few: float | None
+    names: list[str]
+    deadline: bool
+    throughout: str
 
     def __new__(cls, *args: Any, **named: Any) -> "Check":
         check = super().__new__(cls, *args, **{key: named.pop(key) for key in cls._fields if key in named})

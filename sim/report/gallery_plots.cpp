@@ -212,8 +212,12 @@ void draw_own_x(const MachineFacts& machine, const record::Recording& recording,
       return draw_spectrum(machine, recording, request, plot);
     case Kind::path:
       return draw_path(recording, request, plot);
-    default:
+    case Kind::motor:
       return draw_motor(machine, recording, request, plot);
+    case Kind::curves:
+    case Kind::lanes:
+    case Kind::points:
+      return;  // over time
   }
 }
 

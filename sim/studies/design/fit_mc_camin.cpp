@@ -109,7 +109,8 @@ DeviceCam played(const DesignedCam& cam, const DesignJob& job, const CubicRows& 
   }
   made.notes.push_back(fmt::format("{} cubics of {}, {} of them synchronous (POLYNOM_3_KOEFF)",
                                    rows.all * job.blades, length_text(width), rows.synchronous * job.blades));
-  for (std::size_t line = 1; line <= file.table.lines(); ++line) file.lines.push_back(static_cast<int>(line));
+  for (std::size_t line = 1; line <= file.table.lines(); ++line)
+    file.table.places.push_back(static_cast<int>(line));
   made.table = file;
   Problems none;
   const auto study = cams::study_cam(made.table, {made.duty}, none);
