@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "sim/loop/consistency.hpp"
+#include "sim/loop/wires.hpp"
 #include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {

@@ -7,7 +7,7 @@
 
 #include "base/text.hpp"
 #include "sim/loop/simulation.hpp"
-#include "sim/loop/waits.hpp"
+#include "sim/loop/program_words.hpp"
 
 namespace drycut::sim::loop {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "sim/loop/consistency.hpp"
+#include "sim/loop/program_words.hpp"
 #include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
@@ -47,6 +47,7 @@ Standing::Standing(const scenario::Scenario& scenario, devices::Controller& cont
     : controller_(controller) {
   auto& cards = controller.cards();
   const bool homes = seeks_home(controller);
+  const auto programs = read_programs(controller);
   for (const auto& wire : scenario.wiring) {
     const auto found = controller.terminal(wire.terminal.text);
     const auto* address = std::get_if<devices::Address>(&found);
@@ -54,8 +55,8 @@ Standing::Standing(const scenario::Scenario& scenario, devices::Controller& cont
     const auto terminal = controller.terminal_name(*address);
     const auto& plug = wire.plug.text;
     const auto follow = [&](std::vector<Level>& levels, const bool& level) {
-      const bool read =
-          &levels == &inputs_ && (homes || !plug.ends_with(".home")) && names_terminal(controller, terminal);
+      const bool read = &levels == &inputs_ && (homes || !plug.ends_with(".home")) &&
+                        is_named(terminal, programs, Named::surely);
       levels.push_back({terminal, plug, &level, level, level, read});
     };
     const bool on_panel = plug.starts_with("panel.");

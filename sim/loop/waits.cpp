@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
-#include "sim/loop/consistency.hpp"
+#include "sim/loop/program_words.hpp"
 #include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
@@ -54,13 +54,6 @@ std::string wire_that_it_names(const scenario::Scenario& scenario, devices::Cont
 }
 
 }  // namespace
-
-std::string code_of(const devices::ProgramText& program, int number) {
-  const auto lines = split_lines(program.text);
-  if (number < 1 || static_cast<std::size_t>(number) > lines.size()) return "";
-  const auto line = lines[static_cast<std::size_t>(number) - 1];
-  return std::string(trimmed(line.substr(0, line.find(program.language == "st" ? "//" : ";"))));
-}
 
 Waits waits_of(devices::Controller& controller, Time now) {
   Waits found;

@@ -19,9 +19,6 @@ struct Waits {
 };
 Waits waits_of(devices::Controller& controller, Time now);
 
-/// A line of it from 1 on, without comment and indentation; "" = there is no such line.
-std::string code_of(const devices::ProgramText& program, int number);
-
 /// Tasks that ended as they began though they read or work what is wired, a phrase each.
 std::vector<Finding> ended_at_once(const scenario::Scenario& scenario, devices::Controller& controller,
                                    Time now);

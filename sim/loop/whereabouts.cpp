@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "sim/loop/consistency.hpp"
+#include "sim/loop/program_words.hpp"
+#include "sim/loop/wires.hpp"
 
 namespace drycut::sim::loop {
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/findings.hpp"
 #include "tests/sim/fakes.hpp"
 
 namespace drycut::sim {
@@ -99,8 +100,7 @@ TEST_F(FiltersTest, ACounterLosesWhatIsBeyondItsFrequency) {
   for (int i = 0; i < 1000; ++i) move(0);
   EXPECT_EQ(move(41), 90);
   EXPECT_EQ(losses().size(), 1U);
-  EXPECT_THAT(record::texts_of(bus.lost()),
-              ElementsAre("2.CNT01 lost 46 counts beyond 100000 Hz of one phase"));
+  EXPECT_THAT(sentences(bus.lost()), ElementsAre("2.CNT01 lost 46 counts beyond 100000 Hz of one phase"));
 }
 
 TEST_F(FiltersTest, AnInterruptLatchesWhatTheCardHasCounted) {
@@ -128,7 +128,7 @@ TEST_F(FiltersTest, AShortZeroPulseIsNotSeen) {
   EXPECT_EQ(controller.interrupts.size(), 4U);
   pulse(1e-6);
   EXPECT_EQ(losses().size(), 1U);
-  EXPECT_THAT(record::texts_of(bus.lost()), ElementsAre("INT1 lost 3 zero pulses shorter than 20 us"));
+  EXPECT_THAT(sentences(bus.lost()), ElementsAre("INT1 lost 3 zero pulses shorter than 20 us"));
   plant.index.add_edge(true, 0.1);  // of unknown width, from a bench that stands
   plant.index.add_edge(false, 0.1);
   bus.plants_to_inputs();

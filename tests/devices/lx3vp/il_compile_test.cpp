@@ -32,7 +32,8 @@ TEST(IlCompile, NamesTheNearestInstruction) {
 TEST(IlCompile, SaysWhatIsNotSimulated) {
   for (const std::string name : {"PLSR", "dplsr", "WSFLP", "DFROMP", "WDTP", "DHSCS", "EI"})
     EXPECT_THAT(faults("LD X0\n" + name + " K1 Y0\nOUT Y0\nEND"),
-                ElementsAre("2:1: " + name + " is not simulated; `drycut devices LX3VP` lists what is"));
+                ElementsAre("2:1: " + name +
+                            " is not simulated; `drycut devices LX3VP` lists what is [il.not-simulated]"));
   for (const auto& spelling : spellings()) EXPECT_FALSE(is_not_simulated(spelling.text)) << spelling.text;
   for (const char* typo : {"DMVO", "OTU", "P", "D", ""}) EXPECT_FALSE(is_not_simulated(typo)) << typo;
 }
@@ -56,9 +57,10 @@ TEST(IlCompile, SpecialDevicesThatAreNotServedAreRefused) {
   const std::string relays =
       "there are M8000 to M8004, M8011 to M8014, M8020 to M8022, M8029, M8061, M8067, M8145 to M8150, M8152 "
       "to "
-      "M8153, M8200 to M8255";
+      "M8153, M8200 to M8255 [il.not-simulated]";
   const std::string words =
-      "there are D8010, D8061, D8067, D8069, D8140 to D8143, D8145 to D8148, D8150 to D8153";
+      "there are D8010, D8061, D8067, D8069, D8140 to D8143, D8145 to D8148, D8150 to D8153 "
+      "[il.not-simulated]";
   expect_operand_faults({{"OUT M8034", {"2:5: M8034 is not simulated; " + relays}},
                          {"AND M8033\nOUT Y0", {"2:5: M8033 is not simulated; " + relays}},
                          {"SET M8040", {"2:5: M8040 is not simulated; " + relays}},

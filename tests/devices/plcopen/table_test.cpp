@@ -130,7 +130,7 @@ TEST(PlcopenTable, ATableWithoutMasterModuloIsJudgedByTheMastersThatThereAre) {
   EXPECT_THAT(told(text, {{"Short", 4'000'000}, {"Web", 8'000'000}}), testing::IsEmpty());
   const std::string what =
       ": masters must ascend by 0.1 deg (1000) at least, over the wrap too; let the masters ascend inside "
-      "one turn";
+      "one turn [cam.refused-by-device]";
   EXPECT_THAT(told(text, {{"Short", 4'000'000}, {"Shorter", 3'000'000}}),
               ElementsAre("c.csv:3:1: error 60260 behind Short, whose turn is 4000000" + what));
   EXPECT_THAT(told(text, {}), ElementsAre("c.csv:3:1: error 60260" + what));

@@ -60,19 +60,26 @@ TEST(QmoveRetentive, FaultsOfTheTextChangeNothing) {
       "; comment\nslA = 5 ; fine\n slRR = 1\nglI = 2\nslB 4\nslB =\nsbKept = 132\nslB = 1.5\nslB = x\n"
       "slA = 6\nAxis:posit = 1\nddbCode[3,1] = 1\nAxis.st_locked = 2147483648\nssR = 1e999\n",
       problems, "kept.txt"));
-  EXPECT_EQ(text_of(problems),
-            "kept.txt:3:2: unknown name 'slRR'; did you mean 'slR'?\nkept.txt:4:1: 'glI' is not retentive; "
-            "remove the line, it is set at each start\nkept.txt:5:1: no '=' in 'slB 4'; write: name = value "
-            "[controller.retained-value]\nkept.txt:6:1: a name or value is missing; write: name = value "
-            "[controller.retained-value]\nkept.txt:7:10: 'sbKept' cannot be '132'; write a whole number from "
-            "-128 to 127\nkept.txt:8:7: 'slB' cannot be '1.5'; write a whole number from -2147483648 to "
-            "2147483647\nkept.txt:9:1: 'slB' is given twice; remove one of the lines "
-            "[controller.retained-twice]\nkept.txt:10:1: 'slA' is given twice; remove one of the lines "
-            "[controller.retained-twice]\nkept.txt:11:1: 'Axis:posit' is not retentive; remove the line, it "
-            "is set at each start\nkept.txt:12:1: unknown name 'ddbCode[3,1]'; did you mean "
-            "'ddbCode[1,1]'?\nkept.txt:13:18: 'Axis.st_locked' cannot be '2147483648'; write a whole number "
-            "from -2147483648 to 2147483647\nkept.txt:14:7: 'ssR' cannot be '1e999'; write a number from "
-            "-3.402823466e+38 to 3.402823466e+38\n");
+  EXPECT_EQ(
+      text_of(problems),
+      "kept.txt:3:2: unknown name 'slRR'; did you mean 'slR'? [controller.unknown-retained]\nkept.txt:4:1: "
+      "'glI' is not retentive; "
+      "remove the line, it is set at each start [controller.unknown-retained]\nkept.txt:5:1: no '=' in 'slB "
+      "4'; write: name = value "
+      "[controller.retained-value]\nkept.txt:6:1: a name or value is missing; write: name = value "
+      "[controller.retained-value]\nkept.txt:7:10: 'sbKept' cannot be '132'; write a whole number from "
+      "-128 to 127 [controller.retained-value]\nkept.txt:8:7: 'slB' cannot be '1.5'; write a whole number "
+      "from -2147483648 to "
+      "2147483647 [controller.retained-value]\nkept.txt:9:1: 'slB' is given twice; remove one of the lines "
+      "[controller.retained-twice]\nkept.txt:10:1: 'slA' is given twice; remove one of the lines "
+      "[controller.retained-twice]\nkept.txt:11:1: 'Axis:posit' is not retentive; remove the line, it "
+      "is set at each start [controller.unknown-retained]\nkept.txt:12:1: unknown name 'ddbCode[3,1]'; did "
+      "you mean "
+      "'ddbCode[1,1]'? [controller.unknown-retained]\nkept.txt:13:18: 'Axis.st_locked' cannot be "
+      "'2147483648'; write a whole number "
+      "from -2147483648 to 2147483647 [controller.retained-value]\nkept.txt:14:7: 'ssR' cannot be '1e999'; "
+      "write a number from "
+      "-3.402823466e+38 to 3.402823466e+38 [controller.retained-value]\n");
   EXPECT_EQ(bench["slA"], 3);
 }
 

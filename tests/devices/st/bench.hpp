@@ -68,12 +68,12 @@ inline std::vector<std::string> problems_of(const std::string& text) {
 }
 
 /// The problems of a text begin so, in this order, and there are no others; with a '$' behind it the whole
-/// problem is told.
+/// problem is told but for its code.
 inline void expect_problems(const std::string& text, const std::vector<std::string>& beginnings) {
   std::vector<testing::Matcher<std::string>> matchers;
   matchers.reserve(beginnings.size());
   for (const std::string& told : beginnings)
-    matchers.push_back(told.ends_with('$') ? testing::Matcher<std::string>(told.substr(0, told.size() - 1))
+    matchers.push_back(told.ends_with('$') ? testing::StartsWith(told.substr(0, told.size() - 1) + " [")
                                            : testing::StartsWith(told));
   EXPECT_THAT(problems_of(text), testing::ElementsAreArray(matchers)) << text;
 }

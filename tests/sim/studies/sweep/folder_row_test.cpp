@@ -55,10 +55,10 @@ TEST_P(FolderRow, IsTheRowOfAWorker) {
   EXPECT_EQ(row.limit, worker.limit);
   EXPECT_EQ(row.rating, worker.rating);
   for (std::size_t i = 0; i < row.numbers.size(); ++i) {
-    EXPECT_EQ(std::isnan(row.numbers[i]), std::isnan(worker.numbers[i])) << question.columns[i];
+    EXPECT_EQ(std::isnan(row.numbers[i]), std::isnan(worker.numbers[i])) << question.columns[i].heading();
     if (std::isnan(row.numbers[i])) continue;
     EXPECT_NEAR(row.numbers[i], worker.numbers[i], rounded + 1e-8 * std::abs(worker.numbers[i]))
-        << question.columns[i];
+        << question.columns[i].heading();
   }
 }
 INSTANTIATE_TEST_SUITE_P(OfBothFormats, FolderRow, testing::Values("csv", "hdf5"));
