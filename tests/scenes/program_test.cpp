@@ -122,7 +122,7 @@ TEST_F(ProgramTest, WhatStandardOutputDoesNotTakeIsNoSuccess) {
 TEST_F(ProgramTest, ArgumentsThatAreNoTextAreRefused) {
   const auto bell = call("check \"$(printf 'a\\033[31m.yaml')\"");
   EXPECT_EQ(bell.status, 2);
-  EXPECT_EQ(bell.text, "drycut: in argument 2 byte 0x1b is no text: a\\x1B[31m.yaml\n");
+  EXPECT_EQ(bell.text, "drycut: in argument 2 byte 0x1b is no text: a\\x1B[31m.yaml [option.value]\n");
   EXPECT_EQ(call("check \"$(printf 'a\\377.yaml')\"").status, 2);
   const auto nowhere = call("run " + scenes + "rotary_knife_short.yaml --out ''");
   EXPECT_EQ(nowhere.status, 2);

@@ -142,7 +142,7 @@ TEST(Causes, AnErrorOfTheControllerComesBeforeWhatStands) {
   auto idle = failed({});
   idle.idle = true;
   Causes causes;
-  causes.happened(told(4.168, "AxisX", "st_error", "error 4 in row 7"));
+  causes.happened(told(4.168, "AxisX", "error", "error 4 in row 7"));
   EXPECT_EQ(cause(causes, {failed(4.1), idle}, known),
             "because AxisX at 4.168 s: error 4 in row 7; saw.clamp off since 3.854 s");
   Causes machine;

@@ -32,7 +32,9 @@ TEST_F(Pages, AreChosenByNameInAnyCase) {
 
 TEST_F(Pages, ThatAreNotThereAreToldWithThoseThatAre) {
   EXPECT_EQ(captured([] { return list_plants("rotary_knive", false); }), bad_input);
-  EXPECT_EQ(err, "drycut plants: there is no plant type 'rotary_knive'; did you mean rotary_knife?\n");
+  EXPECT_EQ(err,
+            "drycut plants: there is no plant type 'rotary_knive'; did you mean rotary_knife? "
+            "[option.unknown-choice]\n");
   EXPECT_EQ(captured([] { return list_devices("lathe", true); }), bad_input);
   EXPECT_THAT(err, AllOf(testing::StartsWith("drycut devices: there is no device type 'lathe'; there are: "),
                          HasSubstr("CAMMING4, EANPOS, "), HasSubstr(", MC_CamIn, ")));
@@ -56,7 +58,9 @@ TEST_F(Pages, OfMotorsSayWhereEachValueIsFrom) {
   ASSERT_NE(same, motors.end());
   EXPECT_EQ(same->at("values").at(0).at("name"), "rotor_inertia");
   EXPECT_EQ(captured([] { return list_motors("HG-SR203", false); }), bad_input);
-  EXPECT_EQ(err, "drycut plants --motors: there is no motor 'HG-SR203'; did you mean HG-SR202?\n");
+  EXPECT_EQ(err,
+            "drycut plants --motors: there is no motor 'HG-SR203'; did you mean HG-SR202? "
+            "[option.unknown-choice]\n");
 }
 
 TEST_F(Pages, OfUnitsSayWhatOneIsInSi) {

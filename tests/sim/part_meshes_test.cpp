@@ -52,18 +52,16 @@ TEST(MeshRequests, WhatIsWrong) {
     return problems_of("pictures: {meshes: {a.b: " + mesh + "}}\n");
   };
   EXPECT_THAT(wrong("{}"), ElementsAre("1:26: pictures.meshes.a.b.file is missing; name a mesh file: file: "
-                                       "meshes/my_drum.stl"));
+                                       "meshes/my_drum.stl [scenario.missing-key]"));
   EXPECT_THAT(wrong("x.stl"), ElementsAre(::testing::StartsWith("1:26: pictures.meshes.a.b must be a map")));
-  EXPECT_THAT(
-      wrong("{file: x.stl, scale: 0}"),
-      ElementsAre("1:47: pictures.meshes.a.b.scale is 0, out of range; 1e-6 to 1e6; 1 takes the file as "
-                  "it is"));
+  EXPECT_THAT(wrong("{file: x.stl, scale: 0}"),
+              ElementsAre("1:47: pictures.meshes.a.b.scale is 0, out of range; 1e-6 to 1e6; 1 takes the file "
+                          "as it is [scenario.out-of-range]"));
   EXPECT_THAT(wrong("{file: x.stl, scale: 2 mm}"),
               ElementsAre(::testing::StartsWith("1:49: pictures.meshes.a.b.scale is a pure number, not ")));
-  EXPECT_THAT(
-      wrong("{file: x.stl, at: [1 mm, 2 mm]}"),
-      ElementsAre("1:40: pictures.meshes.a.b.at has 2 numbers; write three, along x, y and z: [0 mm, 20 "
-                  "mm, 0 mm]"));
+  EXPECT_THAT(wrong("{file: x.stl, at: [1 mm, 2 mm]}"),
+              ElementsAre("1:40: pictures.meshes.a.b.at has 2 numbers; write three, along x, y and z: [0 mm, "
+                          "20 mm, 0 mm] [scenario.not-a-number]"));
   EXPECT_THAT(wrong("{file: x.stl, at: [1 mm, 2, 3 kg]}"),
               ElementsAre(::testing::StartsWith("1:51: pictures.meshes.a.b.at.1: '2' has no unit"),
                           ::testing::StartsWith("1:56: pictures.meshes.a.b.at.2 is ")));
@@ -125,12 +123,14 @@ TEST_F(PartMeshesTest, PartsAndFilesThatAreNotThereAreToldAllAtOnce) {
       "knife.drun: {file: a.stl}, nife.drum: {file: a.stl}, web.table: {file: a.stl}, "
       "web.web: {file: empty.stl}");
   EXPECT_THAT(meshes, IsEmpty());
-  EXPECT_THAT(problems_, ElementsAre("3:45: there is no part 'knife.drun'; did you mean knife.drum?",
-                                     "3:72: there is no part 'nife.drum'; did you mean knife.drum?",
-                                     "3:116: mesh " + (folder_ / "a.stl").string() +
-                                         ": there is no such file; name a mesh file relative to the scenario",
-                                     "3:140: mesh " + (folder_ / "empty.stl").string() +
-                                         ": the file is empty; export the part again"));
+  EXPECT_THAT(
+      problems_,
+      ElementsAre("3:45: there is no part 'knife.drun'; did you mean knife.drum? [scenario.unknown-name]",
+                  "3:72: there is no part 'nife.drum'; did you mean knife.drum? [scenario.unknown-name]",
+                  "3:116: mesh " + (folder_ / "a.stl").string() +
+                      ": there is no such file; name a mesh file relative to the scenario [mesh.no-file]",
+                  "3:140: mesh " + (folder_ / "empty.stl").string() +
+                      ": the file is empty; export the part again [mesh.unreadable]"));
 }
 
 TEST_F(PartMeshesTest, APartThatIsNearNoneIsAnsweredByTheList) {

@@ -46,25 +46,24 @@ TEST(PathPlot, IsReadAndWritten) {
 
 TEST(PathPlot, WhatIsWrong) {
   const auto first = [](const std::string& text) { return problems_of(panels(text)); };
-  EXPECT_THAT(first("{x: a}"),
-              ElementsAre("1:40: pictures.plots.a.panels.0: x and y go together; write x: AxisX.posit, y: "
-                          "AxisY.posit"));
-  EXPECT_THAT(
-      first("{x: a, y: b, channels: [c]}"),
-      ElementsAre("1:52: pictures.plots.a.panels.0 has both a path and channels; make two plots of it"));
+  EXPECT_THAT(first("{x: a}"), ElementsAre("1:40: pictures.plots.a.panels.0: x and y go together; write x: "
+                                           "AxisX.posit, y: AxisY.posit [scenario.needs-another]"));
+  EXPECT_THAT(first("{x: a, y: b, channels: [c]}"),
+              ElementsAre("1:52: pictures.plots.a.panels.0 has both a path and channels; make two plots of "
+                          "it [scenario.does-not-go-together]"));
   EXPECT_THAT(
       first("{x: a, y: b, labels: [c]}"),
       ElementsAre("1:52: pictures.plots.a.panels.0: labels are for the parts of a split path; add split: "
-                  "with the channel that numbers them, or leave labels out"));
+                  "with the channel that numbers them, or leave labels out [scenario.does-not-go-together]"));
   EXPECT_THAT(first("{channels: [a], split: b}"),
               ElementsAre("1:55: pictures.plots.a.panels.0: split goes with a path in a plane; write x: "
-                          "AxisX.posit, y: AxisY.posit, or leave it out"));
-  EXPECT_THAT(
-      first("{x: a, y: b, points: {A: [1]}}"),
-      ElementsAre("1:61: pictures.plots.a.panels.0.points.A must be a place in the plane; for example "
-                  "[15, -33]"));
+                          "AxisX.posit, y: AxisY.posit, or leave it out [scenario.needs-another]"));
+  EXPECT_THAT(first("{x: a, y: b, points: {A: [1]}}"),
+              ElementsAre("1:61: pictures.plots.a.panels.0.points.A must be a place in the plane; for "
+                          "example [15, -33] [scenario.wrong-kind]"));
   EXPECT_THAT(first("{x: a, y: b}, {channels: [c]}"),
-              ElementsAre("1:30: pictures.plots.a: a path stands alone in its plot; make a plot of each"));
+              ElementsAre("1:30: pictures.plots.a: a path stands alone in its plot; make a plot of each "
+                          "[scenario.does-not-go-together]"));
 }
 
 }  // namespace

@@ -212,11 +212,12 @@ TEST(PicturesFilm, UnitsAndQuotasThatTheMachineDoesNotHaveAreRefusedWithTheirPla
               ElementsAre(StartsWith("20: pictures.units: there is no axis and no channel 'Axs'; ")));
   EXPECT_THAT(KnifeLine("units: {AxisX: 3}").told(),
               ElementsAre("27: pictures.units: AxisX is no unit's size; write what 1 is of a known unit: "
-                          "0.01 mm"));
+                          "0.01 mm [scenario.wrong-kind]"));
   EXPECT_THAT(KnifeLine("units: {AxisX: 0 mm}").told(),
               ElementsAre(StartsWith("27: pictures.units: AxisX is no unit's size; ")));
   EXPECT_THAT(KnifeLine("quota: {plant: knife, at: web.position}").told(),
-              ElementsAre("27: 'knife' is no plant that shows a quota; name one of type vertical_press"));
+              ElementsAre("27: 'knife' is no plant that shows a quota; name one of type vertical_press "
+                          "[scenario.unknown-name]"));
 }
 
 TEST(PicturesFilm, PiecesTellTheLengthOfTheirCutAndTheBladeItsForce) {
@@ -331,48 +332,58 @@ TEST(PicturesFilm, SeveralCamerasShareThePictureInTheirOrder) {
 }
 
 TEST(PicturesFilm, NamesThatTheMachineDoesNotHaveAreRefusedWithTheirPlace) {
-  EXPECT_THAT(KnifeLine("lamps: [panel.start, AxisX.st_snyc]").told(),
-              ElementsAre("33: there is no channel 'AxisX.st_snyc'; did you mean AxisX.st_sync?"));
-  EXPECT_THAT(KnifeLine("live: [web.sped]").told(),
-              ElementsAre("19: there is no channel 'web.sped'; did you mean web.speed?"));
-  EXPECT_THAT(KnifeLine("frames: {every: 500 ms, camera: nife}").told(),
-              ElementsAre("44: there is no camera 'nife'; cameras: operator, web, knife"));
-  EXPECT_THAT(KnifeLine("frames: {every: 500 ms, camera: knife.blade}").told(),
-              ElementsAre("44: there is no part 'knife.blade'; did you mean knife.blade 1?"));
-  EXPECT_THAT(KnifeLine("frames: {every: 500 ms, cameras: [operator, nife]}").told(),
-              ElementsAre("56: there is no camera 'nife'; cameras: operator, web, knife"));
-  EXPECT_THAT(KnifeLine("frames: {every: 500 ms, cameras: [knife.blade, knife]}").told(),
-              ElementsAre("46: there is no part 'knife.blade'; did you mean knife.blade 1?"));
-  EXPECT_THAT(KnifeLine("frames: {every: 500 ms, follow: knife.drumm}").told(),
-              ElementsAre("44: there is no part 'knife.drumm'; did you mean knife.drum?"));
+  EXPECT_THAT(
+      KnifeLine("lamps: [panel.start, AxisX.st_snyc]").told(),
+      ElementsAre(
+          "33: there is no channel 'AxisX.st_snyc'; did you mean AxisX.st_sync? [scenario.unknown-name]"));
+  EXPECT_THAT(
+      KnifeLine("live: [web.sped]").told(),
+      ElementsAre("19: there is no channel 'web.sped'; did you mean web.speed? [scenario.unknown-name]"));
+  EXPECT_THAT(
+      KnifeLine("frames: {every: 500 ms, camera: nife}").told(),
+      ElementsAre("44: there is no camera 'nife'; cameras: operator, web, knife [scenario.unknown-name]"));
+  EXPECT_THAT(
+      KnifeLine("frames: {every: 500 ms, camera: knife.blade}").told(),
+      ElementsAre("44: there is no part 'knife.blade'; did you mean knife.blade 1? [scenario.unknown-name]"));
+  EXPECT_THAT(
+      KnifeLine("frames: {every: 500 ms, cameras: [operator, nife]}").told(),
+      ElementsAre("56: there is no camera 'nife'; cameras: operator, web, knife [scenario.unknown-name]"));
+  EXPECT_THAT(
+      KnifeLine("frames: {every: 500 ms, cameras: [knife.blade, knife]}").told(),
+      ElementsAre("46: there is no part 'knife.blade'; did you mean knife.blade 1? [scenario.unknown-name]"));
+  EXPECT_THAT(
+      KnifeLine("frames: {every: 500 ms, follow: knife.drumm}").told(),
+      ElementsAre("44: there is no part 'knife.drumm'; did you mean knife.drum? [scenario.unknown-name]"));
 }
 
 TEST(PicturesProblems, LampsOverlaysAndLive) {
   EXPECT_THAT(problems_of("pictures: {overlays: [trail, shadows]}\n"),
               ElementsAre("1:30: pictures.overlays: there is no overlay 'shadows'; overlays: trail, lengths, "
-                          "forces, speeds"));
-  EXPECT_THAT(
-      problems_of("pictures: {overlays: trail}\n"),
-      ElementsAre("1:22: pictures.overlays must be a list, not a single value; write [first, second], or a "
-                  "line '- ...' for each"));
-  EXPECT_THAT(
-      problems_of("pictures: {live: [a, b, c]}\n"),
-      ElementsAre("1:25: pictures.live has 3 channels; one or two have room in the corner; show more in "
-                  "plots"));
+                          "forces, speeds [scenario.unknown-choice]"));
+  EXPECT_THAT(problems_of("pictures: {overlays: trail}\n"),
+              ElementsAre("1:22: pictures.overlays must be a list, not a single value; write [first, "
+                          "second], or a line '- ...' for each [scenario.wrong-kind]"));
+  EXPECT_THAT(problems_of("pictures: {live: [a, b, c]}\n"),
+              ElementsAre("1:25: pictures.live has 3 channels; one or two have room in the corner; show more "
+                          "in plots [scenario.out-of-range]"));
   EXPECT_THAT(problems_of("pictures: {lamps: {a: b}}\n"),
               ElementsAre("1:19: pictures.lamps must be a list, not a map; write [first, second], or a line "
-                          "'- ...' for each"));
+                          "'- ...' for each [scenario.wrong-kind]"));
 }
 
 TEST(PicturesProblems, UnitsAndQuota) {
-  EXPECT_THAT(problems_of("pictures: {quota: {plant: press}}\n"),
-              ElementsAre("1:19: pictures.quota.at is missing; name a channel: at: Axis.setpos"));
-  EXPECT_THAT(problems_of("pictures: {quota: {at: Axis.setpos}}\n"),
-              ElementsAre("1:19: pictures.quota.plant is missing; name the plant: plant: press"));
+  EXPECT_THAT(
+      problems_of("pictures: {quota: {plant: press}}\n"),
+      ElementsAre(
+          "1:19: pictures.quota.at is missing; name a channel: at: Axis.setpos [scenario.missing-key]"));
+  EXPECT_THAT(
+      problems_of("pictures: {quota: {at: Axis.setpos}}\n"),
+      ElementsAre(
+          "1:19: pictures.quota.plant is missing; name the plant: plant: press [scenario.missing-key]"));
   const std::string quota = "pictures: {quota: {plant: press, at: Axis.setpos, tolerance: ";
   EXPECT_THAT(problems_of(quota + "0 mm}}\n"),
               ElementsAre("1:62: pictures.quota.tolerance is 0 mm, out of range; 0.001 mm to 1 m; 0.1 mm is "
-                          "the default"));
+                          "the default [scenario.out-of-range]"));
   EXPECT_THAT(problems_of(quota + "0.3 s}}\n"),
               ElementsAre(StartsWith("1:66: pictures.quota.tolerance is a length, not a time")));
 }
@@ -406,54 +417,52 @@ TEST(Pictures, UnitsAndQuotaAreReadAndWritten) {
 
 TEST(PicturesProblems, Cameras) {
   const std::string camera = "pictures: {frames: {camera: {";
-  EXPECT_THAT(
-      problems_of(camera + "target: [0 m, 0 m, 0 m]}}}\n"),
-      ElementsAre(
-          "1:29: pictures.frames.camera.eye is missing; write eye: [0 m, 1 m, 2 m], along x, y and z"));
-  EXPECT_THAT(
-      problems_of(camera + "eye: [0 m, 1 m, 2 m]}}}\n"),
-      ElementsAre(
-          "1:29: pictures.frames.camera.target is missing; write target: [0 m, 1 m, 2 m], along x, y and z"));
-  EXPECT_THAT(
-      problems_of(camera + "eye: [0 m, 1 m], target: [0 m, 0 m, 0 m]}}}\n"),
-      ElementsAre(
-          "1:30: pictures.frames.camera.eye has 2 numbers; write three, along x, y and z: [0 m, 20 m, 0 m]"));
+  EXPECT_THAT(problems_of(camera + "target: [0 m, 0 m, 0 m]}}}\n"),
+              ElementsAre("1:29: pictures.frames.camera.eye is missing; write eye: [0 m, 1 m, 2 m], along x, "
+                          "y and z [scenario.missing-key]"));
+  EXPECT_THAT(problems_of(camera + "eye: [0 m, 1 m, 2 m]}}}\n"),
+              ElementsAre("1:29: pictures.frames.camera.target is missing; write target: [0 m, 1 m, 2 m], "
+                          "along x, y and z [scenario.missing-key]"));
+  EXPECT_THAT(problems_of(camera + "eye: [0 m, 1 m], target: [0 m, 0 m, 0 m]}}}\n"),
+              ElementsAre("1:30: pictures.frames.camera.eye has 2 numbers; write three, along x, y and z: [0 "
+                          "m, 20 m, 0 m] [scenario.not-a-number]"));
   EXPECT_THAT(problems_of(camera + "eye: [0 m, 1 m, 2 s], target: [0 m, 0 m, 0 m]}}}\n"),
-              ElementsAre("1:48: pictures.frames.camera.eye.2 is a length, not a time (s); for example 1 m"));
+              ElementsAre("1:48: pictures.frames.camera.eye.2 is a length, not a time (s); for example 1 m "
+                          "[scenario.wrong-unit]"));
   EXPECT_THAT(problems_of(camera + "eye: [1 m, 1 m, 1 m], target: [1 m, 100 cm, 1 m]}}}\n"),
               ElementsAre("1:52: pictures.frames.camera looks at the place where it stands; let target be "
-                          "another point than eye"));
+                          "another point than eye [scenario.does-not-go-together]"));
   EXPECT_THAT(
       problems_of(camera + "eye: [1 m, 1 m, 1 m], target: [0 m, 0 m, 0 m], field_of_view: 0.5 deg}}}\n"),
       ElementsAre("1:92: pictures.frames.camera.field_of_view is 0.5 deg, out of range; 1 deg to 150 deg; 35 "
-                  "deg is the default"));
+                  "deg is the default [scenario.out-of-range]"));
   EXPECT_THAT(
       problems_of(camera + "eye: [1 m, 1 m, 1 m], target: [0 m, 0 m, 0 m], field_of_view: 151 deg}}}\n"),
       ElementsAre("1:92: pictures.frames.camera.field_of_view is 151 deg, out of range; 1 deg to 150 deg; 35 "
-                  "deg is the default"));
-  EXPECT_THAT(
-      problems_of(camera + "eye: [1 m, 1 m, 1 m], target: [0 m, 0 m, 0 m], zoom: 2}}}\n"),
-      ElementsAre("1:77: unknown key 'zoom' in pictures.frames.camera; known: eye, target, field_of_view"));
-  EXPECT_THAT(
-      problems_of("pictures: {frames: {camera: [a, b]}}\n"),
-      ElementsAre("1:29: pictures.frames.camera must be a single value, not a list; write one value"));
+                  "deg is the default [scenario.out-of-range]"));
+  EXPECT_THAT(problems_of(camera + "eye: [1 m, 1 m, 1 m], target: [0 m, 0 m, 0 m], zoom: 2}}}\n"),
+              ElementsAre("1:77: unknown key 'zoom' in pictures.frames.camera; known: eye, target, "
+                          "field_of_view [scenario.unknown-key]"));
+  EXPECT_THAT(problems_of("pictures: {frames: {camera: [a, b]}}\n"),
+              ElementsAre("1:29: pictures.frames.camera must be a single value, not a list; write one value "
+                          "[scenario.wrong-kind]"));
 }
 
 TEST(PicturesProblems, SeveralCameras) {
   const std::string cameras = "pictures: {frames: {cameras: ";
   EXPECT_THAT(problems_of(cameras + "[operator]}}\n"),
               ElementsAre("1:21: pictures.frames.cameras has 1; two to four share the picture; one stands "
-                          "under camera"));
+                          "under camera [scenario.out-of-range]"));
   EXPECT_THAT(problems_of(cameras + "[a, b, c, d, e]}}\n"),
               ElementsAre("1:21: pictures.frames.cameras has 5; two to four share the picture; one stands "
-                          "under camera"));
+                          "under camera [scenario.out-of-range]"));
   EXPECT_THAT(problems_of(cameras + "[b, c], camera: a}}\n"), IsEmpty()) << "in place of a base's";
   EXPECT_THAT(problems_of(cameras + "a}}\n"),
               ElementsAre("1:30: pictures.frames.cameras must be a list, not a single value; write [first, "
-                          "second], or a line '- ...' for each"));
+                          "second], or a line '- ...' for each [scenario.wrong-kind]"));
   EXPECT_THAT(problems_of(cameras + "[a, {eye: [1 m, 1 m, 1 m]}]}}\n"),
               ElementsAre("1:34: pictures.frames.cameras.1.target is missing; write target: [0 m, 1 m, 2 m], "
-                          "along x, y and z"));
+                          "along x, y and z [scenario.missing-key]"));
 }
 
 TEST(Pictures, SeveralCamerasAreReadAndWritten) {

@@ -144,7 +144,7 @@ TEST(WhyItFailed, ALowGainIsTold) {
 }
 
 TEST(WhyItFailed, WithoutFeedForwardTheFollowingErrorIsToldLast) {
-  const auto stiff = replaced(studies::tuning::scenario, "AxisX.pgain: 0", "AxisX.pgain: 100");
+  const auto stiff = replaced(studies::tuning::scenario, "AxisX.pgain: 0", "AxisX.pgain: 18");
   EXPECT_THAT(cause_of(studies::tuning::program, replaced(stiff, "feedfw: 900", "feedfw: 0")),
               HasSubstr("AxisX.feedfw is 0: the following error grows with the speed"));
 }
@@ -260,7 +260,7 @@ TEST(WhyItFailed, WhoToldTheClampsToCloseIsTold) {
 TEST(WhyItFailed, AFaultWhereNothingIsWiredIsAWarning) {
   TestFolder folder;
   const auto saw = folder.file("line.yaml", "extends: " + (lines / "flying_saw_lx3vp.yaml").string() +
-                                                "\nscene: {duration: 4 s}\ntimeline:\n  - {at: 1 s, fault: "
+                                                "\nscene: {duration: 9 s}\ntimeline:\n  - {at: 1 s, fault: "
                                                 "{saw.encoder: {stuck: 1}, tube.wheel: {stuck: 1}}}\n");
   const auto told = codes(outcome_of(saw).warnings());
   EXPECT_EQ(std::count(told.begin(), told.end(), "wiring.fault-of-nothing"), 1);

@@ -67,33 +67,34 @@ TEST(CamInTable, AllThatIsWrongWithACsvIsToldAtOnce) {
           "master_modulo: 0\n# slave_modulo: 1.5\n# interpolation: SPLINE\n# minpos: 1\n# minpos: "
           "2\nmaster,slave\n0,1,2\n5,abc\n1.5,0\n3e9,0\n"),
       ElementsAre(
-          "1:3: unknown key 'endles'; did you mean endless?; a remark begins with ##",
-          "2:13: periodic cannot be 'maybe'; write yes or no",
-          "3:16: master_unit cannot be 'inch'; write deg or mm",
-          "4:11: '-1' is out of range; write a number, 1e-09 to 1000000000000",
-          "5:12: 'x' is out of range; write a number, 1e-09 to 1000000000000",
-          "6:18: '0' is out of range; write a whole number, 1 to 2147483647",
-          "7:17: '1.5' is out of range; write a whole number, 0 to 2147483647",
+          "1:3: unknown key 'endles'; did you mean endless?; a remark begins with ## [cam.unknown-key]",
+          "2:13: periodic cannot be 'maybe'; write yes or no [cam.value]",
+          "3:16: master_unit cannot be 'inch'; write deg or mm [cam.value]",
+          "4:11: '-1' is out of range; write a number, 1e-09 to 1000000000000 [cam.value]",
+          "5:12: 'x' is out of range; write a number, 1e-09 to 1000000000000 [cam.value]",
+          "6:18: '0' is out of range; write a whole number, 1 to 2147483647 [cam.value]",
+          "7:17: '1.5' is out of range; write a whole number, 0 to 2147483647 [cam.value]",
           "8:18: 'SPLINE' is no interpolation (error 42006); write STEP_DIRECT, LINEAR, POLYNOM_3, "
-          "POLYNOM_3_KOEFF, LINE_POLY5 or POLY5_LINE",
-          "10:3: a second minpos; the first is in line 9",
-          "12:1: 3 numbers; a line of type 7 (master and slave positions, SGN32) has 2",
-          "13:3: 'abc' is no number; write digits",
+          "POLYNOM_3_KOEFF, LINE_POLY5 or POLY5_LINE [cam.interpolation]",
+          "10:3: a second minpos; the first is in line 9 [cam.twice]",
+          "12:1: 3 numbers; a line of type 7 (master and slave positions, SGN32) has 2 [cam.value]",
+          "13:3: 'abc' is no number; write digits [cam.value]",
           "14:1: 1.5 does not fit master and slave positions, SGN32; write a whole number, -2147483648 to "
-          "2147483647",
+          "2147483647 [cam.value]",
           "15:1: 3e9 does not fit master and slave positions, SGN32; write a whole number, -2147483648 to "
-          "2147483647"));
+          "2147483647 [cam.value]"));
 }
 
 TEST(CamInTable, AllThatIsWrongWithATabFileIsToldAtOnce) {
   EXPECT_THAT(
       camin::faults("# endless: up\n# Date: today\nTablename = K\nTabletyp = 7\nTable-ID = 0\nLines = "
                     "2\nBegintable\n0 0\nEndTable\nmore\n"),
-      ElementsAre("4:1: unknown key 'Tabletyp'; did you mean Tabletype?",
-                  "5:12: '0' is out of range; write a whole number, 1 to 65535",
-                  "7:1: tabletype is missing above; write it", "10:1: text after EndTable; take it away",
-                  "6:1: Lines = 2, but there are 1; write 1",
-                  "1:12: endless cannot be 'up'; write positive, negative or no"));
+      ElementsAre("4:1: unknown key 'Tabletyp'; did you mean Tabletype? [cam.unknown-key]",
+                  "5:12: '0' is out of range; write a whole number, 1 to 65535 [cam.value]",
+                  "7:1: tabletype is missing above; write it [cam.missing]",
+                  "10:1: text after EndTable; take it away [cam.table-form]",
+                  "6:1: Lines = 2, but there are 1; write 1 [cam.table-form]",
+                  "1:12: endless cannot be 'up'; write positive, negative or no [cam.value]"));
 }
 
 TEST(CamInTable, ATabFilesOtherCommentsAreRemarks) {

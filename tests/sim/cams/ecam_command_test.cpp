@@ -73,8 +73,8 @@ TEST_F(EcamCommand, BadOptions) {
   given.rows.clear();
   given.at = {5, 111};
   EXPECT_EQ(run(given), cli::bad_input);
-  EXPECT_THAT(
-      err, HasSubstr("--at:1:1: the cam has no master position 5; give positions from 10 to 110 pulses\n"));
+  EXPECT_THAT(err, HasSubstr("--at:1:1: the cam has no master position 5; give positions from 10 to 110 "
+                             "pulses [cam.out-of-range]\n"));
   auto timed = options_of(ecams::s_curve());
   timed.duty.max_velocity = 60000;  // its speed is known
   EXPECT_EQ(run(timed), cli::all_passed) << err;

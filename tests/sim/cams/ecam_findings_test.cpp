@@ -43,14 +43,13 @@ TEST(EcamFindings, TablesThatTheDeviceRefuses) {
 TEST(EcamFindings, EcamtbxErrorsWithTheirRemedies) {
   const auto told = [](const std::string& text) { return ecams::findings(ecams::table(text)).at(0); };
   EXPECT_EQ(told(ecams::rotary("50/3", "3")),
-            "error -1: ECAMTBX makes no table: there is no P6L 3; give P6L 0, 1 or 2");
-  EXPECT_EQ(
-      told(ecams::rotary("50/3", "H00040001")),
-      "error -1: ECAMTBX makes no table: there is no P6H 4; give P6H 0, 1, 2, 3 or 5, with 4096 (H1000) "
-      "added to return");
+            "error -1: ECAMTBX makes no table: there is no P6L 3; give P6L 0, 1 or 2 [cam.device]");
+  EXPECT_EQ(told(ecams::rotary("50/3", "H00040001")),
+            "error -1: ECAMTBX makes no table: there is no P6H 4; give P6H 0, 1, 2, 3 or 5, with 4096 "
+            "(H1000) added to return [cam.device]");
   EXPECT_EQ(told(ecams::rotary("50/3", "H10060007")),
             "error -1: ECAMTBX makes no table: there is no P6L 7, P6H 4102; give P6L 0, 1 or 2 and P6H 0, 1, "
-            "2, 3 or 5, with 4096 (H1000) added to return");
+            "2, 3 or 5, with 4096 (H1000) added to return [cam.device]");
   EXPECT_THAT(told(ecams::rotary("50/3", "1", "-1")), HasSubstr("error -2: "));
   EXPECT_THAT(told(ecams::rotary("50/3", "1", "1001")), HasSubstr("; give P3 1000 at most"));
   EXPECT_THAT(told(ecams::rotary("1.5")),
@@ -278,11 +277,11 @@ TEST(EcamFindings, AStrokeThatDoesNotFitTheTravel) {
 TEST(EcamFindings, TheTravelIsReadAndWrittenBack) {
   const std::string text = "# min_position: -2147483648\n# max_position: 2147483647\n";
   EXPECT_THAT(ecam_rows_csv(ecam_rows("0,0\n5,5\n", text)), HasSubstr(text + "master,slave\n"));
-  ecams::expect_faults(
-      {{"# max_position: 5\n# min_position: 6\nmaster,slave\n0,0\n5,5\n",
-        {"2:1: min_position is above max_position; give the lower end of the travel as min_position"}},
-       {"# max_position: 5.5\nmaster,slave\n0,0\n5,5\n",
-        {HasSubstr("1:17: max_position '5.5' is not a whole number")}}});
+  ecams::expect_faults({{"# max_position: 5\n# min_position: 6\nmaster,slave\n0,0\n5,5\n",
+                         {"2:1: min_position is above max_position; give the lower end of the travel as "
+                          "min_position [cam.out-of-range]"}},
+                        {"# max_position: 5.5\nmaster,slave\n0,0\n5,5\n",
+                         {HasSubstr("1:17: max_position '5.5' is not a whole number")}}});
 }
 
 TEST(EcamFindings, ASawsStrokeAndItsRemedy) {

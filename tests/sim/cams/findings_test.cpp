@@ -42,8 +42,10 @@ TEST(CamFindings, AStrokeThatDoesNotFitTheTravel) {
                                     "0 Um, minpos is 10; shorten the stroke to 190 Um at most and "
                                     "let the cam begin 10 Um further on; it is 300"),
                           HasSubstr("maxpos is 200; shorten the stroke to 190 Um at most and let the cam")));
-  EXPECT_THAT(cams::faults("# maxpos: 5\n# minpos: 6\n" + text),
-              ElementsAre("2:1: minpos is above maxpos; give the lower end of the travel as minpos"));
+  EXPECT_THAT(
+      cams::faults("# maxpos: 5\n# minpos: 6\n" + text),
+      ElementsAre(
+          "2:1: minpos is above maxpos; give the lower end of the travel as minpos [cam.out-of-range]"));
 }
 
 TEST(CamFindings, Error1TooManyRowsWithoutMasterSpace) {

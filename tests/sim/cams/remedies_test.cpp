@@ -151,18 +151,18 @@ std::vector<CureCase> cases() {
       cure("Warning10", of_camming4, "warning 10: ",
            camming4_rows("1,154,100,50,{}\n2,130\n3,154,100,100\n4,135,100,50\n5,136\n"), "codeQma", 1)
           .within(0),
-      cure("Velocity", of_camming4, "limit: velocity [cam.limit]",
+      cure("Velocity", of_camming4, "limit: velocity",
            camming4_rows("1,231,100,60\n2,235,100,60\n3,136\n"), master, 111.1)
           .at({.max_velocity = 110.0})
           .within(0.1),
       cure("Maxvel", of_camming4, "above maxvel",
            camming4_rows("1,231,100,60\n2,235,100,60\n3,136\n", "# maxvel: 77\n"), master, 111.1)
           .within(0.01),
-      cure("Acceleration", of_camming4, "limit: acceleration [cam.limit]",
+      cure("Acceleration", of_camming4, "limit: acceleration",
            camming4_rows("1,231,100,60\n2,235,100,60\n3,136\n"), master, 111.1)
           .at({.max_acceleration = 200.0})
           .within(0.1),
-      cure("AccelerationOfAnArc", of_camming4, "limit: acceleration [cam.limit]",
+      cure("AccelerationOfAnArc", of_camming4, "limit: acceleration",
            camming4_rows("1,171,25,30,0,40\n2,136\n"), master, 111.1)
           .at({.max_acceleration = 200.0})
           .within(0.1),
@@ -187,48 +187,48 @@ std::vector<CureCase> cases() {
       cure("P5BelowTheFirstCycle", of_ecam, "makes no table",
            saw("K100", "P1,1100\nP2,1700\nP3,200\nP4,1.5\nP5,{}\nP6L,1\nP6H,2\n"), "P5", 1.6)
           .within(1e-3),
-      cure("RatioOfASaw", of_ecam, "limit: ratio [cam.limit]",
+      cure("RatioOfASaw", of_ecam, "limit: ratio",
            "# max_ratio: 3\n" + saw("K100", "P1,1000\nP2,2500\nP3,300\nP4,1.5\nP5,{}\nP6,1\n"), "P5", 8)
           .within(0),
-      cure("RatioOfAnSCurve", of_ecam, "limit: ratio [cam.limit]",
+      cure("RatioOfAnSCurve", of_ecam, "limit: ratio",
            "# max_ratio: 4.5\n" + saw("K0", "P1,10000\nP2,{}\nP4,100\nP5,100\nP6,200\n"), "P2", 50000)
           .within(0),
-      cure("VelocityOfAnSCurve", of_ecam, "limit: velocity [cam.limit]",
+      cure("VelocityOfAnSCurve", of_ecam, "limit: velocity",
            saw("K0", "P1,10000\nP2,{}\nP4,100\nP5,100\nP6,200\n"), "P2", 50000)
           .at({.max_velocity = 40000.0})
           .within(0),
-      cure("RatioOfRows", of_ecam, "limit: ratio [cam.limit]",
+      cure("RatioOfRows", of_ecam, "limit: ratio",
            "# max_ratio: 3\nmaster,slave\n0,0\n{},6172839\n9000000,9000000\n", "length", 1000000),
       cure("MaxFrequency", of_ecam, "Hz above",
            "# max_frequency: 50000\nmaster,slave\n0,0\n100,100\n200,270\n", master, 77777)
           .within(0.1),
-      cure("VelocityOfRows", of_ecam, "limit: velocity [cam.limit]", "master,slave\n0,0\n100,100\n200,270\n",
+      cure("VelocityOfRows", of_ecam, "limit: velocity", "master,slave\n0,0\n100,100\n200,270\n",
            master, 77777)
           .at({.max_velocity = 12345.0})
           .within(0.1),
-      cure("AccelerationOfRows", of_ecam, "limit: acceleration [cam.limit]",
+      cure("AccelerationOfRows", of_ecam, "limit: acceleration",
            "master,slave\n0,0\n100,100\n200,270\n", master, 77777)
           .at({.max_acceleration = 12345.0})
           .within(0.1),
-      cure("AccelerationOfASaw", of_ecam, "limit: acceleration [cam.limit]", ecams::rotary(), master, 77777)
+      cure("AccelerationOfASaw", of_ecam, "limit: acceleration", ecams::rotary(), master, 77777)
           .at({.max_acceleration = 12345.0})
           .within(0.1),
-      cure("VelocityOfPieces", of_camin, "limit: velocity [cam.limit]", camin::knife(), master, 600)
+      cure("VelocityOfPieces", of_camin, "limit: velocity", camin::knife(), master, 600)
           .at({.max_velocity = 351.0})
           .within(0.1),
-      cure("AccelerationOfPieces", of_camin, "limit: acceleration [cam.limit]", camin::knife(), master, 600)
+      cure("AccelerationOfPieces", of_camin, "limit: acceleration", camin::knife(), master, 600)
           .at({.max_acceleration = 511.0})
           .within(0.1),
-      cure("JerkOfPieces", of_camin, "limit: jerk [cam.limit]",
+      cure("JerkOfPieces", of_camin, "limit: jerk",
            camin::knife("# endless: positive\n# maxjerk: 777\n"), master, 900)
           .within(0.01),
-      cure("OvershootOfTheFirstPiece", of_camin, "row 1 (line 4): caution: overshoots [cam.overshoot]",
+      cure("OvershootOfTheFirstPiece", of_camin, "row 1 (line 4): caution: overshoots",
            "# interpolation: LINE_POLY5\n# endless: "
            "positive\nmaster,slave\n{},0\n1700000,300000\n2600000,1200000\n3000000,2400000\n",
            "master", 0),
-      cure("OvershootOfAMiddlePiece", of_camin, "row 2 (line 5): caution: overshoots [cam.overshoot]",
+      cure("OvershootOfAMiddlePiece", of_camin, "row 2 (line 5): caution: overshoots",
            poly5_line + "master,slave\n0,0\n{},900000\n2000000,1200000\n2600000,1500000\n", "master", 300000),
-      cure("OvershootOfTheLastPiece", of_camin, "row 4 (line 7): caution: overshoots [cam.overshoot]",
+      cure("OvershootOfTheLastPiece", of_camin, "row 4 (line 7): caution: overshoots",
            poly5_line + "master,slave\n0,0\n900000,1800000\n1000000,2800000\n{},3400000\n", "master",
            1400000),
       cure("StrokeOfRoundedRows", of_camin, "does not fit the travel", "", "stroke", 1000000.0 * 31 / 27)
@@ -336,7 +336,7 @@ std::vector<Followed> followed() {
                  {s_curve("10", "50")}),
           follow("SomeTimeToEnd", of_ecam, "at the end of the cam", "give P5 some time", s_curve("50", "0"),
                  {s_curve("50", "10")}),
-          follow("MoreTimeForRamps", of_ecam, "limit: acceleration [cam.limit]", "give its ramps more time",
+          follow("MoreTimeForRamps", of_ecam, "limit: acceleration", "give its ramps more time",
                  s_curve("20", "20"), {s_curve("40", "40")}, {.max_acceleration = 2.5e6}),
           follow("Ramps", of_ecam, "the ratio jumps", "give P6L 1 or 2", ecams::rotary("50/3", "0"),
                  {ecams::rotary("50/3", "1"), ecams::rotary("50/3", "2")}),

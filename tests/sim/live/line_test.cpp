@@ -88,11 +88,11 @@ TEST_F(LiveLine, WhatDoesNotFitIsToldAndNothingHappens) {
       {R"({"power": false})", "there is no controller to switch"},
       {R"({"at": "5 s", "set": {"web.speed": "3 m/min"}})", "acts now, and once; leave at out"},
       {R"({"when": "1 > 0", "set": {"web.speed": "3 m/min"}})", "leave when out"},
-      {R"({})", "does nothing"},
+      {R"({})", "does nothing [cam.unknown-key]"},
       {R"({"set": {}})", "act:1:3: act.set is empty [scenario.not-a-scenario]"},
       {R"({"ramp": {}, "over": "1 s"})", "act:1:3: act.ramp is empty [scenario.not-a-scenario]"},
       {R"({"fault": {}})", "act:1:3: act.fault is empty [scenario.not-a-scenario]"},
-      {R"({"set": {"web.speed": "3 m/min"}, "fault": {}})", "act.fault is empty"},
+      {R"({"set": {"web.speed": "3 m/min"}, "fault": {}})", "act.fault is empty [scenario.not-a-scenario]"},
       {R"([1])", "act"},
       {R"({"set": )", "act:1:"},
   };

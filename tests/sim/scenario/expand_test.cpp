@@ -141,7 +141,8 @@ TEST(ScenarioOverride, FaultsCarryItsName) {
       {"scene.title", "[a",
        "--set scene.title:1:1: the list opened at line 1, column 1 is not closed; write ] or "
        "a comma here [scenario.yaml-syntax]"},
-      {"scene.title", "", "1:9: scene.title has no value; give it one, or leave the key out"},
+      {"scene.title", "",
+       "1:9: scene.title has no value; give it one, or leave the key out [scenario.no-value]"},
       {"scene.title", "@",
        "--set scene.title:1:1: no YAML text begins like this; put the text into quotes "
        "[scenario.yaml-syntax]"},

@@ -285,7 +285,7 @@ TEST(ScenarioRead, EveryByteOfATextKnowsItsPlace) {
 
 TEST(ScenarioRead, ColumnsCountCharacters) {
   EXPECT_THAT(problems_of("scene: {title: \"L\xC3\xA4nge \xE2\x89\xA4 5\", stepp: 1 ms}\n"),
-              ElementsAre("1:29: unknown key 'stepp' in scene; did you mean step?"));
+              ElementsAre("1:29: unknown key 'stepp' in scene; did you mean step? [scenario.unknown-key]"));
 }
 
 TEST(ScenarioRead, ReadsAFile) {

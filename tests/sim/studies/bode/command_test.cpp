@@ -288,7 +288,7 @@ TEST_F(BodeCommand, RefusesARangeUpsideDown) {
 TEST_F(BodeCommand, RefusesFilesThatAreDirectoriesOrTheSame) {
   options.csv = folder.path;
   options.png = folder.path / "x.png";
-  refuses("--csv:1:1: " + options.csv + " is a directory; name a file");
+  refuses("--csv:1:1: " + options.csv + " is a directory; name a file [file.not-writable]");
   options.csv = options.png;
   refuses("--png:1:1: it is the file of --csv; name another file [option.file-name]");
 }
@@ -311,7 +311,7 @@ TEST_F(BodeCommand, RefusesFilesThatItMustNotWrite) {
   refuses("--csv:1:1: " + options.scenario.string() +
           " is the scenario itself; name another file\n--png:1:1: there is no directory " +
           (folder.path / "none").string() + "; make it first or name another\n--png:1:1: " + options.png +
-          " does not end in .png; name it x.png");
+          " does not end in .png; name it x.png [option.file-name]");
 }
 
 TEST_F(BodeCommand, RefusesAnOverrideThatIsNone) {

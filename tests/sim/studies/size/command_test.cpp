@@ -83,9 +83,9 @@ TEST_F(SizeCommand, WithoutAnInertiaRatioTheMakersIsTakenElseTheUsual) {
   const auto meldas = row("HC503R", "5");
   EXPECT_EQ(meldas.at("reason"), "load over rotor inertia 13.7, at most 5 is what its maker allows");
   EXPECT_THAT(out,
-              HasSubstr("\nnote: load over rotor inertia: at most what the maker allows; 10, as usual, for "
-                        "2 of 3 motors, of which the catalogue has no such value; 2 candidates beyond it; "
-                        "--inertia-ratio 15 sets another limit, off none\n"));
+              HasSubstr("\nnote: load over rotor inertia: at most what the maker allows; 10, as usual, for 2 "
+                        "of 3 motors, of which the catalogue has no such value; 2 candidates beyond it; "
+                        "--inertia-ratio 15 sets another limit, off none [size.inertia-limit]\n"));
   options.inertia_ratio = "off";
   ASSERT_EQ(run(), all_passed) << err;
   EXPECT_EQ(rows()[0].at("motor"), "HG-SR52");

@@ -662,7 +662,7 @@ TEST_F(SweepCommand, BadScenesAreTold) {
   envelope.over = {"variables.limit=1,,2 m/min"};
   envelope.find_max = {speed};
   EXPECT_EQ(run_envelope(), bad_input);
-  EXPECT_EQ(err.find("an empty value"), err.rfind("an empty value")) << err;
+  EXPECT_EQ(err.find("an empty value [study.argument]"), err.rfind("an empty value [study.argument]")) << err;
 }
 
 TEST_F(SweepCommand, BadBoundsAreTold) {

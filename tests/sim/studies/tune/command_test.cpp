@@ -565,7 +565,7 @@ TEST_F(TuneCommand, TellsAllThatIsWrongAndWritesNothing) {
         "[controller.value-range]",
         "--vary:1:24: plants.axis.resolution", "is given twice; keep one",
         "--vary:1:38: 'x' is no number [study.argument]",
-        "the ends are in m and s; give both ends in one unit",
+        "the ends are in m and s; give both ends in one unit [study.wrong-unit]",
         "--minimise:1:5: there is no channel 'AxisX.foller'; did you mean AxisX.follerr? "
         "[option.unknown-choice]",
         "--constraint:1:1: a constraint compares by < <= > >=",
