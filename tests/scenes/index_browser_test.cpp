@@ -12,10 +12,12 @@ namespace {
 using ::testing::IsEmpty;
 
 std::vector<sim::report::IndexEntry> example() {
-  const auto entry = [](const char* name, const char* word, double simulated) {
+  using Came = sim::record::Verdict::Came;
+  const auto entry = [](const char* name, Came came, const char* word, double simulated) {
     return sim::report::IndexEntry{.name = name,
                                    .kind = "run",
                                    .title = "A line",
+                                   .came = came,
                                    .word = word,
                                    .verdict = "told",
                                    .simulated = simulated,
@@ -24,7 +26,8 @@ std::vector<sim::report::IndexEntry> example() {
                                    .picture = "",
                                    .picture_words = ""};
   };
-  return {entry("line 2", "PASS", 9), entry("line 10", "FAIL", 100), entry("line 1", "SAME", 12)};
+  return {entry("line 2", Came::passed, "PASS", 9), entry("line 10", Came::failed, "FAIL", 100),
+          entry("line 1", Came::none, "MEASURED", 12)};
 }
 
 TEST(IndexInABrowser, IsSortedByPointerAndKeys) {

@@ -91,7 +91,7 @@ TEST_F(ProgramTest, WithoutHelpersTheVerdictStandsAndTheReportIsWritten) {
   EXPECT_EQ(result.status, 0) << result.text;
   EXPECT_THAT(result.text,
               testing::AllOf(testing::HasSubstr("rotary_knife_short: passed, all 13 checks passed"),
-                             testing::HasSubstr("left out: video: there is no ffmpeg; install ffmpeg\n")));
+                             testing::HasSubstr("left out: video: there is no ffmpeg; install ffmpeg [run.left-out]\n")));
   EXPECT_THAT(contents(out / "rotary_knife_short/report.html"),
               testing::HasSubstr("<li>left out: video: there is no ffmpeg; install ffmpeg</li>"));
   EXPECT_FALSE(fs::exists(out / "rotary_knife_short/film.mp4"));
