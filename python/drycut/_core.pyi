@@ -4,7 +4,7 @@ import os
 from typing import Any, Callable, Sequence
 
 _Path = str | os.PathLike[str]
-_Problem = tuple[str, int, int, str, str]
+_Problem = tuple[str, int, int, str, str, str]
 
 version: str
 

@@ -92,7 +92,7 @@ class RecordingBinder {
               fmt::format("pictures.units: there is no axis and no channel '{}'", of.text),
               lookup_.names.suggest_reading(of.text));
       if (!scenario::is_unit(is.unit) || is.unit.empty() || !(is.number > 0))
-        fault("scenario.wrong-kind"_code, is.place,
+        fault("scenario.wrong-unit"_code, is.place,
               fmt::format("pictures.units: {} is no unit's size", of.text),
               "write what 1 is of a known unit: 0.01 mm");
     }
@@ -117,7 +117,7 @@ class RecordingBinder {
     if (scenario::is_unit(unit) && scenario::same_dimension(unit, "mm"))
       quota.metres = scenario::to_si(number, unit);
     else
-      fault("scenario.wrong-kind"_code, wanted.at.place,
+      fault("scenario.wrong-unit"_code, wanted.at.place,
             fmt::format("pictures.quota.at: {} is no length", wanted.at.text),
             fmt::format("name a position, or say what 1 is: units: {{{}: 0.01 mm}}", wanted.at.text));
     return quota;

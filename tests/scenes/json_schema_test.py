@@ -17,22 +17,20 @@ except ImportError as missing:
 
 root = pathlib.Path(__file__).resolve().parents[2]
 
-# A bad file says itself what drycut finds in it ("# expect: LINE:COLUMN: words"). It is wrong in structure if one
-# of these faults is of keys and their kinds of value: that much a schema can say.
-STRUCTURE = ("unknown key", "unknown controller", "unknown plant type", "unknown choice", "must be a map",
-             "must be a list", "is missing", "leads to nothing", "has no unit", "does not say", "does nothing", "filters nothing",
-             "is not a way and its counts", "has a decimal comma")
+# A bad file says itself what drycut finds in it ("# expect: LINE:COLUMN: code"). It is wrong in structure if one of these faults
+# is of keys and their kinds of value, or if it says so itself ("# structure"): that much a schema can say.
+STRUCTURE = ("controller.unknown-kind", "plant.unknown-type", "scenario.missing-key", "scenario.unknown-choice",
+             "scenario.unknown-key", "scenario.wrong-kind")
 # These are of YAML itself, where readers differ, and come before any schema.
-TEXT = ("not used in scenarios", "is given twice", "levels deep", "the map opened", "a tab in",
-        "after the end of the document", "a second ': ' behind a key")
+TEXT = ("scenario.yaml-not-taken", "scenario.yaml-syntax", "scenario.twice")
 # Everything else is wrong in meaning only: names, units, ranges, what does not fit together.
 
 
 def kind_of(file):
     faults = [line for line in file.read_text(errors="replace").splitlines() if line.startswith("# expect: ")]
-    if any(word in fault for fault in faults for word in STRUCTURE):
+    if any(fault.endswith(code) for fault in faults for code in STRUCTURE) or "# structure\n" in file.read_text(errors="replace"):
         return "structure"
-    if not faults or any(word in fault for fault in faults for word in TEXT):
+    if not faults or any(fault.endswith(code) for fault in faults for code in TEXT):
         return "text"
     return "meaning"
 

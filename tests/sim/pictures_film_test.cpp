@@ -212,7 +212,7 @@ TEST(PicturesFilm, UnitsAndQuotasThatTheMachineDoesNotHaveAreRefusedWithTheirPla
               ElementsAre(StartsWith("20: pictures.units: there is no axis and no channel 'Axs'; ")));
   EXPECT_THAT(KnifeLine("units: {AxisX: 3}").told(),
               ElementsAre("27: pictures.units: AxisX is no unit's size; write what 1 is of a known unit: "
-                          "0.01 mm [scenario.wrong-kind]"));
+                          "0.01 mm [scenario.wrong-unit]"));
   EXPECT_THAT(KnifeLine("units: {AxisX: 0 mm}").told(),
               ElementsAre(StartsWith("27: pictures.units: AxisX is no unit's size; ")));
   EXPECT_THAT(KnifeLine("quota: {plant: knife, at: web.position}").told(),
