@@ -93,7 +93,8 @@ TEST_F(Files, OptionsThatNameSuchFilesAreRefusedBeforeAnythingRuns) {
   options.table = std::string(DRYCUT_SOURCE_DIR) + "/scenes/cams/fly_cut.csv";
   options.csv = file;
   EXPECT_EQ(captured([&] { return cli::validate_cam(options); }), cli::bad_input);
-  EXPECT_EQ(err, "--csv:1:1: " + file.string() + " cannot be written: it is read-only; name another file\n");
+  EXPECT_EQ(err, "--csv:1:1: " + file.string() +
+                     " cannot be written: it is read-only; name another file [file.not-writable]\n");
 }
 
 TEST_F(Files, AByteOrderMarkIsNoMatterInAnyKindOfFile) {

@@ -100,7 +100,7 @@ TEST_F(Lx3vpBus, WhatDoesNotFitIsTold) {
            {"X10", "axis.pulses"}});
   constexpr const char* terminals =
       "' is not a terminal of the controller; write X0 to X377, Y0 to Y377 (octal), or C200 to C255 for a "
-      "high-speed counter";
+      "high-speed counter [wiring.no-terminal]";
   EXPECT_THAT(
       told(),
       ElementsAre(

@@ -120,7 +120,8 @@ TEST_F(Lx3vpScenario, EveryFaultOfAllFilesIsTold) {
   const auto texts = told();
   EXPECT_THAT(texts, Contains(HasSubstr("saw.il:2:")));
   EXPECT_THAT(texts, Contains(HasSubstr("saw.il:3:1: ")));
-  EXPECT_THAT(texts, Contains("saw.csv:2:4: 'x' is no number; write 5, -5, K5, H1F or 1.5 [study.argument]"));
+  EXPECT_THAT(texts,
+              Contains("saw.csv:2:4: 'x' is no number; write 5, -5, K5, H1F or 1.5 [registers.value]"));
 }
 
 TEST_F(Lx3vpScenario, PresetsAreChecked) {
@@ -200,11 +201,12 @@ TEST_F(Lx3vpScenario, TheRetentiveFileMustBeWritableAtTheEnd) {
   };
   EXPECT_THAT(refused("none/kept.txt"),
               ElementsAre(testing::MatchesRegex("line.yaml:3:50: there is no directory .*/none; make it "
-                                                "first, or name another file [file.not-writable]")));
+                                                "first, or name another file [[]file.not-writable[]]")));
   std::filesystem::create_directories(folder / "deep");
-  EXPECT_THAT(refused("deep"),
-              ElementsAre(testing::MatchesRegex("line.yaml:3:50: .*/deep cannot be written at the end of the "
-                                                "run: it is a directory; name another file")));
+  EXPECT_THAT(
+      refused("deep"),
+      ElementsAre(testing::MatchesRegex("line.yaml:3:50: .*/deep cannot be written at the end of the run: it "
+                                        "is a directory; name another file [[]file.not-writable[]]")));
 }
 
 // A block with no more than its table runs: the manual's initial values are a note, no error.

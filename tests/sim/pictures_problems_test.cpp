@@ -60,8 +60,7 @@ TEST(PicturesProblems, FramesAndPlots) {
        {"1:50: there are two plots named 'a'; rename one: each is a file [scenario.twice]"}},
       {"pictures: {plots: [{name: a, panels: [{title: b}]}]}\n",
        {"1:39: pictures.plots.a.panels.0.channels is missing; add channels: [knife.speed], lanes: [2.OUT01], "
-        "or "
-        "event: cut and values: [length]"}},
+        "or event: cut and values: [length] [scenario.missing-key]"}},
       {"pictures: {plots: [{name: a, panels: [{channels: [b], event: cut, values: [c]}]}]}\n",
        {"1:55: pictures.plots.a.panels.0 has both channels and an event; make two panels of it "
         "[scenario.does-not-go-together]"}},

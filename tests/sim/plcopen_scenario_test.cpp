@@ -218,8 +218,7 @@ TEST_F(PlcopenScenario, FaultsOfTheAxesAreToldAllAtOnce) {
           "line.yaml:12:49: unknown key 'a_mx' in controller.plcopen.axes.Knife.dynamik; did you mean "
           "dynamik.a_max? [scenario.unknown-key]",
           "line.yaml:13:9: controller.plcopen.axes.Knife.dynamik.vb_max is given twice; keep one; the first "
-          "is at "
-          "line 12 [cam.twice]",
+          "is at line 12 [scenario.twice]",
           "line.yaml:14:33: controller.plcopen.axes.Knife.cam_gear.filter_cycles is 1.5, not a whole number "
           "of "
           "cycles; 1 to 1000 [controller.axis-value]",
@@ -227,7 +226,7 @@ TEST_F(PlcopenScenario, FaultsOfTheAxesAreToldAllAtOnce) {
           "position; write "
           "on or off (or true, false) [scenario.unknown-choice]",
           "line.yaml:16:9: controller.plcopen.axes.Knife.kv has no value; give it one, or leave the key out "
-          "[cam.missing]",
+          "[scenario.no-value]",
           "line.yaml:17:25: controller.plcopen.axes.Knife.path_counts is a pure number, not a length (mm); "
           "write a "
           "number without unit [controller.axis-value]",
@@ -249,7 +248,7 @@ TEST_F(PlcopenScenario, FaultsOfTheSectionAreToldAllAtOnce) {
           "line.yaml:5:5: controller.plcopen.task_cycle 1 ms is not a whole multiple of the cycle 700 "
           "us; for example 700 us [scenario.time-grid]",
           "line.yaml:6:14: controller.plcopen.tables.0.file is missing; add file: cams/knife.tab "
-          "[plant.motor-incomplete]",
+          "[scenario.missing-key]",
           HasSubstr("line.yaml:6:19: controller.plcopen.tables.0.id is 70000, out of range"),
           HasSubstr("unknown key 'name' in controller.plcopen.tables.x"),
           "line.yaml:7:5: unknown key 'programm' in controller.plcopen; did you mean program? "
@@ -461,7 +460,8 @@ TEST_F(PlcopenScenario, SoftwareLimitsAreInOrder) {
     read(with("    program: line.st\n    axes:\n      Saw: {modulo: 0, " + limits + "}\n"));
     return told();
   };
-  const std::string remedy = "give the lower limit as kenngr.swe_neg; equal limits are none";
+  const std::string remedy =
+      "give the lower limit as kenngr.swe_neg; equal limits are none [controller.axis-value]";
   EXPECT_THAT(told_of("kenngr: {swe_pos: -10 mm, swe_neg: 10 mm}"),
               ElementsAre("line.yaml:6:33: controller.plcopen.axes.Saw: kenngr.swe_neg 10 mm is above "
                           "kenngr.swe_pos -10 mm; " +

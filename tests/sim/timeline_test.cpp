@@ -114,7 +114,7 @@ TEST_F(TimelineTest, ConditionsHaveNumbersWithUnits) {
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(to_string(problems[0]),
             "line.yaml:3:21: '1.5 N' is a force, but 'web.speed' is a speed; write it in m/min "
-            "[controller.axis-value]");
+            "[expression.unit]");
 }
 
 TEST_F(TimelineTest, WhatNeverHappensIsTold) {

@@ -91,7 +91,7 @@ TEST_F(ValueRanges, AnOverrideIsJudgedAsThePresetIs) {
   EXPECT_THAT(
       built(qmove, {{"controller.qmove.set.AxisX.pgain", "2.7"}, {"plants.web.speed", "1e308 m/min"}}),
       ElementsAre("--set plants.web.speed:1:1: plants.web.speed is 1e+308 m/min, out of range; 0 m/min to "
-                  "1000 m/min [controller.axis-value]"));
+                  "1000 m/min [scenario.out-of-range]"));
   problems.clear();
   EXPECT_THAT(
       built(qmove, {{"controller.qmove.set.AxisX.pgain", "2.7"}}),
@@ -153,7 +153,8 @@ TEST_F(ValueRanges, EveryValueThatCanBeSetHasARange) {
 }
 
 TEST_F(ValueRanges, APlantIsNotCalledLikeSomethingOfTheController) {
-  const std::string remedy = "; give the plant a name of its own, or another spelling: knife and Knife";
+  const std::string remedy =
+      "; give the plant a name of its own, or another spelling: knife and Knife [controller.twice]";
   auto text = qmove;
   text.replace(text.find("  web: "), 6, "  slLength: ");
   text.replace(text.find("  bench: "), 8, "  AxisX: ");
@@ -170,7 +171,7 @@ TEST_F(ValueRanges, APlantIsNotCalledLikeSomethingOfTheController) {
 }
 
 TEST_F(ValueRanges, TwoStationsOnAWebDoNotStandInOnePlace) {
-  const std::string remedy = " mm or more further down the line, or a web of its own";
+  const std::string remedy = " mm or more further down the line, or a web of its own [plant.no-room]";
   EXPECT_THAT(
       built("scene: {duration: 1 s}\nplants:\n  web: {type: web}\n  other: {type: web}\n"
             "  knife: {type: rotary_knife, web: web}\n  third: {type: rotary_knife, web: other}\n"

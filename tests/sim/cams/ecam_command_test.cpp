@@ -69,7 +69,7 @@ TEST_F(EcamCommand, BadOptions) {
             "--table:1:1: the table's rows were given, not made; leave it out [option.does-not-apply]\n");
   given.rows = given.table.string();
   EXPECT_EQ(run(given), cli::bad_input);
-  EXPECT_THAT(err, HasSubstr("cam.csv is the table itself; name another file\n"));
+  EXPECT_THAT(err, HasSubstr("cam.csv is the table itself; name another file [option.file-name]\n"));
   given.rows.clear();
   given.at = {5, 111};
   EXPECT_EQ(run(given), cli::bad_input);

@@ -119,9 +119,8 @@ TEST(EcamFindings, SpeedsOfMadeTablesAreOfTheLawOrOfTheSteeperRows) {
       ecams::findings(made, {.master_speed = 1000.0, .max_velocity = 1749.0, .max_acceleration = 4164.0});
   ASSERT_EQ(found.size(), 2U);
   EXPECT_THAT(found[0], testing::StartsWith("row "));
-  EXPECT_THAT(found[0],
-              testing::EndsWith(
-                  ": limit: velocity 1750 pulses/s above 1749; run the master at 999.428 pulses/s at most"));
+  EXPECT_THAT(found[0], testing::EndsWith(": limit: velocity 1750 pulses/s above 1749; run the master at "
+                                          "999.428 pulses/s at most [cam.limit]"));
   EXPECT_EQ(found[1],
             "piece 2: limit: acceleration 4164.58 pulses/s2 above 4164; run the master "
             "at 999.929 pulses/s at most [cam.limit]");
@@ -181,7 +180,8 @@ TEST(EcamFindings, AccelerationsOfMadeTablesAndTheirP2) {
 TEST(EcamFindings, RatiosOfALawAboveTheLimit) {
   ecams::expect_findings(
       {{ecams::table("# max_ratio: 4.99\n" + ecams::s_curve()),
-        {testing::MatchesRegex("row [0-9]+: limit: ratio 5 above 4.99; give P2 [0-9]+ Hz at most")}},
+        {testing::MatchesRegex(
+            "row [0-9]+: limit: ratio 5 above 4.99; give P2 [0-9]+ Hz at most [[]cam.limit[]]")}},
        {ecams::table("# max_ratio: 5\n" + ecams::s_curve()), {}},
        {ecams::table("# max_ratio: 1.66\n" + ecams::rotary()),
         {HasSubstr("limit: ratio 1.66667 above 1.66; no P5 does that: this cycle and its synchronous zone "
@@ -195,7 +195,8 @@ TEST(EcamFindings, ACamThatRunsOnceJumpsFromRestOrToRest) {
   };
   const std::string start =
       "piece 1: caution: the ratio jumps from 0 to 5 as the cam starts; give P4 some time [cam.jump]";
-  const std::string end = ": caution: the ratio jumps from 5 to 0 at the end of the cam; give P5 some time";
+  const std::string end =
+      ": caution: the ratio jumps from 5 to 0 at the end of the cam; give P5 some time [cam.jump]";
   EXPECT_THAT(s_curve("100", "100"), IsEmpty());
   EXPECT_THAT(s_curve("0", "100"), ElementsAre(start));
   EXPECT_THAT(s_curve("100", "0"), ElementsAre("piece 2" + end));
@@ -296,7 +297,7 @@ TEST(EcamFindings, ASawsStrokeAndItsRemedy) {
   EXPECT_THAT(found[0],
               testing::EndsWith(": limit: the stroke does not fit the travel: slave at 12900 pulses, "
                                 "max_position is 12000; shorten the stroke (P2) to 12500 pulses at most and "
-                                "let the cam begin 500 pulses further back; it is 12900"));
+                                "let the cam begin 500 pulses further back; it is 12900 [cam.travel]"));
   EXPECT_THAT(saw(travel, 12500), ElementsAre(HasSubstr("let the cam begin 500 pulses further back")));
   EXPECT_THAT(saw(travel, 12000), IsEmpty());
 }

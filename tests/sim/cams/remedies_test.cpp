@@ -151,8 +151,8 @@ std::vector<CureCase> cases() {
       cure("Warning10", of_camming4, "warning 10: ",
            camming4_rows("1,154,100,50,{}\n2,130\n3,154,100,100\n4,135,100,50\n5,136\n"), "codeQma", 1)
           .within(0),
-      cure("Velocity", of_camming4, "limit: velocity",
-           camming4_rows("1,231,100,60\n2,235,100,60\n3,136\n"), master, 111.1)
+      cure("Velocity", of_camming4, "limit: velocity", camming4_rows("1,231,100,60\n2,235,100,60\n3,136\n"),
+           master, 111.1)
           .at({.max_velocity = 110.0})
           .within(0.1),
       cure("Maxvel", of_camming4, "above maxvel",
@@ -202,12 +202,12 @@ std::vector<CureCase> cases() {
       cure("MaxFrequency", of_ecam, "Hz above",
            "# max_frequency: 50000\nmaster,slave\n0,0\n100,100\n200,270\n", master, 77777)
           .within(0.1),
-      cure("VelocityOfRows", of_ecam, "limit: velocity", "master,slave\n0,0\n100,100\n200,270\n",
-           master, 77777)
+      cure("VelocityOfRows", of_ecam, "limit: velocity", "master,slave\n0,0\n100,100\n200,270\n", master,
+           77777)
           .at({.max_velocity = 12345.0})
           .within(0.1),
-      cure("AccelerationOfRows", of_ecam, "limit: acceleration",
-           "master,slave\n0,0\n100,100\n200,270\n", master, 77777)
+      cure("AccelerationOfRows", of_ecam, "limit: acceleration", "master,slave\n0,0\n100,100\n200,270\n",
+           master, 77777)
           .at({.max_acceleration = 12345.0})
           .within(0.1),
       cure("AccelerationOfASaw", of_ecam, "limit: acceleration", ecams::rotary(), master, 77777)
@@ -219,8 +219,8 @@ std::vector<CureCase> cases() {
       cure("AccelerationOfPieces", of_camin, "limit: acceleration", camin::knife(), master, 600)
           .at({.max_acceleration = 511.0})
           .within(0.1),
-      cure("JerkOfPieces", of_camin, "limit: jerk",
-           camin::knife("# endless: positive\n# maxjerk: 777\n"), master, 900)
+      cure("JerkOfPieces", of_camin, "limit: jerk", camin::knife("# endless: positive\n# maxjerk: 777\n"),
+           master, 900)
           .within(0.01),
       cure("OvershootOfTheFirstPiece", of_camin, "row 1 (line 4): caution: overshoots",
            "# interpolation: LINE_POLY5\n# endless: "
@@ -334,8 +334,8 @@ std::vector<Followed> followed() {
                  {s_curve("60", "60")}),
           follow("SomeTimeToStart", of_ecam, "as the cam starts", "give P4 some time", s_curve("0", "50"),
                  {s_curve("10", "50")}),
-          follow("SomeTimeToEnd", of_ecam, "at the end of the cam", "give P5 some time", s_curve("50", "0"),
-                 {s_curve("50", "10")}),
+          follow("SomeTimeToEnd", of_ecam, "at the end of the cam", "give P5 some time [cam.jump]",
+                 s_curve("50", "0"), {s_curve("50", "10")}),
           follow("MoreTimeForRamps", of_ecam, "limit: acceleration", "give its ramps more time",
                  s_curve("20", "20"), {s_curve("40", "40")}, {.max_acceleration = 2.5e6}),
           follow("Ramps", of_ecam, "the ratio jumps", "give P6L 1 or 2", ecams::rotary("50/3", "0"),

@@ -129,8 +129,7 @@ TEST_F(FileKinds, CommandsSayWhatTheyWereGiven) {
       {"replay line.yaml",
        "line.yaml:1:1: this is a scenario, not a recorded session; drycut run takes it [file.other-kind]\n"},
       {"live session.yaml",
-       "session.yaml:1:1: this is a recorded session, not a scenario; drycut replay runs it "
-       "[file.other-kind]"},
+       "session.yaml:1:1: this is a recorded session, not a scenario; drycut replay runs it"},
       {"check report.html", "report.html:1:1: this is a report, not a scenario; "},
       {"check session.yaml", "session.yaml:1:1: this is a recorded session, not a scenario; "},
       {"bode two.yaml",

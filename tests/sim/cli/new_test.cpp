@@ -241,21 +241,23 @@ TEST_F(NewLine, SaysWhichPairsThereAre) {
   };
   const std::string all =
       "there are: flying_saw under lx3vp, plcopen, qmove; length_stop under lx3vp, qmove; rotary_knife under "
-      "lx3vp, plcopen, qmove; vertical_press under qmove; vertical_press_inverter under qmove\n";
-  for (const auto& [machine, controller, told] :
-       std::vector<Case>{{"", "", "--from:1:1: no machine is named; " + all},
-                         {"rotary_knive", "qmove",
-                          "--from:1:1: there is no line of 'rotary_knive' to start from; did you mean "
-                          "rotary_knife? [option.unknown-choice]\n"},
-                         {"lathe", "qmove", "--from:1:1: there is no line of 'lathe' to start from; " + all},
-                         {"rotary_knife", "",
-                          "--controller:1:1: no controller is named; rotary_knife is there under lx3vp, "
-                          "plcopen, qmove [option.missing]\n"},
-                         {"rotary_knife", "plcopn",
-                          "--controller:1:1: there is no rotary_knife under 'plcopn'; did you mean plcopen? "
-                          "[option.unknown-choice]\n"},
-                         {"vertical_press", "lx3vp",
-                          "--controller:1:1: there is no vertical_press under 'lx3vp'; " + all}}) {
+      "lx3vp, plcopen, qmove; vertical_press under qmove; vertical_press_inverter under qmove";
+  for (const auto& [machine, controller, told] : std::vector<Case>{
+           {"", "", "--from:1:1: no machine is named; " + all + " [option.missing]\n"},
+           {"rotary_knive", "qmove",
+            "--from:1:1: there is no line of 'rotary_knive' to start from; did you mean "
+            "rotary_knife? [option.unknown-choice]\n"},
+           {"lathe", "qmove",
+            "--from:1:1: there is no line of 'lathe' to start from; " + all + " [option.unknown-choice]\n"},
+           {"rotary_knife", "",
+            "--controller:1:1: no controller is named; rotary_knife is there under lx3vp, "
+            "plcopen, qmove [option.missing]\n"},
+           {"rotary_knife", "plcopn",
+            "--controller:1:1: there is no rotary_knife under 'plcopn'; did you mean plcopen? "
+            "[option.unknown-choice]\n"},
+           {"vertical_press", "lx3vp",
+            "--controller:1:1: there is no vertical_press under 'lx3vp'; " + all +
+                " [option.unknown-choice]\n"}}) {
     EXPECT_EQ(make("line", machine, controller), bad_input) << machine;
     EXPECT_EQ(err, told);
     EXPECT_FALSE(fs::exists(folder / "line"));

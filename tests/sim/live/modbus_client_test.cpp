@@ -574,7 +574,10 @@ TEST_F(ModbusLx3vpLine, APortThatIsTakenEndsTheProgram) {
   options.modbus = {};
   options.port = server->port();
   EXPECT_EQ(captured([&] { return cli::live_scenario(options); }), cli::bad_input);
-  EXPECT_THAT(err, HasSubstr("Address already in use; give another port, or --port 0 for any free one\n"));
+  EXPECT_THAT(
+      err,
+      HasSubstr(
+          "Address already in use; give another port, or --port 0 for any free one [live.cannot-listen]\n"));
   options.port = 0;
   for (const auto* address : {"192.0.2.1", "nonsense"}) {  // of documents, nobody's
     options.listen = address;

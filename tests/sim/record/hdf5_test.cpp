@@ -147,8 +147,10 @@ TEST_F(Hdf5Test, CanBeReadWhileItIsWritten) {
 }
 
 TEST_F(Hdf5Test, RefusesWhatIsNoRecord) {
-  EXPECT_THAT(refused(folder.file("x.h5", "time [s],web.speed [m/min]\n")),
-              HasSubstr("x.h5:1:1: it is no HDF5 file; name a file that drycut wrote: trace.h5\n"));
+  EXPECT_THAT(
+      refused(folder.file("x.h5", "time [s],web.speed [m/min]\n")),
+      HasSubstr(
+          "x.h5:1:1: it is no HDF5 file; name a file that drycut wrote: trace.h5 [record.not-a-record]\n"));
   {
     Hdf5File out(recording, file, {});
     rows(out, 0, 3 * block);

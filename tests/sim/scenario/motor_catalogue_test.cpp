@@ -329,7 +329,7 @@ TEST_F(MotorModels, OfABrokenFileAreToldInIt) {
       {head + "  S1-3:\n    rated_torque: {value: 3 N m}\n",
        {"own.yaml:7:19: motors.S1-3.rated_torque.from is missing; write from: \"sheet: ...\" or from: "
         "\"estimate: "
-        "...\" [plant.motor-incomplete]"}},
+        "...\" [scenario.missing-key]"}},
       {head + "  S1-3:\n    rated_torque: {value: 3 N m, from: sheat}\n",
        {"own.yaml:7:40: motors.S1-3.rated_torque.from says neither which sheet nor why an estimate; did you "
         "mean "
@@ -370,8 +370,7 @@ TEST_F(MotorModels, SayWhichValuesOfTheSheetAreMissing) {
   read(knife_with("servo: {model: S1-3}"));
   const std::string remedy =
       "; write it from the motor's sheet; drycut plants --motor-template shows which values a motor needs "
-      "and "
-      "which are estimated without";
+      "and which are estimated without [plant.motor-incomplete]";
   EXPECT_THAT(told(),
               ElementsAre("own.yaml:6:3: motors.S1-3.peak_torque is missing" + remedy,
                           "own.yaml:6:3: motors.S1-3.rated_speed is missing" + remedy,

@@ -205,7 +205,7 @@ TEST(ScenarioProblems, PeriodsThatDoNotFitTheStep) {
 }
 
 TEST(ScenarioProblems, Plants) {
-  const std::string lists = "; 'drycut plants web' lists its parameters";
+  const std::string lists = "; 'drycut plants web' lists its parameters [scenario.unknown-key]";
   expect_problems({
       {"plants: {k: {type: rotary_nife}}\n",
        {"1:20: unknown plant type 'rotary_nife'; did you mean rotary_knife? [plant.unknown-type]"}},

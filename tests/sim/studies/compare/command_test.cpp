@@ -209,19 +209,19 @@ TEST_F(CompareCommand, WrongTolerancesAreRefused) {
     const char* text;
     const char* told;
   };
-  for (const auto& [text, told] : std::vector<Case>{
-           {"length=", "--tolerance:1:8: '' is no tolerance; 0 or more: "},
-           {"length=-1 mm", "--tolerance:1:8: '-1 mm' is no tolerance [study.out-of-range]"},
-           {"length=1 mm%", "--tolerance:1:8: '1 mm%' is no tolerance [study.out-of-range]"},
-           {"=1", "--tolerance:1:1: '=1' names nothing [compare.tolerance]"},
-           {"0.01mm", "--tolerance:1:1: '0.01mm' is for nothing that has a name [compare.tolerance]"},
-           {"lenght=1 mm",
-            "--tolerance:1:1: there is no 'lenght' in these runs; did you mean length? "
-            "[compare.unknown-name]"},
-           {"follerr=1%", "there is no 'follerr' in these runs; did you mean AxisX.follerr?"},
-           {"length=1 s", "--tolerance:1:8: length is in mm, not in s; "},
-           {"AxisX.follerr=1", ""},
-           {"AxisX.follerr=1 -", "AxisX.follerr is in bits x4, not in -"}}) {
+  for (const auto& [text, told] :
+       std::vector<Case>{{"length=", "--tolerance:1:8: '' is no tolerance; 0 or more: "},
+                         {"length=-1 mm", "--tolerance:1:8: '-1 mm' is no tolerance"},
+                         {"length=1 mm%", "--tolerance:1:8: '1 mm%' is no tolerance"},
+                         {"=1", "--tolerance:1:1: '=1' names nothing"},
+                         {"0.01mm", "--tolerance:1:1: '0.01mm' is for nothing that has a name"},
+                         {"lenght=1 mm",
+                          "--tolerance:1:1: there is no 'lenght' in these runs; did you mean length? "
+                          "[compare.unknown-name]"},
+                         {"follerr=1%", "there is no 'follerr' in these runs; did you mean AxisX.follerr?"},
+                         {"length=1 s", "--tolerance:1:8: length is in mm, not in s; "},
+                         {"AxisX.follerr=1", ""},
+                         {"AxisX.follerr=1 -", "AxisX.follerr is in bits x4, not in -"}}) {
     options.tolerances = {text};
     const int status = run({write("a", {}), write("b", {})});
     EXPECT_EQ(status, *told == 0 ? cli::all_passed : cli::bad_input) << text;
