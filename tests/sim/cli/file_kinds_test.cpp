@@ -163,8 +163,9 @@ TEST_F(FileKinds, AFolderWithScenariosNamesThem) {
   folder.file("scenes/b.yaml", "");
   folder.file("scenes/a.yaml", "");
   EXPECT_EQ(parse("run scenes"), bad_input);
-  EXPECT_THAT(err, HasSubstr(fmt::format("name a file in it: {}, {}\n", (folder / "scenes/a.yaml").string(),
-                                         (folder / "scenes/b.yaml").string())));
+  EXPECT_THAT(
+      err, HasSubstr(fmt::format("name a file in it: {}, {} [file.other-kind]\n",
+                                 (folder / "scenes/a.yaml").string(), (folder / "scenes/b.yaml").string())));
 }
 
 TEST_F(FileKinds, WhatCannotBeReadIsToldByTheReader) {

@@ -568,7 +568,7 @@ TEST_F(ModbusLx3vpLine, APortThatIsTakenEndsTheProgram) {
   EXPECT_EQ(captured([&] { return cli::live_scenario(options); }), cli::bad_input);
   EXPECT_EQ(
       err, fmt::format("--modbus:1:1: cannot listen for Modbus on 127.0.0.1 port {}: Address already in use; "
-                       "give another port, or --modbus 0 for any free one [live.no-modbus]\n",
+                       "give another port, or --modbus 0 for any free one [live.cannot-listen]\n",
                        server->port()));
   EXPECT_EQ(out, "");
   options.modbus = {};

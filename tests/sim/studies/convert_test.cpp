@@ -136,7 +136,7 @@ TEST_F(ConvertCommand, RefusesWhatItCannotConvert) {
   refuses(folder / "nothing", "csv", folder / "x", "nothing:1:1: there is no such run; name a folder");
   refuses(folder / "csv", "csv", folder / "x",
           "csv:1:1: it is not the folder of a run: there is no trace.csv, no trace.h5; the runs in it are " +
-              csv.string() + "\n");
+              csv.string() + " [record.no-run]\n");
   refuses(folder / "web.yaml", "csv", folder / "x.csv",
           "web.yaml:1:1: the header does not begin with time [s]");
   refuses(csv / "trace.csv", "csv", csv / "trace.csv", "trace.csv is the record itself; name another file");

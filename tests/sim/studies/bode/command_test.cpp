@@ -309,8 +309,9 @@ TEST_F(BodeCommand, RefusesFilesThatItMustNotWrite) {
   options.csv = options.scenario;
   options.png = folder.path / "none" / "x.jpg";
   refuses("--csv:1:1: " + options.scenario.string() +
-          " is the scenario itself; name another file\n--png:1:1: there is no directory " +
-          (folder.path / "none").string() + "; make it first or name another\n--png:1:1: " + options.png +
+          " is the scenario itself; name another file [option.file-name]\n--png:1:1: there is no directory " +
+          (folder.path / "none").string() +
+          "; make it first or name another [file.not-writable]\n--png:1:1: " + options.png +
           " does not end in .png; name it x.png [option.file-name]");
 }
 

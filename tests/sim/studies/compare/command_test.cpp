@@ -21,7 +21,7 @@ struct CompareCommand : Bench {
   /// Refuses b when `texts` stand in it, with this message, and writes nothing.
   void refuses(const RunTexts& texts, const std::string& file, const std::string& message) {
     EXPECT_EQ(run({write("a", {}), write("b", texts)}), cli::bad_input);
-    EXPECT_THAT(err, HasSubstr((folder / "b" / file).string() + ":" + message + "\n"));
+    EXPECT_THAT(err, HasSubstr((folder / "b" / file).string() + ":" + message + " [record."));
     EXPECT_FALSE(fs::exists(folder / "out"));
   }
   cli::CompareOptions options;
