@@ -134,7 +134,16 @@ const CamKind& cam_kind(std::string_view name, std::string_view text) {
 
 devices::CamTable read_cam(std::string_view device, std::string_view text, const std::string& file,
                            Problems& problems) {
-  return cam_kind(device, text).read(text, file, problems);
+  const auto& wanted = cam_kind(device, text);
+  const auto owner = std::ranges::find_if(kinds, [&](const CamKind& kind) { return kind.owns(text); });
+  // All its keys and columns would be unknown.
+  if (owner != kinds.end() && owner->name != wanted.name && !wanted.owns(text)) {
+    problems.push_back({"file.other-kind"_code, file, 1, 1,
+                        fmt::format("this is a cam of {}, not of {}", owner->name, wanted.name),
+                        fmt::format("leave --device out, or write --device {}", owner->name)});
+    return {};
+  }
+  return wanted.read(text, file, problems);
 }
 
 CamStudy study_cam(const devices::CamTable& table, const CamRequest& request, Problems& problems) {

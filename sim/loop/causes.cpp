@@ -234,6 +234,22 @@ std::optional<Finding> Causes::of(const std::vector<record::CheckResult>& checks
   return found;
 }
 
+// All is as it should be, but later than a check wants.
+std::optional<Causes::Cause> Causes::only_late(const std::vector<record::CheckResult>& checks) {
+  const record::CheckResult* failed = nullptr;
+  for (const auto& check : checks) {
+    if (check.passed) continue;
+    if (failed != nullptr || !check.deadline || !check.margin) return {};
+    failed = &check;
+  }
+  if (failed == nullptr) return {};
+  return Cause{
+      Link::meanwhile,
+      {"check.alone-fails"_code, fmt::format("nothing but check '{}' is amiss: it came true {:.4g} s "
+                                             "too late",
+                                             failed->name, -*failed->margin)}};
+}
+
 std::optional<Causes::Cause> Causes::cause_of(const std::vector<record::CheckResult>& checks,
                                               const Known& known) const {
   constexpr auto ever = std::numeric_limits<double>::infinity();
@@ -242,6 +258,7 @@ std::optional<Causes::Cause> Causes::cause_of(const std::vector<record::CheckRes
     const auto* error = first_error(ever);
     return error != nullptr ? text_of(*error) : "";
   };
+  if (auto late = only_late(checks)) return late;
   if (odd_value_ && odd_value_->at <= failed_at.value_or(ever))
     return Cause{Link::because,
                  {is_cut_ ? "loop.value-cut"_code : "loop.value-out-of-range"_code, text_of(*odd_value_)}}
@@ -288,6 +305,7 @@ std::optional<Causes::Cause> Causes::last_resort(const std::vector<record::Check
         .with(known.doubts.empty() ? "" : known.doubts.front().text);
   }
   if (before) return known.doubts.empty() ? before : before->with(known.doubts.front().text);
+  if (errors_.empty() && !known.astray.empty()) return Cause{Link::because, known.astray.front().second};
   if (!known.doubts.empty()) return Cause{Link::meanwhile, known.doubts.front()};
   const auto failed_at = first_failure(checks);
   for (const auto& blow : blows_)

@@ -77,6 +77,7 @@ class Causes : public record::Observer {
   [[nodiscard]] std::optional<Cause> by_time(double failed_at, const Known& known) const;
   [[nodiscard]] std::optional<Cause> cause_of(const std::vector<record::CheckResult>& checks,
                                               const Known& known) const;
+  [[nodiscard]] static std::optional<Cause> only_late(const std::vector<record::CheckResult>& checks);
   [[nodiscard]] std::optional<Cause> last_resort(const std::vector<record::CheckResult>& checks,
                                                  const Known& known, std::optional<Cause> before) const;
 

@@ -79,8 +79,8 @@ Disturbances::Sum* Disturbances::sum_of(const scenario::Text& name, const scenar
     const auto fixed = fixed_parameter(scenario, name.text);
     problems.push_back(scenario::problem_at(
         fixed ? fixed->code : "timeline.nothing-to-set"_code, scenario, name.place,
-        fixed ? fixed->what : fmt::format("nothing called '{}' can be disturbed", name.text),
-        fixed ? fixed->remedy : names.suggest_disturbed(name.text)));
+        fixed ? fixed->what : Prose(fmt::format("nothing called '{}' can be disturbed", name.text)),
+        fixed ? fixed->remedy : Prose(names.suggest_disturbed(name.text))));
     return nullptr;
   }
   const auto range = target->range.value_or(devices::ValueRange{});

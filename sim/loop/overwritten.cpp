@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "base/text.hpp"
-#include "sim/loop/simulation.hpp"
 #include "sim/loop/program_words.hpp"
+#include "sim/loop/simulation.hpp"
 
 namespace drycut::sim::loop {
 

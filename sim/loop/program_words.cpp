@@ -160,6 +160,25 @@ std::string name_in_program(const std::string& terminal, const std::vector<ReadP
   return "";
 }
 
+bool calls_block(const std::vector<ReadProgram>& programs, const std::string& type, const std::string& axis) {
+  for (const auto& [program, words] : programs) {
+    if (program.language != "st") continue;
+    for (auto at = words.find(type); at != std::string::npos; at = words.find(type, at + 1)) {
+      const auto name = name_before(words, at);
+      if (name.empty()) continue;
+      for (auto call = words.find(name + "("); call != std::string::npos;
+           call = words.find(name + "(", call + 1)) {
+        auto arguments = words.substr(call, words.find(')', call) - call);
+        std::erase_if(arguments, [](char c) { return c == ' ' || c == '\t' || c == '\n'; });
+        if (is_word_at(words, call, name.size()) &&
+            arguments.find("axis:=" + lower(axis)) != std::string::npos)
+          return true;
+      }
+    }
+  }
+  return false;
+}
+
 bool presets(devices::Controller& controller, const std::string& axis) {
   const auto programs = controller.programs();
   return std::any_of(programs.begin(), programs.end(), [&](const devices::ProgramText& program) {

@@ -29,6 +29,9 @@ bool is_unread(const std::string& terminal, const std::vector<ReadProgram>& prog
 /// The name that a program has for a terminal, of the configuration, of AT; "" = none.
 std::string name_in_program(const std::string& terminal, const std::vector<ReadProgram>& programs);
 
+/// A program of Structured Text calls a block of that type, in small letters, with that axis.
+bool calls_block(const std::vector<ReadProgram>& programs, const std::string& type, const std::string& axis);
+
 /// A QCL program gives PRESET for that axis; "" = for any.
 bool presets(devices::Controller& controller, const std::string& axis);
 

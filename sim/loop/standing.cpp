@@ -48,6 +48,9 @@ Standing::Standing(const scenario::Scenario& scenario, devices::Controller& cont
   auto& cards = controller.cards();
   const bool homes = seeks_home(controller);
   const auto programs = read_programs(controller);
+  const bool has_devices = std::any_of(programs.begin(), programs.end(), [](const ReadProgram& read) {
+    return read.program.language == "cnf";
+  });
   for (const auto& wire : scenario.wiring) {
     const auto found = controller.terminal(wire.terminal.text);
     const auto* address = std::get_if<devices::Address>(&found);
@@ -55,9 +58,12 @@ Standing::Standing(const scenario::Scenario& scenario, devices::Controller& cont
     const auto terminal = controller.terminal_name(*address);
     const auto& plug = wire.plug.text;
     const auto follow = [&](std::vector<Level>& levels, const bool& level) {
-      const bool read = &levels == &inputs_ && (homes || !plug.ends_with(".home")) &&
-                        is_named(terminal, programs, Named::surely);
-      levels.push_back({terminal, plug, &level, level, level, read});
+      // A lamp that a device works, and no program, is on where all is well.
+      const bool wanted =
+          &levels == &inputs_
+              ? (homes || !plug.ends_with(".home")) && is_named(terminal, programs, Named::surely)
+              : &levels == &lamps_ && has_devices && name_in_program(terminal, programs).empty();
+      levels.push_back({terminal, plug, &level, level, level, wanted});
     };
     const bool on_panel = plug.starts_with("panel.");
     if (address->kind == devices::Kind::counter) {
@@ -117,15 +123,16 @@ std::vector<Finding> Standing::texts(Time now) const {
 
 std::string Standing::never_on(const std::string& plug) const {
   for (const auto& input : inputs_)
-    if (input.plug == plug && input.of_program && !input.was_on)
+    if (input.plug == plug && input.is_wanted && !input.was_on)
       return fmt::format("{} ({})", input.plug, input.terminal);
   return "";
 }
 
 std::optional<Finding> Standing::never_on() const {
-  auto read = inputs_;
-  std::erase_if(read, [](const Level& input) { return !input.of_program; });
-  return those_never_on(read);
+  auto wanted = inputs_;
+  wanted.insert(wanted.end(), lamps_.begin(), lamps_.end());
+  std::erase_if(wanted, [](const Level& level) { return !level.is_wanted; });
+  return those_never_on(wanted);
 }
 
 }  // namespace drycut::sim::loop

@@ -34,7 +34,7 @@ class Standing : public record::Observer {
     const bool* level;
     bool last;
     bool was_on;
-    bool of_program;  ///< a program names it
+    bool is_wanted;  ///< once on: a program reads the input, a device works the lamp
     std::optional<Time> changed = {};
   };
   struct Count {

@@ -59,6 +59,22 @@ std::vector<Finding> always_enabled(const scenario::Scenario& scenario, devices:
   return found;
 }
 
+/// Probes of axes that MC_TouchProbe looks at and nothing is wired to.
+std::vector<Finding> open_probes(const scenario::Scenario& scenario, devices::Controller& controller,
+                                 const std::vector<ReadProgram>& programs) {
+  std::vector<Finding> found;
+  for (const auto& loop : controller.position_loops()) {
+    const auto probe = loop.name + ".probe";
+    const auto at = controller.terminal(probe);
+    const auto* address = std::get_if<devices::Address>(&at);
+    if (address != nullptr && wire_at(scenario, controller, *address) == nullptr &&
+        calls_block(programs, "mc_touchprobe", loop.name))
+      found.emplace_back("wiring.open-terminal"_code,
+                         fmt::format("{} is what MC_TouchProbe looks at, and nothing is wired to it", probe));
+  }
+  return found;
+}
+
 }  // namespace
 
 std::vector<Finding> faults_of_nothing(const scenario::Scenario& scenario,
@@ -171,6 +187,7 @@ std::vector<Finding> doubtful_wires(const scenario::Scenario& scenario, devices:
   }
   for (auto& strange : strange_zero_pulses(scenario, controller)) notes.push_back(std::move(strange));
   for (auto& enabled : always_enabled(scenario, controller)) notes.push_back(std::move(enabled));
+  for (auto& probe : open_probes(scenario, controller, programs)) notes.push_back(std::move(probe));
   return notes;
 }
 

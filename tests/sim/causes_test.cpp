@@ -306,6 +306,26 @@ TEST(Causes, ACheckThatNeverHeldIsToldWhereNoErrorIs) {
   EXPECT_EQ(cause(causes, {never}, known), "while AxisX.offset is 9000");
 }
 
+TEST(Causes, WhatOnlyCameTooLateIsNoStandstill) {
+  auto late = failed({});
+  late.name = "all tours done";
+  late.deadline = true;
+  late.margin = -28.9;
+  Causes::Known known;
+  known.hindrances = {said("gbPlace stands at 0 since 39.856 s")};
+  EXPECT_EQ(cause(Causes(), {late}, known),
+            "while nothing but check 'all tours done' is amiss: it came true 28.9 s too late");
+  EXPECT_EQ(cause(Causes(), {late, failed({})}, known), "because gbPlace stands at 0 since 39.856 s");
+}
+
+TEST(Causes, AnAxisThatWentAstrayLaterIsToldWhereNothingElseIs) {
+  Causes::Known known;
+  known.astray = {{0.5, said("Axis counts against its drive")}};
+  EXPECT_EQ(cause(Causes(), {failed(0.1)}, known), "because Axis counts against its drive");
+  known.doubts = {said("Axis.feedfw is 90")};
+  EXPECT_EQ(cause(Causes(), {failed(0.1)}, known), "because Axis counts against its drive");
+}
+
 TEST(Causes, AlarmsComeInTheOrderOfTheirTimes) {
   Causes causes;
   causes.happened(told(2, "Knife", "warning", "late"));

@@ -203,10 +203,9 @@ TEST_F(Lx3vpScenario, TheRetentiveFileMustBeWritableAtTheEnd) {
               ElementsAre(testing::MatchesRegex("line.yaml:3:50: there is no directory .*/none; make it "
                                                 "first, or name another file [[]file.not-writable[]]")));
   std::filesystem::create_directories(folder / "deep");
-  EXPECT_THAT(
-      refused("deep"),
-      ElementsAre(testing::MatchesRegex("line.yaml:3:50: .*/deep cannot be written at the end of the run: it "
-                                        "is a directory; name another file [[]file.not-writable[]]")));
+  EXPECT_THAT(refused("deep"), ElementsAre(testing::MatchesRegex(
+                                   "line.yaml:3:50: .*/deep cannot be written at the end of the run: it "
+                                   "is a directory; name another file [[]file.not-writable[]]")));
 }
 
 // A block with no more than its table runs: the manual's initial values are a note, no error.

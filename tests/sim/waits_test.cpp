@@ -250,6 +250,29 @@ TEST(WhyItFailed, AnAccelerationInTheWrongUnitIsTold) {
       HasSubstr("Saw.dynamik.a_max is 15: in mm/s2"));
 }
 
+TEST(WhyItFailed, AProbeThatABlockLooksAtAndNothingGivesIsAWarning) {
+  const auto outcome = outcome_without("Saw.probe: saw.home", "flying_saw_plcopen.yaml");
+  EXPECT_THAT(sentences(outcome.warnings()),
+              testing::Contains("Saw.probe is what MC_TouchProbe looks at, and nothing is wired to it"));
+}
+
+TEST(WhyItFailed, ALampThatADeviceNeverLitIsANote) {
+  TestFolder folder;
+  std::ifstream shipped(lines.parent_path() / "programs/flying_saw.mod");
+  folder.file("flying_saw.mod", replaced(std::string(std::istreambuf_iterator<char>(shipped), {}),
+                                         "AxisX:funOut   = 7", "AxisX:funOut   = 1"));
+  const auto file = folder.file("line.yaml", "extends: " + (lines / "flying_saw_qmove.yaml").string() +
+                                                 "\nscene: {duration: 9 s}\ncontroller: {qmove: {tasks: "
+                                                 "[flying_saw.mod]}}\n");
+  Problems problems;
+  const auto scenario = scenario::read_scenario(file, {}, problems);
+  Simulation simulation(scenario, problems);
+  ASSERT_TRUE(problems.empty()) << to_string(problems.front());
+  simulation.run();
+  EXPECT_THAT(sentences(simulation.notes()),
+              testing::Contains(HasSubstr("never seen on: panel.in_sync (2.OUT01)")));
+}
+
 TEST(WhyItFailed, WhoToldTheClampsToCloseIsTold) {
   EXPECT_THAT(cause_of_saw("flying_saw_lx3vp.yaml", "flying_saw.il", "LDP     D1001.A", "LDF     D1001.A",
                            "scene: {duration: 9 s}\ncontroller: {lx3vp: {program: flying_saw.il}}\n"),

@@ -86,7 +86,9 @@ TEST_F(EcamCommand, BadOptions) {
   auto wrong = options_of(ecams::rotary());
   wrong.device = "camming4";
   EXPECT_EQ(run(wrong), cli::bad_input);
-  EXPECT_THAT(err, HasSubstr("cam.csv:1:3: there is no setting 'ecamtbx'"));
+  EXPECT_THAT(err,
+              HasSubstr("cam.csv:1:1: this is a cam of lx3vp, not of camming4; leave --device out, or write "
+                        "--device lx3vp [file.other-kind]\n"));
 }
 
 TEST_F(EcamCommand, AStrokeThatDoesNotFitTheTravelFails) {
