@@ -137,7 +137,8 @@ devices::CamTable read_cam(std::string_view device, std::string_view text, const
   const auto& wanted = cam_kind(device, text);
   const auto owner = std::ranges::find_if(kinds, [&](const CamKind& kind) { return kind.owns(text); });
   // All its keys and columns would be unknown.
-  if (owner != kinds.end() && owner->name != wanted.name && !wanted.owns(text)) {
+  if (owner != kinds.end() && owner->name != wanted.name && !wanted.owns(text) &&
+      near_columns(wanted, header_line(text)) == 0) {
     problems.push_back({"file.other-kind"_code, file, 1, 1,
                         fmt::format("this is a cam of {}, not of {}", owner->name, wanted.name),
                         fmt::format("leave --device out, or write --device {}", owner->name)});

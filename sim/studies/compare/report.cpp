@@ -28,7 +28,7 @@ std::string number_text(double number) {
   return fmt::format("{:.{}g}", record::without_noise(shown), std::abs(number) < 0.1 ? 3 : 7);
 }
 
-std::vector<std::string> headings(const Comparison& comparison, std::vector<std::string> first) {
+std::vector<Prose> headings(const Comparison& comparison, std::vector<Prose> first) {
   for (const auto& run : comparison.runs) first.push_back(run.label);
   return first;
 }

@@ -61,9 +61,7 @@ Studied studied(const Envelope& envelope) {
   return study;
 }
 
-std::vector<std::string> x_headings(const Studied& study) {
-  return Table(named_columns(study.question, study.axes)).headings();
-}
+std::vector<Column> x_columns(const Studied& study) { return named_columns(study.question, study.axes); }
 
 /// Scenes whose curves lie on the same axes.
 struct Family {
@@ -79,7 +77,7 @@ std::vector<Family> families_of(const std::vector<Envelope>& envelopes, const st
   for (std::size_t i = 0; i < studies.size(); ++i) {
     const auto alike = [&](const Family& family) {
       return family.of.is_same(studies[i].columns[0]) && family.least() == envelopes[i].request.least &&
-             x_headings(*family.studies[0]) == x_headings(studies[i]);
+             std::ranges::equal(x_columns(*family.studies[0]), x_columns(studies[i]), &Column::is_same);
     };
     auto family = std::find_if(families.begin(), families.end(), alike);
     if (family == families.end()) family = families.insert(family, Family{{}, {}, studies[i].columns[0]});
@@ -93,7 +91,7 @@ std::vector<Family> families_of(const std::vector<Envelope>& envelopes, const st
 renders::ReportTable key_figures(const Family& family) {
   renders::ReportTable table{
       fmt::format("{} {}", family.least() ? "Smallest" : "Largest", family.of.heading()),
-      x_headings(*family.studies[0]),
+      page_headings(Table(x_columns(*family.studies[0]))),
       {}};
   table.verdicts = true;  // what fails stands small under the number
   std::vector<SweepPoint> points;

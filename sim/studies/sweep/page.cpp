@@ -41,6 +41,11 @@ Column named_column(const PointQuestion& question, const TunedParameter& paramet
   return column;
 }
 
+std::vector<Prose> page_headings(const Table& table) {
+  const auto headings = table.headings();
+  return {headings.begin(), headings.end()};
+}
+
 std::vector<Column> named_columns(const PointQuestion& question, const SweepAxes& axes) {
   std::vector<Column> columns;
   columns.reserve(axes.size());
@@ -130,7 +135,7 @@ renders::ReportTable counts_of(const Studied& study, const std::string& title) {
 }
 
 renders::ReportTable rows_of(const Studied& study, const std::string& title) {
-  renders::ReportTable rows{title, study.table.headings(), {}, true};
+  renders::ReportTable rows{title, page_headings(study.table), {}, true};
   const auto count = study.table.rows().size();
   for (std::size_t i = 0; i < std::min(most_rows, count); ++i) rows.rows.push_back({study.table.shown(i)});
   if (count > most_rows) rows.title = fmt::format("{}: the first {}", title, most_rows);
@@ -168,7 +173,7 @@ renders::ReportMap map_of(const Studied& study, const std::string& name, const s
     if (sought != nullptr) shown.cells[at].push_back(study.good[i] ? number_text(study.numbers[i][0]) : "");
     for (std::size_t k = 0; k < map.lines.size(); ++k) map.lines[k].values[at] = study.lines[k].values[i];
   }
-  shown.headings = study.table.headings();
+  shown.headings = page_headings(study.table);
   const auto slot = [&](std::size_t behind) { return fmt::format("{{{}}}", shown.headings.size() + behind); };
   std::vector<std::string> more;
   if (sought != nullptr) more.push_back(setting(*sought, slot(2)));

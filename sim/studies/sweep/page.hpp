@@ -31,6 +31,8 @@ struct Studied {
   std::vector<renders::MapLines> lines = {};      ///< that a map shows, with a value a point
 };
 
+/// The headings of a table as a page has them.
+std::vector<Prose> page_headings(const Table& table);
 /// The axes and what is sought as columns that say checks by their names, and numbers as cells show them.
 std::vector<Column> named_columns(const PointQuestion& question, const SweepAxes& axes);
 Column named_column(const PointQuestion& question, const TunedParameter& parameter);
