@@ -51,7 +51,8 @@ std::vector<Annotation> annotations_of(const Problems& problems) {
   std::vector<Annotation> all;
   all.reserve(problems.size());
   for (const auto& problem : problems) {
-    const auto text = problem.remedy.empty() ? problem.what : problem.what + "; " + problem.remedy;
+    const std::string text =
+        problem.remedy.empty() ? std::string(problem.what) : problem.what + "; " + problem.remedy;
     all.push_back(
         {Annotation::Kind::problem,
          {report::path_from_here(problem.file), std::max(problem.line, 1), std::max(problem.column, 1)},

@@ -173,7 +173,7 @@ renders::ReportMap map_of(const Studied& study, const std::string& name, const s
     if (sought != nullptr) shown.cells[at].push_back(study.good[i] ? number_text(study.numbers[i][0]) : "");
     for (std::size_t k = 0; k < map.lines.size(); ++k) map.lines[k].values[at] = study.lines[k].values[i];
   }
-  shown.headings = page_headings(study.table);
+  shown.headings = study.table.headings();
   const auto slot = [&](std::size_t behind) { return fmt::format("{{{}}}", shown.headings.size() + behind); };
   std::vector<std::string> more;
   if (sought != nullptr) more.push_back(setting(*sought, slot(2)));
