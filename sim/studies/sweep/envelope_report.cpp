@@ -252,7 +252,7 @@ record::Verdict write_envelope_report(const std::vector<Envelope>& envelopes, Ou
   std::vector<Studied> studies;
   studies.reserve(envelopes.size());
   for (const auto& envelope : envelopes) studies.push_back(studied(envelope));
-  const auto verdict = verdict_of(envelopes, studies);
+  auto verdict = verdict_of(envelopes, studies);
   auto report = report::page_of(verdict);
   std::vector<const Studied*> all;
   for (const auto& study : studies) {
