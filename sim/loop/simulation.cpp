@@ -505,7 +505,8 @@ Causes::Known Simulation::known(const CamJudgement& cams) {
     for (auto& odd : odd_parameters(*controller_)) known.doubts.push_back(std::move(odd));
     for (const auto& cam : cams.doubts)
       if (!cam.is_slip) known.doubts.push_back(cam.what);
-    if (auto line = line_of_grip(); known.doubts.empty() && line) known.doubts.push_back(std::move(*line));
+    if (known.doubts.empty())
+      if (auto line = line_of_grip()) known.doubts.push_back(std::move(*line));
   }
   if (auto first = unpressed(); !first.empty())
     known.hindrances.emplace_back("loop.not-pressed"_code, first + (standing ? "; " + standing->text : ""));
@@ -517,7 +518,7 @@ Causes::Known Simulation::known(const CamJudgement& cams) {
 // Who took hold of material at another speed was told to.
 std::optional<Finding> Simulation::line_of_grip() const {
   for (const auto& wire : scenario_.wiring) {
-    if (causes_.grip().empty() || wire.plug.text != causes_.grip()) continue;
+    if (wire.plug.text != causes_.grip()) continue;
     const auto lines = switched_on_by(*controller_, wire.terminal.text);
     if (!lines.empty())
       return Finding{"loop.switched-on"_code,
