@@ -1,0 +1,271 @@
+#pragma once
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+/// Names the members that are state, in the visit of a class: `void visit(State& s) { STATE(s, count_,
+/// last_); }`.
+#define STATE(archive, ...) (archive)(#__VA_ARGS__, __VA_ARGS__)
+
+namespace drycut {
+
+/// Bytes that are no state of the object that is to take them.
+class BadState : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A visitor of all that changes while a line runs. Each class of the loop says once, in its visit, which of
+/// its members are state; parameters, wires and what follows from them are none. From that one visit come
+/// bytes, the way back from bytes, and the list of members for "what differs first".
+///
+/// It takes numbers, enumerations, texts, the containers of the standard library, pointers to what is owned,
+/// and whatever has `void visit(State&)` as a member or `void visit(State&, T&)` beside it. Containers take
+/// the size of the state; what cannot be made anew, and what is owned, must be there already.
+class State {
+ public:
+  using Bytes = std::vector<std::byte>;
+  /// A member that is no group: where its bytes are.
+  struct Member {
+    std::string name;  ///< "knife.servo_.integral_"
+    std::size_t offset;
+    std::size_t size;
+  };
+
+  /// Appends what it visits to `bytes`; tells the members to `list`, if there is one.
+  static State saving(Bytes& bytes, std::vector<Member>* list = nullptr) {
+    State state;
+    state.out_ = &bytes;
+    state.list_ = list;
+    return state;
+  }
+  /// Sets what it visits from bytes of that order; throws BadState where they do not suffice. `skip`: this
+  /// member stays as it is, by its number in the list, for tests.
+  static State restoring(const std::byte* begin, std::size_t size, std::optional<std::size_t> skip = {}) {
+    State state;
+    state.in_ = begin;
+    state.end_ = begin + size;
+    state.skip_ = skip.value_or(SIZE_MAX);
+    return state;
+  }
+
+  /// The members are being set: what follows from them is to be made anew.
+  [[nodiscard]] bool restores() const { return out_ == nullptr; }
+  /// Bytes that are left: 0 at the end of a whole state.
+  [[nodiscard]] std::size_t left() const { return static_cast<std::size_t>(end_ - in_); }
+
+  /// Visits `members`, whose names stand in `names` with commas between: see STATE.
+  template <class... M>
+  void operator()(std::string_view names, M&... members) {
+    (named(next(names), members), ...);
+  }
+  /// Visits a member under a name that is made while it runs: a plant's, a device's.
+  template <class M>
+  void named(std::string_view name, M& member) {
+    if (list_ == nullptr) return one(member);
+    const std::size_t before = path_.size();
+    if (!path_.empty()) path_ += '.';
+    path_ += name;
+    one(member);
+    path_.resize(before);
+  }
+  /// One of `all` that `pointer` points to, or none: as its place in there.
+  template <class T, class All>
+  void pointer(std::string_view name, T*& pointer, const All& all) {
+    std::int32_t place = -1;
+    std::int32_t n = 0;
+    for (const auto& object : all) {
+      if (object == pointer) place = n;
+      ++n;
+    }
+    named(name, place);
+    if (!restores()) return;
+    if (place >= n) throw BadState("a pointer to nothing");
+    pointer = place < 0 ? nullptr : *std::next(std::begin(all), place);
+  }
+
+ private:
+  State() = default;
+
+  static std::string_view next(std::string_view& names) {
+    const std::size_t comma = names.find(',');
+    const std::string_view name = names.substr(0, comma);
+    names.remove_prefix(comma == std::string_view::npos ? names.size() : comma + 1);
+    while (!names.empty() && names.front() == ' ') names.remove_prefix(1);
+    return name;
+  }
+
+  void raw(void* data, std::size_t size) {
+    if (out_ != nullptr) {
+      if (list_ != nullptr) list_->push_back({path_, out_->size(), size});
+      const auto* from = static_cast<const std::byte*>(data);
+      out_->insert(out_->end(), from, from + size);
+      return;
+    }
+    if (left() < size) throw BadState("it ends too early");
+    if (count_++ != skip_) std::memcpy(data, in_, size);
+    in_ += size;
+  }
+  /// Of what `count` elements of a container need at least a byte each.
+  std::size_t sized(std::size_t now) {
+    auto size = static_cast<std::uint64_t>(now);
+    raw(&size, sizeof size);
+    if (restores() && size > left()) throw BadState("a list longer than the state");
+    return static_cast<std::size_t>(size);
+  }
+  void same(std::size_t now) {
+    if (sized(now) != now) throw BadState("a list of another length");
+  }
+
+  template <class T>
+  void one(T& member) {
+    if constexpr (requires { member.visit(*this); }) {
+      member.visit(*this);
+    } else if constexpr (requires { visit(*this, member); }) {
+      visit(*this, member);
+    } else if constexpr (std::is_same_v<T, bool>) {
+      auto byte = static_cast<std::uint8_t>(member);
+      raw(&byte, 1);
+      member = byte != 0;
+    } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+      raw(&member, sizeof member);
+    } else {
+      container(member);
+    }
+  }
+
+  template <class T>
+  void elements(T& all) {
+    std::size_t n = 0;
+    for (auto& element : all) {
+      if (list_ == nullptr) {
+        one(element);
+      } else {
+        named(std::to_string(n++), element);
+      }
+    }
+  }
+
+  void container(std::string& text) {
+    const std::size_t size = sized(text.size());
+    if (restores()) text.resize(size);
+    if (size > 0) raw(text.data(), size);
+  }
+  void container(std::vector<bool>& all) {
+    const std::size_t size = sized(all.size());
+    if (restores()) all.resize(size);
+    for (std::size_t n = 0; n < size; ++n) {
+      bool on = all[n];
+      one(on);
+      all[n] = on;
+    }
+  }
+  template <class T>
+  void grown(T& all) {
+    if constexpr (std::is_default_constructible_v<typename T::value_type>) {
+      const std::size_t size = sized(all.size());
+      if (restores()) all.resize(size);
+    } else {
+      same(all.size());
+    }
+    elements(all);
+  }
+  template <class T>
+  void container(std::vector<T>& all) {
+    if constexpr (std::is_arithmetic_v<T>) {
+      const std::size_t size = sized(all.size());
+      if (restores() && size > left() / sizeof(T)) throw BadState("a list longer than the state");
+      if (restores()) all.resize(size);
+      if (size > 0) raw(all.data(), size * sizeof(T));
+    } else {
+      grown(all);
+    }
+  }
+  template <class T>
+  void container(std::deque<T>& all) {
+    grown(all);
+  }
+  template <class T, std::size_t N>
+  void container(std::array<T, N>& all) {
+    elements(all);
+  }
+  template <class T, std::size_t N>
+  void container(T (&all)[N]) {
+    elements(all);
+  }
+  template <class A, class B>
+  void container(std::pair<A, B>& both) {
+    (*this)("first, second", both.first, both.second);
+  }
+  template <class T>
+  void container(std::optional<T>& member) {
+    bool there = member.has_value();
+    one(there);
+    if (restores() && there != member.has_value()) {
+      if (there) {
+        member.emplace();
+      } else {
+        member.reset();
+      }
+    }
+    if (member) one(*member);
+  }
+  /// What is owned is there or not from the beginning: no part of the state.
+  template <class T>
+  void container(std::unique_ptr<T>& member) {
+    same(member ? 1 : 0);
+    if (member) one(*member);
+  }
+  template <class K, class V, class C>
+  void container(std::map<K, V, C>& all) {
+    const std::size_t size = sized(all.size());
+    if (!restores()) {
+      for (auto& [key, value] : all) {
+        K copy = key;
+        one(copy);
+        one(value);
+      }
+      return;
+    }
+    all.clear();
+    for (std::size_t n = 0; n < size; ++n) {
+      K key{};
+      one(key);
+      one(all[key]);
+    }
+  }
+  template <class... T>
+  void container(std::variant<T...>& member) {
+    auto index = static_cast<std::uint8_t>(member.index());
+    raw(&index, 1);
+    if (restores() && index != member.index()) {
+      if (index >= sizeof...(T)) throw BadState("a variant that there is not");
+      std::size_t n = 0;
+      ((n++ == index ? static_cast<void>(member.template emplace<T>()) : static_cast<void>(0)), ...);
+    }
+    std::visit([this](auto& value) { one(value); }, member);
+  }
+  void container(std::monostate&) {}
+
+  Bytes* out_ = nullptr;
+  std::vector<Member>* list_ = nullptr;
+  std::string path_;
+  const std::byte* in_ = nullptr;
+  const std::byte* end_ = nullptr;
+  std::size_t count_ = 0;
+  std::size_t skip_ = SIZE_MAX;
+};
+
+}  // namespace drycut
