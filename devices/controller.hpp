@@ -16,6 +16,10 @@
 #include "devices/cards.hpp"
 #include "devices/value_range.hpp"
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::devices {
 
 struct CamTable;  // devices/cam/table.hpp
@@ -213,6 +217,9 @@ class Controller {
   virtual void interrupt(int line, bool rising) = 0;
   /// Power off: outputs 0, nothing runs. Power on: retentive values kept, programs start from the beginning.
   virtual void power(bool on) = 0;
+
+  /// All that changes while it runs: devices, programs, terminals, timers, what is remembered to tell.
+  virtual void visit(StateArchive& archive) = 0;
 
   /// What survives power-off, as text, one `name = value` a line; "" if there is nothing.
   [[nodiscard]] virtual std::string retentive_state() const { return ""; }

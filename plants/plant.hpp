@@ -17,6 +17,10 @@
 
 #include "base/severity.hpp"
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::plants {
 
 /// The word by which a reference parameter names no plant, where its default does.
@@ -399,6 +403,9 @@ class Plant {
   virtual void drive(double h) = 0;
   /// Updates transducers, cuts and events from what the bodies did in the last step of `h` seconds.
   virtual void sense(double h) = 0;
+
+  /// All that changes while it runs, but the bodies, which are the world's.
+  virtual void visit(StateArchive& archive) = 0;
 
   // What it offers; asked once after construction. Pointers and functions stay valid as long as the plant.
   virtual std::vector<Port> ports() { return {}; }

@@ -16,7 +16,7 @@
 #include <variant>
 #include <vector>
 
-/// Names the members that are state, in the visit of a class: `void visit(State& s) { STATE(s, count_,
+/// Names the members that are state, in the visit of a class: `void visit(StateArchive& s) { STATE(s, count_,
 /// last_); }`.
 #define STATE(archive, ...) (archive)(#__VA_ARGS__, __VA_ARGS__)
 
@@ -32,9 +32,9 @@ class BadState : public std::runtime_error {
 /// bytes, the way back from bytes, and the list of members for "what differs first".
 ///
 /// It takes numbers, enumerations, texts, the containers of the standard library, pointers to what is owned,
-/// and whatever has `void visit(State&)` as a member or `void visit(State&, T&)` beside it. Containers take
-/// the size of the state; what cannot be made anew, and what is owned, must be there already.
-class State {
+/// and whatever has `void visit(StateArchive&)` as a member or `void visit(StateArchive&, T&)` beside it.
+/// Containers take the size of the state; what cannot be made anew, and what is owned, must be there already.
+class StateArchive {
  public:
   using Bytes = std::vector<std::byte>;
   /// A member that is no group: where its bytes are.
@@ -45,16 +45,17 @@ class State {
   };
 
   /// Appends what it visits to `bytes`; tells the members to `list`, if there is one.
-  static State saving(Bytes& bytes, std::vector<Member>* list = nullptr) {
-    State state;
+  static StateArchive saving(Bytes& bytes, std::vector<Member>* list = nullptr) {
+    StateArchive state;
     state.out_ = &bytes;
     state.list_ = list;
     return state;
   }
   /// Sets what it visits from bytes of that order; throws BadState where they do not suffice. `skip`: this
   /// member stays as it is, by its number in the list, for tests.
-  static State restoring(const std::byte* begin, std::size_t size, std::optional<std::size_t> skip = {}) {
-    State state;
+  static StateArchive restoring(const std::byte* begin, std::size_t size,
+                                std::optional<std::size_t> skip = {}) {
+    StateArchive state;
     state.in_ = begin;
     state.end_ = begin + size;
     state.skip_ = skip.value_or(SIZE_MAX);
@@ -81,6 +82,15 @@ class State {
     one(member);
     path_.resize(before);
   }
+  /// Visits the bytes of an object that is nothing but its bytes, as a generator of random numbers is.
+  template <class T>
+  void plain(std::string_view name, T& object) {
+    static_assert(std::is_trivially_copyable_v<T> && std::has_unique_object_representations_v<T>);
+    StateBytes<sizeof(T)> bytes;
+    std::memcpy(&bytes, &object, sizeof bytes);
+    named(name, bytes);
+    std::memcpy(static_cast<void*>(&object), &bytes, sizeof bytes);
+  }
   /// One of `all` that `pointer` points to, or none: as its place in there.
   template <class T, class All>
   void pointer(std::string_view name, T*& pointer, const All& all) {
@@ -97,7 +107,7 @@ class State {
   }
 
  private:
-  State() = default;
+  StateArchive() = default;
 
   static std::string_view next(std::string_view& names) {
     const std::size_t comma = names.find(',');
@@ -129,6 +139,14 @@ class State {
     if (sized(now) != now) throw BadState("a list of another length");
   }
 
+  template <std::size_t N>
+  struct StateBytes {
+    std::byte bytes[N];
+  };
+  template <std::size_t N>
+  void one(StateBytes<N>& all) {
+    raw(all.bytes, N);
+  }
   template <class T>
   void one(T& member) {
     if constexpr (requires { member.visit(*this); }) {
