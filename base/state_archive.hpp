@@ -8,6 +8,8 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -44,11 +46,18 @@ class StateArchive {
     std::size_t size;
   };
 
+  /// What logs have beside the states: the entries of each, once, in the order in which states were saved.
+  struct Journal {
+    Bytes bytes = {};
+    std::vector<std::uint64_t> written = {};  ///< entries of each log
+  };
+
   /// Appends what it visits to `bytes`; tells the members to `list`, if there is one.
-  static StateArchive saving(Bytes& bytes, std::vector<Member>* list = nullptr) {
+  static StateArchive saving(Bytes& bytes, std::vector<Member>* list = nullptr, Journal* journal = nullptr) {
     StateArchive state;
     state.out_ = &bytes;
     state.list_ = list;
+    state.journal_ = journal;
     return state;
   }
   /// Sets what it visits from bytes of that order; throws BadState where they do not suffice. `skip`: this
@@ -59,6 +68,12 @@ class StateArchive {
     state.in_ = begin;
     state.end_ = begin + size;
     state.skip_ = skip.value_or(SIZE_MAX);
+    return state;
+  }
+  /// The same with the entries of logs, from a journal up to where it was when the state was saved.
+  static StateArchive restoring(std::span<const std::byte> bytes, std::span<const std::byte> journal) {
+    auto state = restoring(bytes.data(), bytes.size());
+    state.read_pieces(journal);
     return state;
   }
 
@@ -81,6 +96,46 @@ class StateArchive {
     path_ += name;
     one(member);
     path_.resize(before);
+  }
+  /// Visits what only grows and may be large: rows, events, poses. The state has the number of its entries;
+  /// the entries are in the journal, if there is one. A log has `std::size_t grown() const`, `void
+  /// shorten(std::size_t)`, and `void entries(StateArchive&, std::size_t from, std::size_t to)`, which saves
+  /// these entries or, from an archive that restores, appends them. Without a journal a log that is shorter
+  /// than it was then stays as it is.
+  template <class Log>
+  void log(std::string_view name, Log& log) {
+    const std::size_t number = logs_++;
+    auto size = static_cast<std::uint64_t>(log.grown());
+    named(name, size);
+    if (!restores()) {
+      if (journal_ == nullptr) return;
+      if (journal_->written.size() <= number) journal_->written.resize(number + 1);
+      auto& from = journal_->written[number];
+      if (from == size) return;
+      Bytes entries;
+      auto archive = saving(entries);
+      log.entries(archive, static_cast<std::size_t>(from), static_cast<std::size_t>(size));
+      Piece piece = {number, from, size, entries.size()};
+      const auto* head = reinterpret_cast<const std::byte*>(&piece);
+      journal_->bytes.insert(journal_->bytes.end(), head, head + sizeof piece);
+      journal_->bytes.insert(journal_->bytes.end(), entries.begin(), entries.end());
+      from = size;
+      return;
+    }
+    if (!pieces_) {
+      if (size <= log.grown()) log.shorten(static_cast<std::size_t>(size));
+      return;
+    }
+    log.shorten(0);
+    std::uint64_t reached = 0;
+    for (const auto& [piece, entries] : *pieces_) {
+      if (piece.log != number) continue;
+      if (piece.from != reached) throw BadState("a gap in the journal");
+      auto archive = restoring(entries.data(), entries.size());
+      log.entries(archive, static_cast<std::size_t>(piece.from), static_cast<std::size_t>(piece.to));
+      reached = piece.to;
+    }
+    if (reached != size) throw BadState("a journal of another state");
   }
   /// Visits the bytes of an object that is nothing but its bytes, as a generator of random numbers is.
   template <class T>
@@ -107,7 +162,28 @@ class StateArchive {
   }
 
  private:
+  /// Entries of a log in a journal: this, then their bytes.
+  struct Piece {
+    std::uint64_t log;
+    std::uint64_t from;
+    std::uint64_t to;
+    std::uint64_t size;
+  };
+
   StateArchive() = default;
+
+  void read_pieces(std::span<const std::byte> journal) {
+    pieces_.emplace();
+    while (!journal.empty()) {
+      Piece piece{};
+      if (journal.size() < sizeof piece) throw BadState("a journal that ends too early");
+      std::memcpy(&piece, journal.data(), sizeof piece);
+      journal = journal.subspan(sizeof piece);
+      if (journal.size() < piece.size) throw BadState("a journal that ends too early");
+      pieces_->emplace_back(piece, journal.first(static_cast<std::size_t>(piece.size)));
+      journal = journal.subspan(static_cast<std::size_t>(piece.size));
+    }
+  }
 
   static std::string_view next(std::string_view& names) {
     const std::size_t comma = names.find(',');
@@ -151,6 +227,8 @@ class StateArchive {
   void one(T& member) {
     if constexpr (requires { member.visit(*this); }) {
       member.visit(*this);
+    } else if constexpr (requires { T::visit(*this, member); }) {
+      T::visit(*this, member);
     } else if constexpr (requires { visit(*this, member); }) {
       visit(*this, member);
     } else if constexpr (std::is_same_v<T, bool>) {
@@ -264,6 +342,12 @@ class StateArchive {
       one(all[key]);
     }
   }
+  template <class T, class C>
+  void container(std::set<T, C>& all) {
+    std::vector<T> list(all.begin(), all.end());
+    container(list);
+    if (restores()) all = std::set<T, C>(list.begin(), list.end());
+  }
   template <class... T>
   void container(std::variant<T...>& member) {
     auto index = static_cast<std::uint8_t>(member.index());
@@ -279,6 +363,9 @@ class StateArchive {
 
   Bytes* out_ = nullptr;
   std::vector<Member>* list_ = nullptr;
+  Journal* journal_ = nullptr;
+  std::size_t logs_ = 0;
+  std::optional<std::vector<std::pair<Piece, std::span<const std::byte>>>> pieces_;
   std::string path_;
   const std::byte* in_ = nullptr;
   const std::byte* end_ = nullptr;
