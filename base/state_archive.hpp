@@ -48,9 +48,27 @@ class StateArchive {
 
   /// What logs have beside the states: the entries of each, once, in the order in which states were saved.
   struct Journal {
-    Bytes bytes = {};
-    std::vector<std::uint64_t> written = {};  ///< entries of each log
+    Bytes bytes = {};                                     ///< not put away yet
+    std::uint64_t begin = 0;                              ///< bytes before them
+    std::uint64_t sum = first_sum;                        ///< over all entries
+    std::map<std::uint64_t, std::uint64_t> written = {};  ///< entries of each log
+
+    [[nodiscard]] std::uint64_t end() const { return begin + bytes.size(); }
   };
+  static constexpr std::uint64_t first_sum = 14695981039346656037ULL;
+  /// A sum over bytes that finds every change of one of them; over more of them from that over the first.
+  static std::uint64_t sum_of(std::span<const std::byte> bytes, std::uint64_t before = first_sum) {
+    constexpr std::uint64_t prime = 1099511628211ULL;
+    // Eight at a time; another byte gives another sum, for each step can be undone.
+    std::uint64_t sum = before;
+    for (; bytes.size() >= sizeof sum; bytes = bytes.subspan(sizeof sum)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes.data(), sizeof word);
+      sum = (sum ^ word) * prime;
+    }
+    for (const auto byte : bytes) sum = (sum ^ static_cast<std::uint64_t>(byte)) * prime;
+    return sum;
+  }
 
   /// Appends what it visits to `bytes`; tells the members to `list`, if there is one.
   static StateArchive saving(Bytes& bytes, std::vector<Member>* list = nullptr, Journal* journal = nullptr) {
@@ -73,8 +91,18 @@ class StateArchive {
   /// The same with the entries of logs, from a journal up to where it was when the state was saved.
   static StateArchive restoring(std::span<const std::byte> bytes, std::span<const std::byte> journal) {
     auto state = restoring(bytes.data(), bytes.size());
-    state.read_pieces(journal);
+    state.pieces_ = pieces_of(journal);
     return state;
+  }
+  /// A journal that goes on from there.
+  static Journal going_on(std::span<const std::byte> journal) {
+    Journal next;
+    next.begin = journal.size();
+    for (const auto& [piece, entries] : pieces_of(journal)) {
+      next.written[piece.log] = piece.to;
+      next.sum = piece.sum;
+    }
+    return next;
   }
 
   /// The members are being set: what follows from them is to be made anew.
@@ -97,6 +125,50 @@ class StateArchive {
     one(member);
     path_.resize(before);
   }
+  /// Visits the elements of a list by `use`, which is given each, where a struct need not know that it is
+  /// state. Of `each` there are as many as ever, a list takes the length of the state.
+  template <class All, class Use>
+  void each(std::string_view name, All& all, Use use) {
+    auto size = static_cast<std::uint64_t>(all.size());
+    named(name, size);
+    if (size != all.size()) throw BadState("a list of another length: " + std::string(name));
+    visit_each(name, all, use);
+  }
+  template <class All, class Use>
+  void list(std::string_view name, All& all, Use use) {
+    auto size = static_cast<std::uint64_t>(all.size());
+    named(name, size);
+    if (restores()) {
+      if (size > left()) throw BadState("a list longer than the state");
+      all.resize(static_cast<std::size_t>(size));
+    }
+    visit_each(name, all, use);
+  }
+  /// Visits a part that may not be there, of one who only looks on: its bytes are passed over then, and where
+  /// the state has none it stays as it is.
+  template <class Part>
+  void part(std::string_view name, Part* part) {
+    bool there = part != nullptr;
+    named(name, there);
+    if (!there) return;
+    if (!restores()) {
+      const auto place = out_->size();
+      std::uint64_t size = 0;
+      named(name, size);
+      const auto begin = out_->size();
+      named(name, *part);
+      size = out_->size() - begin;
+      std::memcpy(out_->data() + place, &size, sizeof size);
+      return;
+    }
+    std::uint64_t size = 0;
+    named(name, size);
+    if (size > left()) throw BadState("it ends too early");
+    if (part != nullptr)
+      named(name, *part);
+    else
+      in_ += size;
+  }
   /// Visits what only grows and may be large: rows, events, poses. The state has the number of its entries;
   /// the entries are in the journal, if there is one. A log has `std::size_t grown() const`, `void
   /// shorten(std::size_t)`, and `void entries(StateArchive&, std::size_t from, std::size_t to)`, which saves
@@ -104,38 +176,23 @@ class StateArchive {
   /// than it was then stays as it is.
   template <class Log>
   void log(std::string_view name, Log& log) {
-    const std::size_t number = logs_++;
     auto size = static_cast<std::uint64_t>(log.grown());
     named(name, size);
-    if (!restores()) {
-      if (journal_ == nullptr) return;
-      if (journal_->written.size() <= number) journal_->written.resize(number + 1);
-      auto& from = journal_->written[number];
-      if (from == size) return;
-      Bytes entries;
-      auto archive = saving(entries);
-      log.entries(archive, static_cast<std::size_t>(from), static_cast<std::size_t>(size));
-      Piece piece = {number, from, size, entries.size()};
-      const auto* head = reinterpret_cast<const std::byte*>(&piece);
-      journal_->bytes.insert(journal_->bytes.end(), head, head + sizeof piece);
-      journal_->bytes.insert(journal_->bytes.end(), entries.begin(), entries.end());
-      from = size;
-      return;
-    }
-    if (!pieces_) {
-      if (size <= log.grown()) log.shorten(static_cast<std::size_t>(size));
-      return;
-    }
-    log.shorten(0);
-    std::uint64_t reached = 0;
-    for (const auto& [piece, entries] : *pieces_) {
-      if (piece.log != number) continue;
-      if (piece.from != reached) throw BadState("a gap in the journal");
-      auto archive = restoring(entries.data(), entries.size());
-      log.entries(archive, static_cast<std::size_t>(piece.from), static_cast<std::size_t>(piece.to));
-      reached = piece.to;
-    }
-    if (reached != size) throw BadState("a journal of another state");
+    const auto number = sum_of(std::as_bytes(std::span(name)));
+    if (restores()) return log_again(number, size, log);
+    if (journal_ == nullptr) return;
+    auto& from = journal_->written[number];
+    if (from == size) return;
+    Bytes entries;
+    auto archive = saving(entries);
+    log.entries(archive, static_cast<std::size_t>(from), static_cast<std::size_t>(size));
+    journal_->sum = sum_of(entries, journal_->sum);
+    const Piece piece = {number, from, size, entries.size(), journal_->sum};
+    const auto head = std::as_bytes(std::span(&piece, 1));
+    auto& bytes = journal_->bytes;
+    bytes.insert(bytes.end(), head.begin(), head.end());
+    bytes.insert(bytes.end(), entries.begin(), entries.end());
+    from = size;
   }
   /// Visits the bytes of an object that is nothing but its bytes, as a generator of random numbers is.
   template <class T>
@@ -168,21 +225,57 @@ class StateArchive {
     std::uint64_t from;
     std::uint64_t to;
     std::uint64_t size;
+    std::uint64_t sum;  // over them and all before
   };
+  using Pieces = std::vector<std::pair<Piece, std::span<const std::byte>>>;
 
   StateArchive() = default;
 
-  void read_pieces(std::span<const std::byte> journal) {
-    pieces_.emplace();
+  template <class All, class Use>
+  void visit_each(std::string_view name, All& all, Use use) {
+    const std::size_t before = path_.size();
+    std::size_t n = 0;
+    for (auto& element : all) {
+      if (list_ != nullptr)
+        path_.append(before > 0 ? "." : "").append(name).append(".").append(std::to_string(n++));
+      use(element);
+      path_.resize(before);
+    }
+  }
+
+  static Pieces pieces_of(std::span<const std::byte> journal) {
+    Pieces pieces;
+    std::uint64_t sum = first_sum;
     while (!journal.empty()) {
       Piece piece{};
-      if (journal.size() < sizeof piece) throw BadState("a journal that ends too early");
+      if (journal.size() < sizeof piece) throw BadState("its journal ends too early");
       std::memcpy(&piece, journal.data(), sizeof piece);
       journal = journal.subspan(sizeof piece);
-      if (journal.size() < piece.size) throw BadState("a journal that ends too early");
-      pieces_->emplace_back(piece, journal.first(static_cast<std::size_t>(piece.size)));
-      journal = journal.subspan(static_cast<std::size_t>(piece.size));
+      if (journal.size() < piece.size) throw BadState("its journal ends too early");
+      const auto entries = journal.first(static_cast<std::size_t>(piece.size));
+      sum = sum_of(entries, sum);
+      if (sum != piece.sum) throw BadState("its journal was changed");
+      pieces.emplace_back(piece, entries);
+      journal = journal.subspan(entries.size());
     }
+    return pieces;
+  }
+  template <class Log>
+  void log_again(std::uint64_t number, std::uint64_t size, Log& log) {
+    if (!pieces_) {
+      if (size <= log.grown()) log.shorten(static_cast<std::size_t>(size));
+      return;
+    }
+    log.shorten(0);
+    std::uint64_t reached = 0;
+    for (const auto& [piece, entries] : *pieces_) {
+      if (piece.log != number) continue;
+      if (piece.from != reached) throw BadState("its journal has a gap");
+      auto archive = restoring(entries.data(), entries.size());
+      log.entries(archive, static_cast<std::size_t>(piece.from), static_cast<std::size_t>(piece.to));
+      reached = piece.to;
+    }
+    if (reached != size) throw BadState("its journal is another state's");
   }
 
   static std::string_view next(std::string_view& names) {
@@ -364,8 +457,7 @@ class StateArchive {
   Bytes* out_ = nullptr;
   std::vector<Member>* list_ = nullptr;
   Journal* journal_ = nullptr;
-  std::size_t logs_ = 0;
-  std::optional<std::vector<std::pair<Piece, std::span<const std::byte>>>> pieces_;
+  std::optional<Pieces> pieces_;
   std::string path_;
   const std::byte* in_ = nullptr;
   const std::byte* end_ = nullptr;

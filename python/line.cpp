@@ -203,6 +203,19 @@ void add_line(py::module_& module) {
           .def(
               "unit", [](PythonLine& line, const std::string& name) { return line.own().unit(name); },
               "name"_a)
+          .def("save",
+               [](PythonLine& line) {
+                 const auto moment = line.own().save();
+                 return py::bytes(reinterpret_cast<const char*>(moment.data()), moment.size());
+               })
+          .def(
+              "restore",
+              [](PythonLine& line, const py::bytes& moment) {
+                const auto text = static_cast<std::string_view>(moment);
+                const auto* const begin = reinterpret_cast<const std::byte*>(text.data());
+                line.own().restore({begin, begin + text.size()});
+              },
+              "moment"_a)
           .def("take_events", events_of)
           .def("checks", [](PythonLine& line) { return python_of(line.own().checks()); });
   for (auto& each : methods) {

@@ -2,6 +2,7 @@
 #include <drycut/check.hpp>
 #include <drycut/problem.hpp>
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -73,6 +74,14 @@ class Simulation {
   /// takes it as from an HMI. In unit(name). Throws BadInput if nothing has this name, it can only be read,
   /// or the number is beyond its range.
   void write(const std::string& name, double value);
+
+  /// This moment: bytes for any file or process. With them this object, or another one of the same scenario,
+  /// `set` and build of Drycut, comes back to it and goes on as if nothing had been between.
+  [[nodiscard]] std::vector<std::byte> save();
+  /// Comes back to a moment, from whatever moment this has come to. take_events() gives what happens from
+  /// then on. Throws BadInput, which says what differs, for bytes that are no such moment; then nothing has
+  /// changed.
+  void restore(const std::vector<std::byte>& moment);
 
   /// What happened since the last call.
   [[nodiscard]] std::vector<Event> take_events();

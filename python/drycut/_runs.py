@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -135,6 +136,7 @@ class Simulation(_core.Simulation):
     def __init__(self, file: Path, set: Settings | None = None):
         """Reads the scenario (.yaml) with its overrides. Raises BadInput with all problems."""
         super().__init__(file, settings(set))
+        self._made_of = (os.path.abspath(file), settings(set))
 
     # Named once more, so that help() tells of them here.
     step = _core.Simulation.step
@@ -165,6 +167,21 @@ class Simulation(_core.Simulation):
         """[s] that run() would run; a program may go on beyond it."""
         return super().duration
 
+    def save(self) -> bytes:
+        """This moment, for any file or process: restore() of this object, or of another one of the same scenario,
+        `set` and build of Drycut, comes back to it and goes on as if nothing had been between. A Simulation can be
+        pickled, too: into a worker process, for one."""
+        return super().save()
+
+    def restore(self, moment: bytes) -> None:
+        """Comes back to a moment of save(), from whatever moment this has come to. take_events() gives what happens
+        from then on. Raises BadInput, which says what differs, for bytes that are no such moment; then nothing has
+        changed."""
+        super().restore(moment)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _at_moment, (*self._made_of, self.save())
+
     def take_events(self) -> list[Event]:  # type: ignore[override]
         """What happened since the last call."""
         return [Event(*event) for event in super().take_events()]
@@ -172,3 +189,10 @@ class Simulation(_core.Simulation):
     def checks(self) -> list[Check]:  # type: ignore[override]
         """The checks of the scenario as if the run ended now."""
         return [Check(**check) for check in super().checks()]
+
+
+def _at_moment(file: str, set: Settings, moment: bytes) -> Simulation:
+    """What a pickled Simulation becomes."""
+    line = Simulation(file, set)
+    line.restore(moment)
+    return line

@@ -9,8 +9,8 @@
 
 #include "base/plain_text.hpp"
 #include "sim/file.hpp"
+#include "sim/loop/fingerprint.hpp"
 #include "sim/loop/known_events.hpp"
-#include "sim/studies/fingerprint.hpp"
 
 namespace drycut::sim::cli {
 
@@ -108,7 +108,7 @@ std::string gitlab_text(const std::vector<Annotation>& annotations) {
   auto json = nlohmann::ordered_json::array();
   std::map<std::uint64_t, int> twins;
   for (const auto& [kind, place, title, message, lasting] : annotations) {
-    studies::Fingerprint own;
+    loop::Fingerprint own;
     for (const auto part : {name_of(kind), std::string_view(place.file), std::string_view(lasting)})
       own.add(part);
     auto numbered = own;

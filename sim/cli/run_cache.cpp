@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "base/text.hpp"
+#include "sim/loop/fingerprint.hpp"
 #include "sim/record/json.hpp"
-#include "sim/studies/fingerprint.hpp"
 
 namespace drycut::sim::cli {
 
@@ -29,7 +29,7 @@ constexpr auto* entry_file = "entry.json";
 std::string digits(std::uint64_t fingerprint) { return fmt::format("{:016x}", fingerprint); }
 
 std::string fingerprint_of(std::string_view text) {
-  studies::Fingerprint hash;
+  loop::Fingerprint hash;
   hash.add(text);
   return digits(hash.value());
 }
@@ -38,7 +38,7 @@ std::string fingerprint_of(std::string_view text) {
 std::string fingerprint_of_file(const fs::path& file) {
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) return "";  // a FIFO would be waited for
-  studies::Fingerprint hash;
+  loop::Fingerprint hash;
   std::ifstream stream(file, std::ios::binary);
   std::string block(std::size_t{1} << 16U, '\0');
   while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0)
@@ -104,7 +104,7 @@ bool is_begun(const fs::path& folder) {
 }  // namespace
 
 std::string inputs_of_run(const scenario::Scenario& scenario, const FileSet& files, const RunKind& kind) {
-  studies::Fingerprint program;
+  loop::Fingerprint program;
   program.add_program();
   json inputs = {{"program", digits(program.value())},
                  {"name", kind.name},

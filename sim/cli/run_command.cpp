@@ -66,7 +66,7 @@ void begin(Work& work) {
   work.folder->begin();
   for (auto& folder : work.between) folder.begin();
   for (auto& group : work.groups) group.folder->begin();
-  for (auto& job : work.jobs) job->folder->begin();
+  for (auto& job : work.jobs) job->folder->begin(job->from && !job->branches);
 }
 
 /// Takes the results from the cache if it has them.
@@ -108,9 +108,15 @@ void run_job(Job& job, const RunOptions& options, int threads,
   request.strict = options.strict;
   request.half = job.half ? &*job.half : nullptr;
   request.threads = threads;
+  request.states = options.every;
+  request.most_states = static_cast<std::size_t>(options.most_states);
+  request.from = job.from ? &*job.from : nullptr;
+  request.branches = job.branches;
+  request.then = job.then;
   request.progress = progress;
   request.is_interrupted = [] { return InterruptWatch::come() != 0; };
   job.left = job.folder->run(job.scenario, *job.simulation, job.meshes, request, job.result);
+  if (!job.left.states_lost.empty()) job.notes.emplace_back("state.lost"_code, job.left.states_lost);
   job.took = std::chrono::duration<double>(Clock::now() - begun).count();
 }
 
@@ -133,7 +139,7 @@ void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options)
       return;
     }
     // What a run leaves in a retentive file is a result too, and the next one's input.
-    const bool may_be_kept = cache && !loop::retentive_file(job.scenario);
+    const bool may_be_kept = cache && !loop::retentive_file(job.scenario) && !job.from && !options.every;
     try {
       if (may_be_kept && is_unchanged(job, *cache, options)) return;
       run_job(job, options, drawing_threads, show);
@@ -238,8 +244,10 @@ void check_summary(const RunOptions& options, Problems& problems) {
 
 }  // namespace
 
-int run_scenarios(const RunOptions& options) {
+int run_scenarios(const RunOptions& given) {
   Problems problems;
+  auto options = given;
+  read_again(options, problems);
   check_annotate(options.annotate, problems);
   auto work = prepare(options, problems);
   const auto before = problems.size();
@@ -286,7 +294,7 @@ namespace {
 void run_options(CLI::App& run, int& status) {
   const auto chosen = std::make_shared<RunOptions>();
   auto& options = *chosen;
-  run.add_option("scenarios", options.scenarios, "Scenario files (.yaml)")->required();
+  run.add_option("scenarios", options.scenarios, "Scenario files (.yaml)");
   add_out(run, options.out, "Directory for the results");
   run.add_option("--jobs", options.jobs, "Scenarios run at the same time")
       ->check(CLI::Range(1, 256))
@@ -297,6 +305,15 @@ void run_options(CLI::App& run, int& status) {
   run.add_flag("--verify-step", options.verify_step,
                "Run again at half scene.step and tell how far every check's margin moved");
   run.add_flag("--strict", options.strict, "Warnings fail it, too: exit status 1");
+  run.add_option("--states", options.states,
+                 "Keep the run's moments so often, \"1 s\": to come back to them, and to go on after a kill");
+  run.add_option("--keep", options.most_states, "With --states: so many moments, evenly over the run")
+      ->check(CLI::Range(4, 100000))
+      ->capture_default_str();
+  run.add_option("--resume", options.resume, "Go on with a run that was stopped: the folder of its results");
+  run.add_option(
+      "--from", options.from,
+      "Branch off a run at a time, \"out/line@12.5 s\": from there on with this scenario and --set");
   run.add_option("--cache", options.cache,
                  "Folder that keeps results: what would come out the same is taken from there, and not run");
   run.add_option("--summary", options.summary,
@@ -317,13 +334,16 @@ void run_options(CLI::App& run, int& status) {
 }  // namespace
 
 Verb run_verb() {
-  return {"run",
-          "Run scenarios: traces, events, checks, pictures and a report for each",
-          {"drycut run scenes/rotary_knife.yaml", "drycut run scenes/*.yaml --jobs 2 --out results",
-           "drycut run my_line.yaml --set variables.length=\"1 m\" --no-pictures",
-           "drycut run scenes/*.yaml --cache .drycut-cache --annotate github", "  --summary out/summary.md"},
-          {"scenarios", {FileKind::scenario, FileKind::comparison, FileKind::session}},
-          run_options};
+  return {
+      "run",
+      "Run scenarios: traces, events, checks, pictures and a report for each",
+      {"drycut run scenes/rotary_knife.yaml", "drycut run scenes/*.yaml --jobs 2 --out results",
+       "drycut run my_line.yaml --set variables.length=\"1 m\" --no-pictures",
+       "drycut run my_line.yaml --states \"1 s\"", "drycut run --resume out/my_line",
+       "drycut run my_line.yaml --from \"out/my_line@4 s\" --set plants.web.speed=\"80 m/min\" --out branch",
+       "drycut run scenes/*.yaml --cache .drycut-cache --annotate github", "  --summary out/summary.md"},
+      {"scenarios", {FileKind::scenario, FileKind::comparison, FileKind::session}},
+      run_options};
 }
 
 }  // namespace drycut::sim::cli

@@ -27,7 +27,12 @@ struct RunOptions {
   std::filesystem::path summary = {};  ///< in Markdown, "" = none
   std::string links = {};              ///< where a summary's readers find the results, "" = beside it
   bool force = false;                  ///< a summary's file that drycut did not write is replaced too
-  std::string annotate = {};           ///< what failed at its line, for "github" or "gitlab"; "" = for nobody
+  std::string states = {};             ///< keeps the run's moments so often, "" = never
+  std::optional<Time> every = {};      ///< that, when it was read
+  int most_states = 64;
+  std::filesystem::path resume = {};  ///< folder of a run that goes on, "" = none
+  std::string from = {};              ///< "out/x@12.5 s": a run branches there, "" = from zero
+  std::string annotate = {};          ///< what failed at its line, for "github" or "gitlab"; "" = for nobody
 };
 /// drycut run
 int run_scenarios(const RunOptions& options);

@@ -128,7 +128,7 @@ void prepare_scenario(const std::filesystem::path& file, const std::string& name
   if (!live::is_session(file)) {
     const auto read = [&](const auto& set) { return scenario::read_scenario(file, set, problems); };
     job.scenario = read(overrides);
-    put_together(job, name, options, claims, problems);
+    if (put_together(job, name, options, claims, problems)) go_on(job, options, problems);
     return read_half(job, overrides, options, read, problems);
   }
   if (!options.set.empty())

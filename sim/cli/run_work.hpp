@@ -29,6 +29,9 @@ struct Job {
   report::RunResult result;
   std::optional<report::RunFolder> folder;
   report::RunLeft left;
+  std::optional<loop::KeptMoment> from;            ///< it goes on from there
+  bool branches = false;                           ///< with other values
+  std::vector<scenario::Stimulus> then;            ///< which are set there
   std::vector<Finding> notes;                      ///< of what was read
   std::string inputs;                              ///< all that determines its results, with --cache
   std::optional<std::vector<Finding>> kept_notes;  ///< it was not run: its results are those of a cache
@@ -61,6 +64,10 @@ struct Work {
   std::vector<Refused> refused;
 };
 
+/// Reads the options of a run that goes on: those of --resume become those of the run that it was.
+void read_again(RunOptions& options, Problems& problems);
+/// Takes the moment that a job goes on from; a problem if it does not fit.
+void go_on(Job& job, const RunOptions& options, Problems& problems);
 /// Reads and puts together all scenarios. One whose input is wrong is refused, the others stand; `problems`
 /// are those of the call itself.
 Work prepare(const RunOptions& options, Problems& problems);

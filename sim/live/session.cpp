@@ -11,7 +11,7 @@
 #include "sim/record/own_file.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
-#include "sim/studies/fingerprint.hpp"
+#include "sim/loop/fingerprint.hpp"
 
 namespace drycut::sim::live {
 
@@ -206,7 +206,7 @@ bool is_session(const std::filesystem::path& file) {
 }
 
 std::uint64_t fingerprint_of(scenario::Scenario& scenario) {
-  studies::Fingerprint hash;
+  loop::Fingerprint hash;
   Problems ignored;
   if (const auto kept = loop::retentive_file(scenario)) {
     hash.add(read_file(*kept, ignored).value_or(""));

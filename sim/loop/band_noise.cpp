@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::sim::loop {
 
 // A state variable filter by the trapezoidal rule: two integrators, each with its state, so that a band far
@@ -28,5 +30,7 @@ double BandNoise::next() {
   second_ = 2 * low - second_;
   return gain_ * (low_pass_ ? low : k_ * middle);
 }
+
+void BandNoise::visit(StateArchive& archive) { STATE(archive, random_, first_, second_); }
 
 }  // namespace drycut::sim::loop

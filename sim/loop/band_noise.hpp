@@ -12,6 +12,7 @@ class BandNoise {
  public:
   BandNoise(double low, double high, double step, plants::Random random);
   double next();
+  void visit(StateArchive& archive);
 
  private:
   plants::Random random_;

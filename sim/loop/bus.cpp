@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/state_archive.hpp"
 #include "base/text.hpp"
 #include "sim/loop/names.hpp"
 
@@ -424,6 +425,15 @@ void Bus::deliver_interrupts() {
     for (const auto& wire : counters_) wire.to->latched = wire.from->count_at(arrival.fraction);
     controller_->interrupt(arrival.line, arrival.rising);
   }
+}
+
+void Bus::visit(StateArchive& archive) {
+  STATE(archive, panel_.pressed);
+  for (auto& [name, port] : panel_.switches) archive.named(name, port);
+  for (auto& [name, port] : panel_.lamps) archive.named(name, port);
+  archive.each("analogue_outputs_", analogue_outputs_,
+               [&](AnalogueWire& wire) { STATE(archive, wire.added, wire.computed, wire.until); });
+  if (filters_) STATE(archive, *filters_);
 }
 
 }  // namespace drycut::sim::loop

@@ -31,6 +31,8 @@ class InputFilters {
   /// An input that takes a level when it has lasted `seconds`; shorter ones are swallowed. It gives no edges.
   const plants::SignalPort* input(const plants::SignalPort* from, double seconds);
 
+  void visit(StateArchive& archive);
+
   /// Lets the last step of `h` seconds through.
   void pass(double h);
 
@@ -139,6 +141,9 @@ class Bus {
     }
   };
   [[nodiscard]] std::vector<AnalogueWire>& analogue_wires() { return analogue_outputs_; }
+
+  /// What is on its way: levels of switches and lamps, filters, outputs that are computed.
+  void visit(StateArchive& archive);
 
   [[nodiscard]] OperatorPanel& panel() { return panel_; }
   [[nodiscard]] const OperatorPanel& panel() const { return panel_; }

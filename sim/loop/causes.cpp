@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/state_archive.hpp"
 #include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
@@ -321,6 +322,14 @@ Causes::Cause Causes::Cause::with(const std::string& more) const {
   auto cause = *this;
   if (!more.empty()) cause.what.text += "; " + more;
   return cause;
+}
+
+void Causes::visit(StateArchive& archive) {
+  STATE(archive, errors_, warnings_, faults_, sets_, blows_, stop_, odd_value_, is_cut_, machines_, grip_);
+  archive.list("limits_", limits_,
+               [&](Limit& limit) { STATE(archive, limit.drive, limit.begin, limit.end); });
+  archive.each("states_", states_,
+               [&](State& state) { STATE(archive, state.last, state.changed, state.longest); });
 }
 
 }  // namespace drycut::sim::loop

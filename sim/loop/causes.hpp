@@ -18,6 +18,7 @@ class Causes : public record::Observer {
  public:
   void happened(const record::RecordedEvent& event) override;
   void sample(Time now) override;
+  void visit(StateArchive& archive) override;
   /// A number of the program that tells how far it is; it outlives this.
   void follow(std::string name, const double* number);
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "base/state_archive.hpp"
 #include "sim/loop/statistics.hpp"
 #include "sim/scenario/format.hpp"
 
@@ -520,6 +521,22 @@ record::CheckResult Checks::result(State& state, Time end) {
           ? ""
           : (check.kind == scenario::CheckRequest::Kind::all ? ": " : ", worst: ") + state.worst_values);
   return result;
+}
+
+void Checks::visit(StateArchive& archive) {
+  STATE(archive, at_steps_);
+  archive.each("states_", states_, [&](State& state) { visit(archive, state); });
+}
+
+void Checks::visit(StateArchive& archive, State& state) {
+  STATE(archive, state.count, state.failed, state.worst, state.used, state.worst_at, state.worst_values,
+        state.first_failed_at, state.last_failed_at, state.last_at, state.held_at, state.last_window,
+        state.begin, state.began, state.open, state.done, state.taken);
+  archive.each("operands", state.operands,
+               [&](Operand& of) { STATE(archive, of.noted, of.failed, of.worst, of.low, of.high); });
+  for (auto* slots : {&state.slots, &state.values})
+    archive.each("slots", *slots, [&](Slot& slot) { STATE(archive, slot.number); });
+  archive.each("series", state.series, [&](Series& series) { STATE(archive, series.numbers); });
 }
 
 }  // namespace drycut::sim::loop

@@ -34,6 +34,7 @@ class Checks : public record::Observer {
   void sample(Time now) override;
   /// An event; the watch has been updated for it.
   void happened(const record::RecordedEvent& event) override;
+  void visit(StateArchive& archive) override;
   /// As if the run ended at `end`, now; it may go on.
   [[nodiscard]] std::vector<record::CheckResult> results(Time end);
   /// The limits that checks set for values of events, with the check's name, whether any event came or not.
@@ -97,6 +98,7 @@ class Checks : public record::Observer {
             const std::vector<KnownEvent>& events, Problems& problems);
   static const KnownEvent* bind_event(State& state, const scenario::Scenario& scenario,
                                       const std::vector<KnownEvent>& events, Problems& problems);
+  static void visit(StateArchive& archive, State& state);
   static void start_window(State& state, double at);
   /// Judges the window that ends at a time [s].
   void judge_window(State& state, double at);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/state_archive.hpp"
 #include "sim/loop/wires.hpp"
 #include "sim/record/recording.hpp"
 
@@ -60,6 +61,12 @@ void Directions::tell(const Axis& axis, Time now) {
               ? fmt::format("it counts the wrong way, or forward and backward are swapped ({})", loop.remedy)
               : fmt::format("positive feedback, it counts or turns the wrong way ({})", loop.remedy);
   found_.push_back({seconds(now), {"loop.axis-astray"_code, std::move(text)}});
+}
+
+void Directions::visit(StateArchive& archive) {
+  archive.each("axes_", axes_,
+               [&](Axis& axis) { STATE(archive, axis.counts, axis.begun, axis.with, axis.against); });
+  archive.list("found_", found_, [&](Found& found) { STATE(archive, found.at, found.what); });
 }
 
 }  // namespace drycut::sim::loop

@@ -17,6 +17,7 @@ class Directions : public record::Observer {
   Directions(const scenario::Scenario& scenario, devices::Controller& controller);
 
   void sample(Time now) override;
+  void visit(StateArchive& archive) override;
 
   /// An axis that goes the wrong way, as the end of a sentence.
   struct Found {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/state_archive.hpp"
 #include "sim/loop/live_parameters.hpp"
 #include "sim/loop/quantities.hpp"
 #include "sim/scenario/units.hpp"
@@ -154,6 +155,16 @@ void Disturbances::work(Time now) {
   for (const auto& sum : sums_)
     if (sum.active || sum.was_active) sum.put();
   next_ = any ? now + 1 : next;
+}
+
+void Disturbances::visit(StateArchive& archive) {
+  STATE(archive, next_);
+  archive.each("sums_", sums_,
+               [&](Sum& sum) { STATE(archive, sum.base, sum.added, sum.active, sum.was_active); });
+  archive.each("sources_", sources_, [&](Source& source) {
+    STATE(archive, source.random, source.value, source.next);
+    if (source.noise) STATE(archive, *source.noise);
+  });
 }
 
 }  // namespace drycut::sim::loop

@@ -27,6 +27,7 @@ class Disturbances {
   void run(Time now) {
     if (now >= next_) work(now);
   }
+  void visit(StateArchive& archive);
 
  private:
   struct Sum {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/state_archive.hpp"
 #include "plants/power_stage.hpp"
 
 namespace drycut::sim::loop {
@@ -51,6 +52,10 @@ class DriveCycles {
     last_ = now - *begin;
     const double before = std::exchange(length_, last_.time);
     return std::abs(length_ - before) > unsteady * before ? Ended::does_not_count : Ended::counts;
+  }
+
+  void visit(StateArchive& archive) {
+    STATE(archive, begin_, last_, length_, seen_, first_, motion_, turned_, moves_);
   }
 
   /// One runs.

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/state_archive.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
 
@@ -350,6 +351,19 @@ std::vector<record::CheckResult> DriveJudge::results(
   }
   result.detail = fmt::format("{}", fmt::join(details, " | "));
   return {result};
+}
+
+void Thinned::visit(StateArchive& archive) { STATE(archive, stride_, seen_, points_); }
+
+void DriveJudge::visit(StateArchive& archive) {
+  archive.each("drives_", drives_, [&](Drive& drive) {
+    auto& worst = drive.worst;
+    STATE(archive, drive.cycles, drive.counted, drive.energy, drive.row, drive.judged, drive.steady,
+          drive.heavier, drive.even, worst.torque, worst.speed, worst.share, worst.constant,
+          worst.current_squared, worst.rotor_loss, worst.fed_squared, worst.resistor, worst.saturated,
+          worst.saturated_once, drive.trips, drive.cycle_points, drive.points);
+    for (auto* at : {&drive.in_cycle, &drive.elsewhere}) STATE(archive, at->times, at->seconds, at->first);
+  });
 }
 
 }  // namespace drycut::sim::loop

@@ -19,6 +19,8 @@ class Thinned {
  public:
   void add(double x, double y);
   [[nodiscard]] const std::vector<std::pair<double, double>>& points() const { return points_; }
+  /// A log of the points: those that went come again.
+  void visit(StateArchive& archive);
 
  private:
   std::vector<std::pair<double, double>> points_;
@@ -38,6 +40,7 @@ class DriveJudge : public record::Observer {
 
   void sample(Time now) override;
   void happened(const record::RecordedEvent& event) override;
+  void visit(StateArchive& archive) override;
   /// Length of the machine cycle of a plant at `now`, for what is told as a share of it: as the scenario
   /// names it, else the last from cut to cut, else the run so far [s].
   [[nodiscard]] double cycle_of(const std::string& plant, Time now) const;

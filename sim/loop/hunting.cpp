@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::sim::loop {
 
 namespace {
@@ -60,6 +62,13 @@ std::optional<std::pair<double, Finding>> Hunting::found() const {
            {"loop.axis-hunts"_code,
             fmt::format("{} hunts from {:.4g} s on: it swings by {} bits x4, {:.2g} times a second",
                         first->name, *first->since, first->swing, first->rate)}}};
+}
+
+void Hunting::visit(StateArchive& archive) {
+  archive.each("axes_", axes_, [&](Axis& axis) {
+    STATE(archive, axis.extreme.at, axis.extreme.counts, axis.forward, axis.since, axis.swing, axis.rate);
+    archive.list("turns", axis.turns, [&](Turn& turn) { STATE(archive, turn.at, turn.counts); });
+  });
 }
 
 }  // namespace drycut::sim::loop

@@ -19,6 +19,7 @@ class Hunting : public record::Observer {
   explicit Hunting(devices::Controller& controller);
 
   void sample(Time now) override;
+  void visit(StateArchive& archive) override;
 
   /// Since when [s], and "AxisX hunts from 1.06 s on: it swings by 1570 bits x4, 3.1 times a second": the
   /// first that did.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::sim::loop {
 
 namespace {
@@ -102,6 +104,16 @@ std::vector<Finding> InputFilters::lost() const {
                        fmt::format("{} lost {} zero pulses shorter than {:g} us", filter.terminal,
                                    filter.lost, filter.least * 1e6));
   return all;
+}
+
+void InputFilters::visit(StateArchive& archive) {
+  archive.each("counters_", counters_, [&](CounterFilter& filter) {
+    STATE(archive, filter.to, filter.behind, filter.lost, filter.calm);
+  });
+  archive.each("pulses_", pulses_,
+               [&](PulseFilter& filter) { STATE(archive, filter.to, filter.lost, filter.losing); });
+  archive.each("levels_", levels_, [&](LevelFilter& filter) { STATE(archive, filter.to, filter.lasted); });
+  archive.list("losses_", losses_, [&](Loss& loss) { STATE(archive, loss.event, loss.text); });
 }
 
 }  // namespace drycut::sim::loop

@@ -130,6 +130,17 @@ void Simulation::write(const std::string& name, double value) {
   target.write(si);
 }
 
+std::vector<std::byte> Simulation::save() { return run_->simulation.save(); }
+
+void Simulation::restore(const std::vector<std::byte>& moment) {
+  try {
+    run_->simulation.restore(moment);
+  } catch (const BadState& bad) {
+    throw BadInput(std::string("this moment cannot be come back to: ") + bad.what());
+  }
+  run_->events_taken = run_->simulation.recording().events().size();
+}
+
 std::vector<Event> Simulation::take_events() {
   const auto& log = run_->simulation.recording().events();
   std::vector<Event> events;

@@ -1,9 +1,12 @@
 #include "sim/loop/played_cams.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/state_archive.hpp"
 #include "devices/cam/table.hpp"
 
 namespace drycut::sim::loop {
@@ -78,12 +81,7 @@ void CamRecorder::sample(Time time) {
     const double behind = moment.behind        ? *moment.behind
                           : follower.deviation ? follower.deviation()
                                                : nothing;
-    auto& cam = played_[follower.now];
-    if (cam.samples.size() == 2 * most_samples) {
-      cam.samples.erase(cam.samples.begin(), cam.samples.begin() + most_samples);
-      cam.left_out += most_samples;
-    }
-    cam.samples.push_back({time, begins, moment.master, moment.set, behind, moment.turn});
+    played_[follower.now].take({time, begins, moment.master, moment.set, behind, moment.turn});
   }
 }
 
@@ -93,6 +91,54 @@ std::vector<PlayedCam> CamRecorder::played() const {
     if (auto table = follower.cams.empty() ? follower.axis.table() : nullptr; table != nullptr)
       played.push_back({follower.axis.name, std::move(table)});
   return played;
+}
+
+void PlayedCam::take(const Sample& sample) {
+  if (samples.size() == 2 * most_samples) {
+    samples.erase(samples.begin(), samples.begin() + most_samples);
+    left_out += most_samples;
+  }
+  samples.push_back(sample);
+}
+
+// Samples that are left out are gone for good.
+void PlayedCam::shorten(std::size_t size) {
+  if (size == 0) left_out = 0;
+  samples.resize(size > left_out ? size - left_out : 0);
+}
+
+void PlayedCam::entries(StateArchive& archive, std::size_t from, std::size_t to) {
+  for (std::size_t i = from; i < to; ++i) {
+    Sample sample;
+    if (!archive.restores() && i >= left_out) sample = samples[i - left_out];
+    STATE(archive, sample.time, sample.begins, sample.master, sample.set, sample.behind, sample.turn);
+    if (archive.restores()) take(sample);
+  }
+}
+
+void CamRecorder::visit(StateArchive& archive) {
+  STATE(archive, untold_);
+  archive.list("played_", played_, [&](PlayedCam& cam) { STATE(archive, cam.axis, cam.fastest); });
+  archive.each("followers_", followers_, [&](Follower& follower) {
+    STATE(archive, follower.start, follower.followed, follower.window, follower.cams, follower.now);
+  });
+  int number = 0;
+  for (auto& cam : played_) {
+    if (cam.table == nullptr || archive.restores()) {
+      // It may be another one by now. All cams of a controller are of one kind.
+      const auto axis = std::ranges::find(followers_, cam.axis, [](const auto& of) { return of.axis.name; });
+      if (axis == followers_.end()) throw BadState("the cam of an axis that there is not");
+      const auto now = cam.table != nullptr ? cam.table : axis->axis.table();
+      if (now == nullptr) throw BadState("a cam whose axis has no table");
+      auto table = std::make_shared<devices::CamTable>(*now);
+      STATE(archive, *table);
+      cam.table = std::move(table);
+    } else {
+      auto table = *cam.table;
+      STATE(archive, table);
+    }
+    archive.log(fmt::format("samples {}", number++), cam);
+  }
 }
 
 }  // namespace drycut::sim::loop

@@ -28,6 +28,12 @@ struct PlayedCam {
   /// The fastest that the master was, over 20 ms or a record period [its unit/s]; 0 if it cannot be told.
   double fastest = 0;
   std::size_t left_out = 0;  ///< earlier samples: of a long run the last ones are kept
+
+  void take(const Sample& sample);
+  // A log of the samples.
+  [[nodiscard]] std::size_t grown() const { return left_out + samples.size(); }
+  void shorten(std::size_t size);
+  void entries(StateArchive& archive, std::size_t from, std::size_t to);
 };
 
 /// Follows the cams of a controller through a run.
@@ -41,6 +47,7 @@ class CamRecorder : public record::Observer {
   /// After each step of the devices: takes the tables of the cams that have started.
   void step();
   void sample(Time time) override;
+  void visit(StateArchive& archive) override;
   /// What was played, by axis and table in the order of their first start; of an axis that never started its
   /// cam the table that it holds now. Tables of an axis beyond the first 8 are left out and counted in
   /// `untold`.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::sim::loop {
 
 namespace {
@@ -94,4 +96,16 @@ void PoseKeys::begin_frame(std::vector<PoseKey>& kept, std::vector<double>& turn
   for (std::size_t i = 0; i < last_.size(); ++i) courses_[i] = {last_[i], time_};
 }
 
+void PoseKey::visit(StateArchive& archive) { STATE(archive, part, time, pose); }
+
+void PoseKeys::Course::visit(StateArchive& archive) {
+  STATE(archive, from, begin, speed.x(), speed.y(), speed.z(), has_speed);
+}
+
+void PoseKeys::visit(StateArchive& archive) { STATE(archive, next_, time_, last_, courses_, kept_, turned_); }
+
 }  // namespace drycut::sim::loop
+
+void drycut::plants::visit(StateArchive& archive, PartPose& part) {
+  STATE(archive, part.pose.position, part.pose.rotation, part.visible, part.scale);
+}

@@ -6,6 +6,10 @@
 #include "plants/plant.hpp"
 #include "sim/record/recording.hpp"
 
+namespace drycut::plants {
+void visit(StateArchive& archive, PartPose& part);
+}
+
 namespace drycut::sim::loop {
 
 /// Where a part was at an instant between two frames.
@@ -13,6 +17,8 @@ struct PoseKey {
   std::size_t part = 0;  ///< number in all plants' parts, in order
   Time time = 0;
   plants::PartPose pose;
+
+  void visit(StateArchive& archive);
 };
 
 /// Looks at the parts between two frames, the more often the faster they turn, and keeps so many poses of
@@ -34,6 +40,7 @@ class PoseKeys {
   /// that of each part in order of time; how far each part with a pitch has turned [rad], in any direction,
   /// to `turned`.
   void begin_frame(std::vector<PoseKey>& kept, std::vector<double>& turned);
+  void visit(StateArchive& archive);
 
  private:
   /// Of a part since the last pose of it that is kept.
@@ -42,6 +49,8 @@ class PoseKeys {
     Time begin = 0;
     Eigen::Vector3d speed = {0, 0, 0};  ///< behind that pose [m/s]
     bool has_speed = false;
+
+    void visit(StateArchive& archive);
   };
 
   void keep(std::size_t part, Time time, const plants::PartPose& pose);

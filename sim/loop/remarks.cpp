@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/state_archive.hpp"
 #include "base/text.hpp"
 #include "sim/loop/known_events.hpp"
 #include "sim/record/recording.hpp"
@@ -29,5 +30,7 @@ std::vector<Finding> Remarks::notes() const {
                                                              counted(count_ - remarks_.size(), "remark")));
   return notes;
 }
+
+void Remarks::visit(StateArchive& archive) { STATE(archive, remarks_, urgent_, count_); }
 
 }  // namespace drycut::sim::loop

@@ -12,6 +12,7 @@ namespace drycut::sim::loop {
 class Remarks : public record::Observer {
  public:
   void happened(const record::RecordedEvent& event) override;
+  void visit(StateArchive& archive) override;
   /// The remarks, and how many more there were.
   [[nodiscard]] std::vector<Finding> notes() const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/state_archive.hpp"
 #include "sim/loop/known_events.hpp"
 
 namespace drycut::sim::loop {
@@ -61,6 +62,27 @@ void Shutter::happened(const record::RecordedEvent& event) {
     if (shot.time >= *event_ - around_->before) kept_.push_back(std::move(shot));
   }
   held_.clear();
+}
+
+void Snapshot::visit(StateArchive& archive) {
+  STATE(archive, time, poses, caption, between, turned);
+  archive.list("callouts", callouts,
+               [&](plants::Callout& call) { STATE(archive, call.kind, call.text, call.at, call.to); });
+  bool has_quota = quota.has_value();
+  STATE(archive, has_quota);
+  if (!has_quota) return quota.reset();
+  if (!quota) quota.emplace();
+  STATE(archive, quota->line.left, quota->line.right, quota->line.miss, quota->place);
+}
+
+void Shutter::visit(StateArchive& archive) {
+  STATE(archive, keys_, next_, held_, seen_, event_);
+  archive.log("kept_", *this);
+}
+
+void Shutter::entries(StateArchive& archive, std::size_t from, std::size_t to) {
+  if (archive.restores()) kept_.resize(to);
+  for (std::size_t i = from; i < to; ++i) kept_[i].visit(archive);
 }
 
 }  // namespace drycut::sim::loop

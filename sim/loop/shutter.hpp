@@ -24,6 +24,8 @@ struct Snapshot {
   std::optional<Quota> quota;
   std::vector<PoseKey> between;  ///< since the frame before, that of each part in order of time
   std::vector<double> turned;    ///< since then, one a part with a pitch [rad]
+
+  void visit(StateArchive& archive);
 };
 
 /// Decides when a frame's poses are taken and keeps them: between two times, or around an event. As nobody
@@ -41,6 +43,7 @@ class Shutter : public record::Observer {
   /// which has the poses already; nullptr if no shot is due, or none is wanted after all.
   Snapshot* look(Time now, const std::vector<plants::Part>& parts);
   void happened(const record::RecordedEvent& event) override;
+  void visit(StateArchive& archive) override;
 
   /// The shots of the film.
   [[nodiscard]] const std::vector<Snapshot>& kept() const { return kept_; }
@@ -52,6 +55,12 @@ class Shutter : public record::Observer {
   [[nodiscard]] int seen() const { return seen_; }
 
  private:
+  // A log of what is kept.
+  friend class drycut::StateArchive;
+  [[nodiscard]] std::size_t grown() const { return kept_.size(); }
+  void shorten(std::size_t size) { kept_.resize(size); }
+  void entries(StateArchive& archive, std::size_t from, std::size_t to);
+
   Snapshot* take(Time now);
   Snapshot* hold(Time now);
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "base/state_archive.hpp"
 #include "base/text.hpp"
 #include "sim/loop/bindings.hpp"
 #include "sim/loop/checks.hpp"
@@ -389,8 +390,14 @@ void Simulation::run_to_end(const std::function<void(Time)>& progress) {
   constexpr int steps_between_reports = 2000;
   begin();
   int countdown = steps_between_reports;
+  const auto next_after = [&](Time now) { return keep_ ? (now / keep_every_ + 1) * keep_every_ : never; };
+  Time next_state = next_after(time_);
   while (time_ < scenario_.scene.duration && failure_.empty()) {
     step();
+    if (time_ >= next_state) {
+      keep_();
+      next_state = next_after(time_);
+    }
     if (--countdown == 0) {
       countdown = steps_between_reports;
       if (progress) progress(time_);
@@ -592,6 +599,85 @@ record::Outcome Simulation::outcome() {
     if (cause) outcome.findings.push_back(std::move(*cause));
   }
   return outcome;
+}
+
+void Simulation::visit(StateArchive& archive) {
+  STATE(archive, time_, next_record_, failure_, program_error_);
+  for (const auto& [name, plant] : named_) archive.named(name, *plant);
+  STATE(archive, world_);
+  if (controller_) STATE(archive, *controller_);
+  STATE(archive, bus_);
+  if (disturbances_) STATE(archive, *disturbances_);
+  STATE(archive, *timeline_, *watch_, *checks_, *drives_, *unasked_, *remarks_, causes_);
+  if (directions_) STATE(archive, *directions_, *hunting_, *standing_, *whereabouts_);
+  STATE(archive, recording_);
+  // Who only draws: a run without pictures may go on from one with them, and the other way round.
+  archive.part("pictures", shutter_->next() == never && shutter_->kept().empty() ? nullptr : shutter_.get());
+  archive.part("cams", cams_.get());
+  events_seen_ = recording_.events().size();
+}
+
+const StateOrigin& Simulation::origin() const {
+  if (!origin_) origin_ = std::make_unique<StateOrigin>(scenario_);
+  return *origin_;
+}
+
+StateArchive::Bytes Simulation::save(StateArchive::Journal* journal) {
+  begin();
+  StateArchive::Bytes members;
+  auto archive = StateArchive::saving(members, nullptr, journal);
+  visit(archive);
+  StateHead head{origin(), time_, keep_every_};
+  if (journal != nullptr) {
+    head.journal = journal->end();
+    head.journal_sum = journal->sum;
+  }
+  return seal(std::move(head), members);
+}
+
+void Simulation::restore(std::span<const std::byte> state, std::span<const std::byte> journal, bool others) {
+  const auto [head, members] = open_state(state);
+  const auto& own = origin();
+  if (head.origin.version != own.version || head.origin.build != own.build)
+    throw BadState(
+        fmt::format("it was written by drycut {}, build {}; this is {}, build {}: run it from zero",
+                    head.origin.version, head.origin.build, own.version, own.build));
+  if (const auto what = head.origin.differs_from(own); !others && !what.empty())
+    throw BadState(fmt::format("it is of another scenario or program: {} differ", what));
+  if (journal.empty()) {
+    auto archive = StateArchive::restoring(members.data(), members.size());
+    visit(archive);
+    if (archive.left() > 0) throw BadState("it has more members than this machine");
+    return;
+  }
+  if (journal.size() < head.journal) throw BadState("its journal is cut short");
+  journal = journal.first(static_cast<std::size_t>(head.journal));
+  auto archive = StateArchive::restoring(members, journal);
+  visit(archive);
+  if (archive.left() > 0) throw BadState("it has more members than this machine");
+  if (files_) tell_files();
+}
+
+// What was recorded, in the order in which it came: an event of a step is told before the row at its end.
+void Simulation::tell_files() {
+  const auto rows = recording_.times().size();
+  const auto events = recording_.events().size();
+  std::size_t event = 0;
+  const auto tell_events = [&](Time until) {
+    for (; event < events && recording_.events()[event].time < until; ++event)
+      files_->happened(recording_.events()[event]);
+  };
+  StateArchive::Bytes slots;  // which are what the files look at
+  auto before = StateArchive::saving(slots);
+  watch_->visit(before);
+  for (std::size_t row = 0; row < rows; ++row) {
+    tell_events(recording_.times()[row]);
+    for (const auto& column : recording_.columns()) watch_->show(column.slot, column.values[row]);
+    files_->sample(recording_.times()[row]);
+  }
+  tell_events(never);
+  auto again = StateArchive::restoring(slots.data(), slots.size());
+  watch_->visit(again);
 }
 
 }  // namespace drycut::sim::loop

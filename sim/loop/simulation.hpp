@@ -13,6 +13,7 @@
 #include "sim/loop/bus.hpp"
 #include "sim/loop/cam_doubt.hpp"
 #include "sim/loop/causes.hpp"
+#include "sim/loop/state_bytes.hpp"
 #include "sim/record/recording.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -67,6 +68,12 @@ class Simulation {
     if (failure_.empty()) failure_ = why;
   }
 
+  /// Has `keep` called every so often while it runs; before run().
+  void keep_states(Time every, std::function<void()> keep) {
+    keep_every_ = every;
+    keep_ = std::move(keep);
+  }
+
   /// Runs to the end of the scenario. `progress` is told the simulated time now and then.
   record::Outcome run(const std::function<void(Time)>& progress = {});
 
@@ -91,6 +98,21 @@ class Simulation {
   /// run is the same as if it had stood behind the scenario's own. False, and nothing taken, if it does not
   /// fit.
   bool act(const scenario::Stimulus& stimulus, Problems& problems);
+  // Any moment again.
+  /// All that has changed since time zero.
+  void visit(StateArchive& archive);
+  /// The moment as it is now, to be kept anywhere. `journal`: rows, events, poses of pictures and samples of
+  /// cams go there, those that are not in it yet.
+  [[nodiscard]] StateArchive::Bytes save(StateArchive::Journal* journal = nullptr);
+  /// Comes back to such a moment of this scenario and build, or of a scenario with other values if `others`
+  /// is set; this simulation may have come to any other moment. What was recorded until then comes back from
+  /// the journal, into the files too. Throws BadState, and has changed nothing, if the bytes are no such
+  /// state; if the scenario is another, it may have changed.
+  void restore(std::span<const std::byte> state, std::span<const std::byte> journal = {},
+               bool others = false);
+  /// What its states go with.
+  [[nodiscard]] const StateOrigin& origin() const;
+
   /// What came of the run, if it ended now.
   [[nodiscard]] record::Outcome outcome();
   [[nodiscard]] Time time() const { return time_; }
@@ -157,6 +179,7 @@ class Simulation {
   [[nodiscard]] std::optional<Finding> line_of_grip() const;
   [[nodiscard]] std::optional<std::pair<double, Finding>> search_that_met_a_stop() const;
 
+  void tell_files();
   void run_to_end(const std::function<void(Time)>& progress);
   void step();
   void add_share(record::RecordedEvent& event) const;
@@ -187,6 +210,8 @@ class Simulation {
   CamJudge judge_cams_;
   std::size_t events_seen_ = 0;
   Time next_record_ = 0;
+  Time keep_every_ = never;
+  std::function<void()> keep_;
   std::unique_ptr<Shutter> shutter_;
   std::vector<plants::Part> parts_;  ///< of all plants, from the first shot on
   std::unique_ptr<Captions> captions_;
@@ -206,8 +231,9 @@ class Simulation {
   std::unique_ptr<OpenTerminals> open_;
   std::vector<Finding> doubts_of_program_;
   std::vector<Finding> warnings_;
-  std::vector<Finding> contradictions_;  ///< of controller and machine; among those notes too
-  std::string program_error_;            ///< first run-time error of the controller's program
+  std::vector<Finding> contradictions_;          ///< of controller and machine; among those notes too
+  mutable std::unique_ptr<StateOrigin> origin_;  ///< once it was asked for
+  std::string program_error_;                    ///< first run-time error of the controller's program
 };
 
 }  // namespace drycut::sim::loop

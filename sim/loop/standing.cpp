@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/state_archive.hpp"
 #include "sim/loop/program_words.hpp"
 #include "sim/record/recording.hpp"
 
@@ -133,6 +134,14 @@ std::optional<Finding> Standing::never_on() const {
   wanted.insert(wanted.end(), lamps_.begin(), lamps_.end());
   std::erase_if(wanted, [](const Level& level) { return !level.is_wanted; });
   return those_never_on(wanted);
+}
+
+void Standing::visit(StateArchive& archive) {
+  for (auto* levels : {&lamps_, &outputs_, &inputs_})
+    archive.each("levels", *levels,
+                 [&](Level& level) { STATE(archive, level.last, level.was_on, level.changed); });
+  STATE(archive, worked_, longest_);
+  archive.each("counts_", counts_, [&](Count& count) { STATE(archive, count.first); });
 }
 
 }  // namespace drycut::sim::loop

@@ -17,6 +17,7 @@ class Standing : public record::Observer {
   Standing(const scenario::Scenario& scenario, devices::Controller& controller);
 
   void sample(Time now) override;
+  void visit(StateArchive& archive) override;
 
   /// What tells of a machine that stands at `now`, a phrase each: "2.CNT02 (tube.wheel) counted nothing",
   /// "panel.too_long is on since 3.406 s", "never seen on: saw.clamp (2.OUT02)".

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "base/state_archive.hpp"
 #include "sim/loop/known_events.hpp"
 #include "sim/loop/live_parameters.hpp"
 #include "sim/loop/quantities.hpp"
@@ -112,6 +113,7 @@ bool Timeline::add(const scenario::Stimulus& stimulus, Problems& problems) {
   auto entry = bind(stimulus, {}, problems);
   if (problems.size() > before) return false;
   next_ = std::min(next_, entry.when ? 0 : entry.due);
+  added_.push_back(stimulus);
   take(std::move(entry));
   return true;
 }
@@ -256,6 +258,92 @@ Time Timeline::next_after(Time now) const {
   Time next = timed_.empty() ? never : timed_.begin()->first;
   for (const auto number : waiting_) next = std::min(next, std::max(entries_.at(number).from, next_look_));
   return next;
+}
+
+void Timeline::visit(StateArchive& archive) {
+  // Of a recorded day most entries are as they were read, or gone: only the ends of rows of those are told.
+  auto taken = taken_;
+  std::vector<std::size_t> gone;
+  struct Changed {
+    std::size_t number;
+    bool triggered;
+    bool acted;
+    Time due;
+  };
+  std::vector<Changed> changed;
+  if (!archive.restores()) {
+    std::size_t expected = 0;
+    for (const auto& [number, entry] : entries_) {
+      if (number > expected) gone.insert(gone.end(), {expected, number});
+      expected = number + 1;
+      const bool triggered = !entry.when && stimulus(number).when.has_value();
+      if (triggered || entry.acted) changed.push_back({number, triggered, entry.acted, entry.due});
+    }
+    if (taken_ > expected) gone.insert(gone.end(), {expected, taken_});
+  }
+  STATE(archive, taken, gone);
+  archive.list("changed", changed, [&](Changed& entry) {
+    STATE(archive, entry.number, entry.triggered, entry.acted, entry.due);
+  });
+  if (archive.restores()) {
+    take_again(taken, gone);
+    for (const auto& [number, triggered, acted, due] : changed) {
+      const auto found = entries_.find(number);
+      if (found == entries_.end()) throw BadState("an entry of the timeline that there is not");
+      auto& entry = found->second;
+      if (triggered) entry.when.reset();
+      if (waiting_.erase(number) == 0) timed_.erase({entry.due, number});
+      entry.acted = acted;
+      entry.due = due;
+      if (entry.when)
+        waiting_.insert(number);
+      else
+        timed_.emplace(due, number);
+    }
+  }
+  STATE(archive, next_look_, next_, watch_);
+  archive.list("ramps_", ramps_, [&](Ramp& ramp) {
+    auto name = ramp.target.name;
+    STATE(archive, name, ramp.from, ramp.to, ramp.start, ramp.over);
+    if (!archive.restores()) return;
+    auto target = names_.target(name);
+    if (!target) throw BadState("a ramp of what cannot be set");
+    ramp.target = std::move(*target);
+  });
+}
+
+const scenario::Stimulus& Timeline::stimulus(std::size_t number) const {
+  const auto own = scenario_.timeline.size();
+  return number < own ? scenario_.timeline[number] : added_[number - own];
+}
+
+void Timeline::take_again(std::size_t taken, const std::vector<std::size_t>& gone) {
+  const auto own = scenario_.timeline.size();
+  if (taken < own || taken > own + added_.size()) throw BadState("a timeline with other entries");
+  added_.resize(taken - own);
+  auto before = std::exchange(entries_, {});
+  waiting_.clear();
+  timed_.clear();
+  Problems none;
+  std::size_t row = 0;
+  for (taken_ = 0; taken_ < taken;) {
+    if (row + 1 < gone.size() && taken_ == gone[row]) {
+      if (gone[row + 1] <= taken_) throw BadState("a timeline with other entries");
+      taken_ = gone[row + 1];
+      row += 2;
+      continue;
+    }
+    const auto& from = stimulus(taken_);
+    const auto found = before.find(taken_);
+    if (found == before.end() || found->second.when.has_value() != from.when.has_value()) {
+      take(bind(from, {}, none));
+      continue;
+    }
+    auto& entry = found->second;
+    entry.acted = false;
+    if (!entry.when) entry.due = from.at.value_or(0) + from.after;
+    take(std::move(entry));
+  }
 }
 
 }  // namespace drycut::sim::loop

@@ -33,6 +33,8 @@ class Timeline {
     if (now >= next_) work(now, recording);
   }
 
+  void visit(StateArchive& archive);
+
   /// What did not happen in a run that ended at `end`, a line each: a fault that never came proves nothing.
   [[nodiscard]] std::vector<Finding> left_undone(Time end) const;
   /// When an entry of that line that has not acted yet is due; nothing of one that waits for its `when`.
@@ -75,6 +77,9 @@ class Timeline {
                            Problems& problems);
   void take(Entry entry);
   void work(Time now, record::Recording& recording);
+  /// Makes the entries anew that were done since, and lets those go that came since.
+  void take_again(std::size_t taken, const std::vector<std::size_t>& gone);
+  [[nodiscard]] const scenario::Stimulus& stimulus(std::size_t number) const;
   void trigger(Time now);
   void act(const Entry& entry, Time now, record::Recording& recording);
   void move_ramps(Time now);
@@ -91,6 +96,7 @@ class Timeline {
   // touched.
   std::map<std::size_t, Entry> entries_;  ///< by the order in which they stand
   std::size_t taken_ = 0;
+  std::vector<scenario::Stimulus> added_;         ///< by add()
   std::set<std::size_t> waiting_;                 ///< those with a `when`
   std::set<std::pair<Time, std::size_t>> timed_;  ///< the others, by when they are due
   std::vector<Ramp> ramps_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/state_archive.hpp"
 #include "base/text.hpp"
 #include "sim/record/recording.hpp"
 
@@ -43,6 +44,11 @@ std::vector<record::CheckResult> Unasked::results() const {
     results.push_back(std::move(result));
   }
   return results;
+}
+
+void Unasked::visit(StateArchive& archive) {
+  archive.each("watched_", watched_,
+               [&](Watched& event) { STATE(archive, event.times, event.first, event.values); });
 }
 
 }  // namespace drycut::sim::loop

@@ -16,6 +16,7 @@ class Unasked : public record::Observer {
   Unasked(const scenario::Scenario& scenario, const std::vector<KnownEvent>& events);
 
   void happened(const record::RecordedEvent& event) override;
+  void visit(StateArchive& archive) override;
   /// A failed check for each kind that happened; none where none did.
   [[nodiscard]] std::vector<record::CheckResult> results() const;
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::sim::loop {
 
 const double* Watch::slot(const std::string& name) {
@@ -33,6 +35,22 @@ bool Watch::record(const std::string& name, record::Recording& recording) {
   if (from == nullptr) return false;
   recording.add(name, unit(name)).slot = from;
   return true;
+}
+
+void Watch::show(const double* slot, double number) {
+  for (auto& own : slots_)
+    if (&own == slot) own = number;
+}
+
+// Whose pictures are not drawn looks at less.
+void Watch::visit(StateArchive& archive) {
+  std::vector<double> numbers(slots_.begin(), slots_.end());
+  STATE(archive, numbers);
+  if (!archive.restores()) return;
+  if (numbers.size() == slots_.size())
+    std::ranges::copy(numbers, slots_.begin());
+  else
+    update();
 }
 
 }  // namespace drycut::sim::loop

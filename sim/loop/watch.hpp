@@ -29,6 +29,8 @@ class Watch {
     return readings_[index_.at(name)].unit;
   }
 
+  /// Lets a slot show another number until the next update().
+  void show(const double* slot, double number);
   void update() {
     for (std::size_t i = 0; i < readings_.size(); ++i) slots_[i] = readings_[i].read();
   }
@@ -37,6 +39,7 @@ class Watch {
     for (std::size_t i = 0; i < readings_.size(); ++i) use(readings_[i], &slots_[i]);
   }
   [[nodiscard]] bool empty() const { return readings_.empty(); }
+  void visit(StateArchive& archive);
   /// The first reading that is not a finite number, or "".
   [[nodiscard]] std::string not_finite() const;
 

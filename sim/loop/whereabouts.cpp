@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/state_archive.hpp"
 #include "sim/loop/program_words.hpp"
 #include "sim/loop/wires.hpp"
 
@@ -88,6 +89,13 @@ std::vector<Finding> Whereabouts::zeros() const {
                                      axis.rests_posit, axis.plant, axis.rests));
   }
   return texts;
+}
+
+void Whereabouts::visit(StateArchive& archive) {
+  archive.each("axes_", axes_, [&](Axis& axis) {
+    STATE(archive, axis.last_posit, axis.last_position, axis.went, axis.moved, axis.driven, axis.began_posit,
+          axis.began, axis.rests_posit, axis.rests);
+  });
 }
 
 }  // namespace drycut::sim::loop

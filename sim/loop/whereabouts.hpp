@@ -20,6 +20,7 @@ class Whereabouts : public record::Observer {
   Whereabouts(const scenario::Scenario& scenario, devices::Controller& controller, Names& names);
 
   void sample(Time now) override;
+  void visit(StateArchive& archive) override;
 
   /// What differs, a phrase each: "Axis counted 50 where press.position went 200 mm".
   [[nodiscard]] std::vector<Finding> texts() const;

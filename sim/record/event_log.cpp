@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::sim::record {
 
 const RecordedEvent::Value* RecordedEvent::find(const std::string& name) const {
@@ -38,6 +40,23 @@ RecordedEvent EventLog::operator[](std::size_t i) const {
   for (const auto& [name, unit] : entry.kind->values)
     event.values.push_back({name, numbers_[number++], unit});
   return event;
+}
+
+void EventLog::shorten(std::size_t size) {
+  if (size >= entries_.size()) return;
+  numbers_.resize(entries_[size].numbers);
+  entries_.resize(size);
+}
+
+void EventLog::entries(StateArchive& archive, std::size_t from, std::size_t to) {
+  for (std::size_t i = from; i < to; ++i) {
+    RecordedEvent event;
+    if (!archive.restores()) event = (*this)[i];
+    STATE(archive, event.time, event.within, event.source, event.event, event.text, event.severity);
+    archive.list("values", event.values,
+                 [&](RecordedEvent::Value& value) { STATE(archive, value.name, value.number, value.unit); });
+    if (archive.restores()) push_back(event);
+  }
 }
 
 }  // namespace drycut::sim::record

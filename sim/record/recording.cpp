@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::sim::record {
 
 Recording::Column& Recording::add(std::string name, std::string unit) {
@@ -46,6 +48,30 @@ std::string values_text(const RecordedEvent& event, int digits) {
   }
   if (!event.text.empty()) text += (text.empty() ? "" : "; ") + event.text;
   return text;
+}
+
+void Recording::visit(StateArchive& archive) {
+  archive.log("rows", *this);
+  archive.log("events", events_);
+}
+
+void Recording::shorten(std::size_t rows) {
+  times_.shorten(rows);
+  for (auto& column : columns_) column.values.shorten(rows);
+}
+
+void Recording::entries(StateArchive& archive, std::size_t from, std::size_t to) {
+  std::vector<double> row(columns_.size());
+  for (std::size_t i = from; i < to; ++i) {
+    Time time = 0;
+    if (!archive.restores()) {
+      time = times_[i];
+      std::ranges::transform(columns_, row.begin(), [i](const auto& column) { return column.values[i]; });
+    }
+    STATE(archive, time, row);
+    if (row.size() != columns_.size()) throw BadState("rows of other channels");
+    if (archive.restores()) append(time, row);
+  }
 }
 
 }  // namespace drycut::sim::record

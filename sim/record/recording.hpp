@@ -15,6 +15,10 @@
 #include "base/severity.hpp"
 #include "sim/time.hpp"
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::sim::record {
 
 /// A file without a name for what would fill the memory; it is gone when the program ends, however it ends.
@@ -104,6 +108,15 @@ class Series {
     tail_.push_back(number);
   }
   [[nodiscard]] std::size_t size() const { return places_.size() * block + tail_.size(); }
+  /// Leaves so many at the beginning, at most as many as there are.
+  void shorten(std::size_t size) {
+    if (const auto blocks = size / block; blocks < places_.size()) {
+      if (size % block > 0) fetch(blocks);
+      tail_ = std::exchange(held_, {});
+      places_.resize(blocks);
+    }
+    tail_.resize(size % block);
+  }
   [[nodiscard]] bool empty() const { return size() == 0; }
   [[nodiscard]] Number operator[](std::size_t i) const {
     const auto number = i / block;
@@ -173,6 +186,10 @@ class EventLog {
   void push_back(const RecordedEvent& event);
   /// Forgets the events. Their kinds stay: there are few of them.
   void clear();
+  /// A log: StateArchive::log.
+  [[nodiscard]] std::size_t grown() const { return size(); }
+  void shorten(std::size_t size);
+  void entries(StateArchive& archive, std::size_t from, std::size_t to);
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
   [[nodiscard]] bool empty() const { return entries_.empty(); }
   [[nodiscard]] RecordedEvent operator[](std::size_t i) const;
@@ -234,6 +251,12 @@ class Recording {
   void append(Time time, const std::vector<double>& row);
   void happened(const RecordedEvent& event) { events_.push_back(event); }
   void forget_events() { events_.clear(); }
+  /// Rows and events: logs.
+  void visit(StateArchive& archive);
+  // A log of its rows.
+  [[nodiscard]] std::size_t grown() const { return times_.size(); }
+  void shorten(std::size_t rows);
+  void entries(StateArchive& archive, std::size_t from, std::size_t to);
 
   [[nodiscard]] const Series<Time>& times() const { return times_; }
   [[nodiscard]] const std::deque<Column>& columns() const { return columns_; }
@@ -265,6 +288,8 @@ class Observer {
   /// Time zero and every physics step, before the rest, of who asked for it; nothing has been updated.
   virtual void stepped(Time) {}
   virtual void happened(const RecordedEvent&) {}
+  /// What it has come to, if it keeps anything.
+  virtual void visit(StateArchive&) {}
   /// The run has come to its end. May throw std::runtime_error when something cannot be written.
   virtual void finish() {}
 

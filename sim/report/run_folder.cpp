@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <memory>
 
 #include "renders/gltf.hpp"
@@ -23,7 +25,7 @@ namespace {
 std::vector<std::string> files_of_run(const std::string& scene_file) {
   auto names = picture_files;
   names.insert(names.end(), {trace_file, events_file, hdf5_file, checks_file, scenario_file, scene_file,
-                             record::verdict_file});
+                             record::verdict_file, loop::states_folder});
   return names;
 }
 
@@ -42,8 +44,12 @@ RunFolder::RunFolder(const std::filesystem::path& folder, Problems& problems)
     : scene_file_((folder / "").lexically_normal().parent_path().filename().string() + ".glb"),
       files_(folder, "run", files_of_run(scene_file_), problems) {}
 
-void RunFolder::begin() {
-  files_.begin();
+void RunFolder::begin(bool keeps_states) {
+  std::vector<std::string> kept;
+  if (keeps_states)
+    std::ranges::copy_if(files_.listed(), std::back_inserter(kept),
+                         [](const auto& name) { return name.starts_with(loop::states_folder); });
+  files_.begin(kept);
   write_checks(outcome_to_come(), files_.add(checks_file));
   record::write_verdict(record::verdict_of(outcome_to_come()), files_);
 }
@@ -53,7 +59,7 @@ RunLeft RunFolder::run(const scenario::Scenario& scenario, loop::Simulation& sim
   const bool is_drawn = request.pictures || request.gltf;
   simulation.follow_cams(cams::cam_judgement, request.pictures);
   if (request.pictures) follow_torques(simulation);
-  if (!is_drawn && !request.in_memory) simulation.keep_nothing();
+  if (!is_drawn && !request.in_memory && !request.states) simulation.keep_nothing();
   std::filesystem::path hdf5;
   if (scenario.record.format == scenario::RecordSection::Format::csv) {
     simulation.write_to(files_.add(trace_file), files_.add(events_file));
@@ -65,6 +71,16 @@ RunLeft RunFolder::run(const scenario::Scenario& scenario, loop::Simulation& sim
 
   RunLeft left;
   auto& outcome = result.outcome;
+  if (request.from != nullptr) {
+    simulation.restore(request.from->state, request.from->journal, request.branches);
+    Problems none;  // they were tried
+    for (const auto& stimulus : request.then) simulation.act(stimulus, none);
+  }
+  std::optional<loop::KeptStates> states;
+  if (request.states) {
+    states.emplace(files_, *request.states, request.most_states, request.from);
+    simulation.keep_states(*request.states, [&] { states->keep(simulation); });
+  }
   using Clock = std::chrono::steady_clock;
   const auto begun = Clock::now();
   const auto duration = static_cast<double>(scenario.scene.duration);
@@ -74,6 +90,7 @@ RunLeft RunFolder::run(const scenario::Scenario& scenario, loop::Simulation& sim
       simulation.stop(fmt::format("interrupted at {} s; what was recorded until then is kept",
                                   record::seconds_text(now)));
   });
+  if (states) left.states_lost = states->trouble();
   if (request.strict && !outcome.warnings().empty() && outcome.failure.empty())
     outcome.checks.push_back(no_warnings(outcome));
   left.simulating = std::chrono::duration<double>(Clock::now() - begun).count();

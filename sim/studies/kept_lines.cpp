@@ -7,7 +7,7 @@
 
 #include "base/text.hpp"
 #include "sim/file.hpp"
-#include "sim/studies/fingerprint.hpp"
+#include "sim/loop/fingerprint.hpp"
 
 namespace drycut::sim::studies {
 
@@ -15,7 +15,7 @@ namespace {
 
 /// A line with its checksum behind it: "a,b" becomes "a,b,0123456789abcdef".
 std::string proven(std::string_view line) {
-  Fingerprint sum;
+  loop::Fingerprint sum;
   sum.add(line);
   return fmt::format("{},{:016x}", line, sum.value());
 }

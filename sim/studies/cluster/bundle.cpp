@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "sim/studies/fingerprint.hpp"
+#include "sim/loop/fingerprint.hpp"
 
 namespace drycut::sim::cluster {
 
@@ -19,14 +19,14 @@ using nlohmann::json;
 
 /// This program, to the byte.
 std::string program() {
-  studies::Fingerprint hash;
+  loop::Fingerprint hash;
   hash.add_program();
   return fmt::format("drycut {} ({:016x})", DRYCUT_VERSION, hash.value());
 }
 
 /// The last digits of the mathematical functions: they hang on the C library and on the kind of processor.
 std::string arithmetic() {
-  studies::Fingerprint hash;
+  loop::Fingerprint hash;
   constexpr int samples = 256;
   for (int i = 1; i <= samples; ++i) {
     const volatile double opaque = 0.37 * i;  // computed when it runs, not by the compiler
@@ -57,7 +57,7 @@ std::string bundle_of(const std::string& kind, const std::string& question, cons
 }
 
 std::string name_of_bundle(std::string_view bundle) {
-  studies::Fingerprint hash;
+  loop::Fingerprint hash;
   hash.add(bundle);
   return fmt::format("{:016x}", hash.value());
 }

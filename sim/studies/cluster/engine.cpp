@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
-#include "sim/studies/fingerprint.hpp"
+#include "sim/loop/fingerprint.hpp"
 
 namespace drycut::sim::cluster {
 
@@ -57,7 +57,7 @@ std::shared_ptr<Engine> open_engine(const std::string& where, const std::filesys
     return nullptr;
   }
   // The same name when the study goes on: what a killed one has left there is found.
-  studies::Fingerprint name;
+  loop::Fingerprint name;
   name.add(study.string());
   const auto folder = fmt::format(".drycut-work-{:016x}", name.value());
   return open_slurm(partition, std::filesystem::absolute(stage).lexically_normal() / folder, problems);

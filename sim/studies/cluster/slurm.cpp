@@ -18,7 +18,7 @@
 #include "renders/process.hpp"
 #include "sim/interrupt.hpp"
 #include "sim/studies/cluster/engine.hpp"
-#include "sim/studies/fingerprint.hpp"
+#include "sim/loop/fingerprint.hpp"
 
 namespace drycut::sim::cluster {
 
@@ -82,7 +82,7 @@ std::vector<Partition> partitions() {
 class Slurm final : public Engine {
  public:
   Slurm(Partition partition, fs::path folder) : partition_(std::move(partition)), folder_(std::move(folder)) {
-    studies::Fingerprint hash;
+    loop::Fingerprint hash;
     hash.add(folder_.string());
     name_ = fmt::format("drycut-{:016x}", hash.value());
     if (fs::exists(folder_)) clean();  // of a study that was killed

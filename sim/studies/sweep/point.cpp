@@ -11,7 +11,7 @@
 #include "base/text.hpp"
 #include "plants/plant.hpp"
 #include "sim/loop/statistics.hpp"
-#include "sim/studies/fingerprint.hpp"
+#include "sim/loop/fingerprint.hpp"
 #include "sim/studies/recorded_csv.hpp"
 #include "sim/studies/sweep/rated_drive.hpp"
 #include "sim/studies/tune/metric.hpp"
@@ -260,7 +260,7 @@ void prepare(PointQuestion& question, Problems& problems) {
 PointScenario read_point(const PointQuestion& question, const std::vector<scenario::Override>& overrides) {
   PointScenario point;
   point.scenario = read(question, overrides, point.problems);
-  Fingerprint hash;
+  loop::Fingerprint hash;
   hash.add_program();
   for (const auto& piece : question.pieces) {
     point.lengths.push_back(wanted_length(point.scenario.pictures, piece.source));

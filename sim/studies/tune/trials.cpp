@@ -13,7 +13,7 @@
 #include "base/text.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/controller_loader.hpp"
-#include "sim/studies/fingerprint.hpp"
+#include "sim/loop/fingerprint.hpp"
 #include "sim/studies/override_json.hpp"
 #include "sim/studies/recorded_csv.hpp"
 
@@ -112,7 +112,7 @@ Trials::Trials(const Study& study, TunedParameters parameters, std::vector<scena
       }) {}
 
 std::string Trials::fingerprint() const {
-  Fingerprint hash;
+  loop::Fingerprint hash;
   hash.add_program();
   hash.add("violations 3");  // how they are counted: rows of another way do not compare
   hash.add(study_.minimise);

@@ -9,7 +9,7 @@
 #include "base/text.hpp"
 #include "sim/cli/run_cache.hpp"
 #include "sim/cli/run_command.hpp"
-#include "sim/studies/fingerprint.hpp"
+#include "sim/loop/fingerprint.hpp"
 #include "tests/sim/command_bench.hpp"
 #include "tests/sim/studies/tune/bench.hpp"
 
@@ -213,7 +213,7 @@ TEST_F(KeptRuns, AnEntryThatLeadsOutOfTheFolderIsNotUsed) {
   fs::copy_file(file.parent_path() / "files/trace.csv", file.parent_path() / "other");
   json["files"]["../other"] = json["files"]["trace.csv"];
   const auto text = json.dump(2) + "\n";
-  studies::Fingerprint hash;
+  loop::Fingerprint hash;
   hash.add(text);
   std::ofstream(file, std::ios::binary) << fmt::format("{:016x}\n", hash.value()) << text;
   ASSERT_EQ(run(), all_passed) << err;

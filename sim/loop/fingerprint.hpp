@@ -4,7 +4,7 @@
 
 #include "sim/scenario/scenario.hpp"
 
-namespace drycut::sim::studies {
+namespace drycut::sim::loop {
 
 /// Tells whether a run would be the same as an earlier one. FNV-1a: the same on every machine.
 class Fingerprint {
@@ -22,4 +22,4 @@ class Fingerprint {
   std::uint64_t value_ = 14695981039346656037ULL;
 };
 
-}  // namespace drycut::sim::studies
+}  // namespace drycut::sim::loop

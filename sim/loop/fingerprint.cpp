@@ -1,4 +1,4 @@
-#include "sim/studies/fingerprint.hpp"
+#include "sim/loop/fingerprint.hpp"
 
 #include <dlfcn.h>
 
@@ -9,7 +9,7 @@
 #include "sim/file.hpp"
 #include "sim/loop/controller_loader.hpp"
 
-namespace drycut::sim::studies {
+namespace drycut::sim::loop {
 
 void Fingerprint::add(std::string_view text) {
   for (const char c : text) byte(static_cast<unsigned char>(c));
@@ -19,7 +19,7 @@ void Fingerprint::add(std::string_view text) {
 void Fingerprint::add(const scenario::Scenario& scenario) {
   add(expand(scenario));
   Problems ignored;  // what cannot be read is told by whoever runs it
-  for (const auto& name : loop::controller_files(scenario))
+  for (const auto& name : controller_files(scenario))
     add(read_file(scenario.file.parent_path() / name.text, ignored).value_or(""));
 }
 
@@ -52,4 +52,4 @@ void Fingerprint::byte(unsigned char c) {
   value_ = (value_ ^ c) * prime;
 }
 
-}  // namespace drycut::sim::studies
+}  // namespace drycut::sim::loop

@@ -1,0 +1,145 @@
+#include "sim/loop/kept_states.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <set>
+#include <stdexcept>
+
+#include "base/output_file.hpp"
+#include "sim/loop/simulation.hpp"
+
+namespace drycut::sim::loop {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr auto* journal_name = "states/journal";
+constexpr std::string_view ending = ".state";
+
+std::string name_of(Time time) {
+  return fmt::format("{}{:07}.{:09}{}", states_folder, time / second, time % second, ending);
+}
+
+Time time_of(const std::string& name) {
+  const auto digits = name.substr(std::string_view(states_folder).size());
+  const auto dot = digits.find('.');
+  return std::strtoll(digits.c_str(), nullptr, 10) * second + std::strtoll(digits.c_str() + dot + 1, nullptr, 10);
+}
+
+/// At most so many bytes of a file; nothing where it cannot be read.
+std::optional<StateArchive::Bytes> bytes_of(const fs::path& file, std::uint64_t most = UINT64_MAX) {
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  if (!stream) return {};
+  StateArchive::Bytes bytes(
+      static_cast<std::size_t>(std::min(most, static_cast<std::uint64_t>(stream.tellg()))));
+  stream.seekg(0);
+  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  return stream ? std::optional(std::move(bytes)) : std::nullopt;
+}
+
+[[noreturn]] void fail() { throw std::runtime_error(std::strerror(errno)); }
+
+void write_all(int file, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const auto written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) fail();
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+}  // namespace
+
+std::optional<KeptMoment> kept_moment(const fs::path& run, Time until, std::vector<std::string>& damaged) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(run / states_folder, none))
+    if (entry.path().extension() == ending) names.push_back(states_folder + entry.path().filename().string());
+  std::ranges::sort(names, std::greater());
+  for (const auto& name : names) {
+    if (until != never && name > name_of(until)) continue;
+    try {
+      auto state = bytes_of(run / name);
+      if (!state) throw BadState("it cannot be read");
+      auto head = open_state(*state).head;
+      auto journal = bytes_of(run / journal_name, head.journal);
+      if (!journal || journal->size() < head.journal) throw BadState("its journal is cut short");
+      if (StateArchive::going_on(*journal).sum != head.journal_sum)
+        throw BadState("its journal is another run's");
+      return KeptMoment{name, std::move(head), std::move(*state), std::move(*journal)};
+    } catch (const BadState& bad) {
+      damaged.push_back(fmt::format("{}: {}", (run / name).string(), bad.what()));
+    }
+  }
+  return {};
+}
+
+KeptStates::KeptStates(OutputFolder& folder, Time every, std::size_t most, const KeptMoment* from)
+    : folder_(folder), every_(every), most_(std::max<std::size_t>(4, most)) {
+  if (from == nullptr) return;
+  journal_ = StateArchive::going_on(from->journal);
+  if (!folder.listed().contains(journal_name)) {
+    journal_.begin = 0;
+    journal_.bytes = from->journal;
+    return;
+  }
+  for (const auto& name : std::set(folder.listed())) {
+    if (!name.starts_with(states_folder) || !name.ends_with(ending)) continue;
+    if (name > from->name)
+      folder.take_back(name);
+    else
+      kept_.push_back({name, time_of(name) / every_});
+  }
+}
+
+KeptStates::~KeptStates() {
+  if (file_ >= 0) close(file_);
+}
+
+void KeptStates::keep(Simulation& simulation) {
+  if (!trouble_.empty()) return;
+  try {
+    const auto state = simulation.save(&journal_);
+    if (file_ < 0) {
+      file_ = open(folder_.add(journal_name).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+      const auto begin = static_cast<off_t>(journal_.begin);
+      if (file_ < 0 || ftruncate(file_, begin) != 0 || lseek(file_, begin, SEEK_SET) != begin) fail();
+    }
+    // The journal first: a state whose journal is not there is none.
+    write_all(file_, journal_.bytes);
+    journal_.begin += journal_.bytes.size();
+    journal_.bytes.clear();
+    const auto name = name_of(simulation.time());
+    write_file(folder_.add(name), {reinterpret_cast<const char*>(state.data()), state.size()});
+    kept_.push_back({name, simulation.time() / every_});
+    thin();
+  } catch (const std::exception& error) {
+    trouble_ = fmt::format("no more states are kept from {} s on: {}",
+                           record::seconds_text(simulation.time()), error.what());
+  }
+}
+
+void KeptStates::thin() {
+  if (kept_.size() <= most_) return;
+  while (kept_.size() > most_) {
+    stride_ *= 2;
+    for (std::size_t i = 0; i + 2 < kept_.size();) {
+      if (kept_[i].number % stride_ == 0) {
+        ++i;
+        continue;
+      }
+      folder_.take_back(kept_[i].name);
+      kept_.erase(kept_.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+}
+
+}  // namespace drycut::sim::loop

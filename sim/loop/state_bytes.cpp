@@ -1,0 +1,109 @@
+#include "sim/loop/state_bytes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string_view>
+
+#include "sim/file.hpp"
+#include "sim/loop/controller_loader.hpp"
+#include "sim/loop/fingerprint.hpp"
+
+namespace drycut::sim::loop {
+
+namespace {
+
+constexpr std::string_view mark = "drycut\x1aS";  // a terminal shows no more of it
+constexpr std::uint32_t format = 1;
+
+struct Begin {
+  char mark[8];
+  std::uint32_t format;
+  std::uint32_t unused;
+  std::uint64_t size;  // of all
+  std::uint64_t sum;   // over what follows
+};
+static_assert(sizeof(Begin) == 32 && mark.size() == sizeof Begin::mark);
+
+std::string digest(std::string_view text) {
+  Fingerprint hash;
+  hash.add(text);
+  return fmt::format("{:016x}", hash.value());
+}
+
+}  // namespace
+
+StateOrigin::StateOrigin(const scenario::Scenario& scenario)
+    : version(DRYCUT_VERSION), file(std::filesystem::absolute(scenario.file).lexically_normal().string()) {
+  for (const auto& [path, value] : scenario.overrides)
+    if (path != "scene.seed") overrides.emplace_back(path, value);
+  overrides.emplace_back("scene.seed", std::to_string(scenario.scene.seed));
+  Fingerprint program;
+  program.add_program();
+  build = fmt::format("{:016x}", program.value());
+  // Section by section, to say which of them is another.
+  const auto text = expand(scenario);
+  for (std::size_t begin = 0; begin < text.size();) {
+    auto end = begin;
+    do end = std::min(text.find('\n', end), text.size() - 1) + 1;
+    while (end < text.size() && (text[end] == ' ' || text[end] == '-' || text[end] == '\n'));
+    const auto section = std::string_view(text).substr(begin, end - begin);
+    parts.emplace_back(section.substr(0, section.find(':')), digest(section));
+    begin = end;
+  }
+  Problems ignored;  // it was read
+  for (const auto& name : controller_files(scenario))
+    parts.emplace_back(name.text,
+                       digest(read_file(scenario.file.parent_path() / name.text, ignored).value_or("")));
+}
+
+void StateOrigin::visit(StateArchive& archive) { STATE(archive, version, build, file, overrides, parts); }
+
+std::string StateOrigin::differs_from(const StateOrigin& other) const {
+  std::string names;
+  const auto lacks = [&](const auto& in, const auto& part) {
+    return std::find(in.begin(), in.end(), part) == in.end();
+  };
+  const auto add = [&](const std::string& name) {
+    if (names.find(name) == std::string::npos) names += (names.empty() ? "" : ", ") + name;
+  };
+  for (const auto& part : parts)
+    if (lacks(other.parts, part)) add(part.first);
+  for (const auto& part : other.parts)
+    if (lacks(parts, part)) add(part.first);
+  return names;
+}
+
+StateArchive::Bytes seal(StateHead head, const StateArchive::Bytes& members) {
+  StateArchive::Bytes bytes(sizeof(Begin));
+  auto archive = StateArchive::saving(bytes);
+  STATE(archive, head.origin, head.time, head.every, head.journal, head.journal_sum);
+  bytes.insert(bytes.end(), members.begin(), members.end());
+  Begin begin{{}, format, 0, bytes.size(), 0};
+  std::ranges::copy(mark, begin.mark);
+  begin.sum = StateArchive::sum_of(std::span(bytes).subspan(sizeof begin));
+  std::memcpy(bytes.data(), &begin, sizeof begin);
+  return bytes;
+}
+
+OpenedState open_state(std::span<const std::byte> bytes) {
+  Begin begin{};
+  if (bytes.size() < sizeof begin) throw BadState("it is cut short");
+  std::memcpy(&begin, bytes.data(), sizeof begin);
+  if (std::string_view(begin.mark, sizeof begin.mark) != mark) throw BadState("it is no state of drycut");
+  if (begin.format != format)
+    throw BadState(fmt::format("it is a state of format {}, this drycut has {}", begin.format, format));
+  if (begin.unused != 0) throw BadState("it was changed");
+  if (begin.size != bytes.size()) throw BadState("it is cut short, or something stands behind it");
+  const auto rest = bytes.subspan(sizeof begin);
+  if (begin.sum != StateArchive::sum_of(rest)) throw BadState("it was changed");
+  OpenedState opened;
+  auto& head = opened.head;
+  auto archive = StateArchive::restoring(rest.data(), rest.size());
+  STATE(archive, head.origin, head.time, head.every, head.journal, head.journal_sum);
+  opened.members = rest.last(archive.left());
+  return opened;
+}
+
+}  // namespace drycut::sim::loop
