@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::devices {
 namespace {
 
@@ -320,6 +322,13 @@ CamMotion at(const CamLaw& law, std::size_t piece, double master) {
 
 CamMotion at(const CamLaw& law, double master) {
   return law.pieces.empty() ? CamMotion{} : at(law, piece_at(law, master), master);
+}
+
+void CamRamp::visit(StateArchive& archive) {
+  STATE(archive, from, start, length, position, v0, v1, excess, cycloidal);
+}
+void Arc::visit(StateArchive& archive) {
+  STATE(archive, radius, centre_x, centre_y, start_angle, sweep, sense, length);
 }
 
 }  // namespace drycut::devices

@@ -4,6 +4,10 @@
 #include <variant>
 #include <vector>
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::devices {
 
 // A cam as a function of the master: pieces one after the other, each with a law of its own. What the
@@ -40,6 +44,8 @@ struct CamRamp {
   double v1 = 0;
   double excess = 0;  ///< cycloidal: slave space beyond length*(v0+v1)/2, spread without touching the ends
   bool cycloidal = false;
+
+  void visit(StateArchive& archive);
 };
 /// The ramp's motion at m, start <= m <= start + length.
 CamMotion at(const CamRamp& ramp, double m);
@@ -57,6 +63,8 @@ struct Arc {
   double sweep = 0;        ///< angle run through, > 0 [rad]
   double sense = 1;        ///< +1 counterclockwise, -1 clockwise
   double length = 0;       ///< radius*sweep [Um]
+
+  void visit(StateArchive& archive);
 };
 /// Motion of one axis at arc length m. The tangent axis turns through `um_per_turn` Um a turn.
 CamMotion at(const Arc& arc, ArcAxis axis, double m, double um_per_turn);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "base/state_archive.hpp"
 #include "devices/axis/position.hpp"
 #include "devices/device.hpp"
 #include "devices/oopos2/oopos2.hpp"
@@ -33,10 +34,18 @@ void OnOffPositioner::power_up() {
   for (Output& output : outputs_) {
     if (output.terminal) {
       output.terminal->level = false;
-      output.turn.release(output.terminal->driver);
+      output.turn.release(output.terminal->held);
     }
     output.level = false;
   }
+}
+
+void OnOffPositioner::Output::visit(StateArchive& archive) { STATE(archive, turn, level); }
+void OnOffPositioner::visit(StateArchive& archive) {
+  Device::visit(archive);
+  STATE(archive, outputs_, transducer_, quota_, resolution_, frequency_, movement_, target_, tool_, wanted_,
+        inertia_noted_, search_, search_backward_, search_slow_, search_zero_, enable_was_, enable_released_,
+        zero_);
 }
 
 void OnOffPositioner::initialise() {
@@ -163,11 +172,11 @@ void OnOffPositioner::put(FieldRow field, bool level) {
     // What was on goes off with it; what was off may be another device's by now.
     if (output.level) output.terminal->level = false;
     output.level = false;
-    output.turn.release(output.terminal->driver);
+    output.turn.release(output.terminal->held);
     return;
   }
   output.level = output.terminal->level = level;
-  if (output.turn.take(output.terminal->driver))
+  if (output.turn.take(output.terminal->held))
     report({Diagnostic::Kind::warning, std::string(table::fields[field].name),
             "another device drives the same output; of devices that share one, all but one need REGOFF"});
 }
