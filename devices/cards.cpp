@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::devices {
 
 namespace {
@@ -113,6 +115,48 @@ std::string_view name_of(Kind kind) {
   constexpr std::array<std::string_view, 5> names = {"counter", "digital input", "digital output",
                                                      "analogue output", "interrupt line"};
   return names[static_cast<std::size_t>(kind)];
+}
+
+void Counter::visit(StateArchive& archive) { STATE(archive, count, latched); }
+void DigitalInput::visit(StateArchive& archive) { STATE(archive, level); }
+void DigitalOutput::visit(StateArchive& archive) { STATE(archive, level, held); }
+void AnalogueOutput::visit(StateArchive& archive) { STATE(archive, word, held); }
+void PulseTrain::visit(StateArchive& archive) { STATE(archive, count); }
+void OutputTurn::visit(StateArchive& archive) { STATE(archive, holds_, contested_); }
+
+namespace {
+
+std::string key_name(const Address& address) { return to_string(address); }
+std::string key_name(int line) { return to_string(Address{Kind::interrupt, 0, line}); }
+
+// In their places: others refer to them.
+template <typename Terminals>
+struct InPlace {
+  Terminals& terminals;
+
+  void visit(StateArchive& archive) {
+    auto number = static_cast<std::uint32_t>(terminals.size());
+    STATE(archive, number);
+    if (number != terminals.size()) throw BadState("other terminals");
+    for (auto& [key, terminal] : terminals) archive.named(key_name(key), terminal);
+  }
+};
+
+template <typename Terminals>
+void visit_in_place(StateArchive& archive, std::string_view name, Terminals& terminals) {
+  InPlace<Terminals> all{terminals};
+  archive.named(name, all);
+}
+
+}  // namespace
+
+void Cards::visit(StateArchive& archive) {
+  visit_in_place(archive, "counters", counters);
+  visit_in_place(archive, "inputs", inputs);
+  visit_in_place(archive, "outputs", outputs);
+  visit_in_place(archive, "analogue_outputs", analogue_outputs);
+  visit_in_place(archive, "pulse_outputs", pulse_outputs);
+  visit_in_place(archive, "interrupt_lines", interrupt_lines);
 }
 
 }  // namespace drycut::devices

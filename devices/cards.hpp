@@ -6,6 +6,10 @@
 #include <string>
 #include <string_view>
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::devices {
 
 /// What a terminal of the controller's cards is.
@@ -41,22 +45,32 @@ struct Counter {
   std::int64_t count = 0;    ///< bits x4 since power-up, never wraps
   std::int64_t latched = 0;  ///< the exact count at the last edge of an interrupt line
   int movers = 0;            ///< devices that move it themselves: slot 1 only, and more than one is a slip
+
+  void visit(StateArchive& archive);
 };
 struct DigitalInput {
   bool level = false;
+
+  void visit(StateArchive& archive);
 };
 struct DigitalOutput {
   bool level = false;
-  const void* driver = nullptr;  ///< what moves an axis with it: devices that share an output take turns
+  bool held = false;  ///< a device moves an axis with it: devices that share an output take turns
+
+  void visit(StateArchive& archive);
 };
 struct AnalogueOutput {
-  std::int16_t word = 0;         ///< -32767..32767 = -10..+10 V
-  const void* driver = nullptr;  ///< what regulates on it: devices that share a DAC take turns
+  std::int16_t word = 0;  ///< -32767..32767 = -10..+10 V
+  bool held = false;      ///< a device regulates on it: devices that share a DAC take turns
+
+  void visit(StateArchive& archive);
 };
 
 /// A pulse train. Its direction is an output of its own.
 struct PulseTrain {
   std::int64_t count = 0;  ///< pulses since the start, each one counted whatever its direction
+
+  void visit(StateArchive& archive);
 };
 
 /// The terminals of the controller that something uses. References stay valid while terminals are added.
@@ -69,6 +83,9 @@ struct Cards {
   std::map<Address, AnalogueOutput> analogue_outputs;
   std::map<Address, PulseTrain> pulse_outputs;  ///< outputs of a base unit that give pulses
   std::map<int, DigitalInput> interrupt_lines;  ///< by line number 1..8, present level
+
+  /// The terminals that the state has must all be there, and no others.
+  void visit(StateArchive& archive);
 };
 
 /// Calls `use` with the terminals of a slot's kind and the key of `address` among them.
@@ -94,23 +111,25 @@ inline constexpr int dac_full_scale = 32767;
 inline constexpr double dac_full_scale_volts = 10.0;
 
 /// A device's part in an output that several devices may name: they take turns with REGON and REGOFF and must
-/// never drive it at once (001 1.4.1, 002 1.3.1). The output keeps `driver`, who holds it.
+/// never drive it at once (001 1.4.1, 002 1.3.1). The output keeps `held`, that one of them holds it.
 class OutputTurn {
  public:
   /// The device drives the output in this sample. True once if another one does too: in two samples on end,
   /// since a turn that changes hands within one is in order.
-  bool take(const void*& driver) {
-    if (driver == nullptr) driver = this;
-    contested_ = driver == this ? 0 : contested_ + 1;
+  bool take(bool& held) {
+    if (!held) held = holds_ = true;
+    contested_ = holds_ ? 0 : contested_ + 1;
     return contested_ == 2;
   }
   /// Leaves the output to the others.
-  void release(const void*& driver) {
-    if (driver == this) driver = nullptr;
+  void release(bool& held) {
+    if (holds_) held = holds_ = false;
     contested_ = 0;
   }
+  void visit(StateArchive& archive);
 
  private:
+  bool holds_ = false;          ///< it is this device that holds the output
   std::int64_t contested_ = 0;  ///< samples on end in which another device was there too
 };
 

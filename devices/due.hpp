@@ -1,6 +1,10 @@
 #pragma once
 #include <cstdint>
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::devices {
 
 /// What happens at each whole multiple of a period: a device's sample, a task's cycle, a scan.
@@ -16,6 +20,8 @@ struct Due {
     if (next_ns <= time_ns) next_ns = (time_ns / period_ns + 1) * period_ns;
     return true;
   }
+  /// The period is none.
+  void visit(StateArchive& archive);
 };
 
 }  // namespace drycut::devices

@@ -26,10 +26,10 @@ class DacTurn {
   /// Puts a word out. True once if another device regulates on the DAC too.
   bool put(AnalogueOutput& dac, std::int16_t word) {
     dac.word = word;
-    return turn_.take(dac.driver);
+    return turn_.take(dac.held);
   }
   /// Leaves the DAC, as it stands, to the others.
-  void release(AnalogueOutput& dac) { turn_.release(dac.driver); }
+  void release(AnalogueOutput& dac) { turn_.release(dac.held); }
 
  private:
   OutputTurn turn_;

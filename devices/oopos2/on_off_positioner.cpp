@@ -33,7 +33,7 @@ void OnOffPositioner::power_up() {
   for (Output& output : outputs_) {
     if (output.terminal) {
       output.terminal->level = false;
-      output.turn.release(output.terminal->driver);
+      output.turn.release(output.terminal->held);
     }
     output.level = false;
   }
@@ -163,11 +163,11 @@ void OnOffPositioner::put(FieldRow field, bool level) {
     // What was on goes off with it; what was off may be another device's by now.
     if (output.level) output.terminal->level = false;
     output.level = false;
-    output.turn.release(output.terminal->driver);
+    output.turn.release(output.terminal->held);
     return;
   }
   output.level = output.terminal->level = level;
-  if (output.turn.take(output.terminal->driver))
+  if (output.turn.take(output.terminal->held))
     report({Diagnostic::Kind::warning, std::string(table::fields[field].name),
             "another device drives the same output; of devices that share one, all but one need REGOFF"});
 }
