@@ -4,6 +4,7 @@
 #include <cassert>
 #include <limits>
 
+#include "base/state_archive.hpp"
 #include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp {
@@ -24,6 +25,12 @@ std::int64_t limited(Wide value) {
 }
 
 }  // namespace
+
+void CamTableRow::visit(StateArchive& archive) { STATE(archive, master, slave); }
+void Zoom::visit(StateArchive& archive) { STATE(archive, numerator, denominator); }
+void RowLaw::Place::visit(StateArchive& archive) { STATE(archive, cycle, part); }
+void RowLaw::Slave::visit(StateArchive& archive) { STATE(archive, pulses, before, position); }
+void RowLaw::visit(StateArchive& archive) { STATE(archive, rows_, master_, slave_); }
 
 std::vector<CamTableRow> read_rows(const Registers& registers, int block) {
   std::vector<CamTableRow> rows(registers.d[static_cast<std::size_t>(block + word::rows)]);

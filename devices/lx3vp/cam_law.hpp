@@ -20,6 +20,7 @@ __extension__ using Wide = __int128;
 struct Zoom {
   std::uint16_t numerator = 1;
   std::uint16_t denominator = 1;
+  void visit(StateArchive& archive);
 };
 
 /// The cam's law in whole numbers: straight lines between the rows of a table, repeated from cycle to cycle,
@@ -37,6 +38,7 @@ class RowLaw {
   struct Place {
     std::int64_t cycle = 0;
     std::int64_t part = 0;
+    void visit(StateArchive& archive);
   };
   /// Of a master that has come `counts` from table position `first` (0 = the first row).
   [[nodiscard]] Place place(std::int64_t counts, std::int64_t first = 0) const;
@@ -48,6 +50,7 @@ class RowLaw {
     std::int64_t pulses = 0;    ///< from the start of cycle 0, to the nearest, halves upwards
     std::int64_t before = 0;    ///< of them, up to the start of its cycle
     std::int64_t position = 0;  ///< in table units, to the nearest
+    void visit(StateArchive& archive);
   };
   [[nodiscard]] Slave slave(const Place& place) const;
   [[nodiscard]] std::int64_t pulses(const Place& place) const { return slave(place).pulses; }
@@ -58,6 +61,8 @@ class RowLaw {
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
   [[nodiscard]] const Zoom& master_zoom() const { return master_; }
   [[nodiscard]] const Zoom& slave_zoom() const { return slave_; }
+
+  void visit(StateArchive& archive);
 
  private:
   struct Fraction {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::devices::lx3vp {
 
 namespace {
@@ -14,6 +16,18 @@ constexpr int ticks_of_zero = 2;        // more than 100 us (003 4.1.2)
 constexpr unsigned shared_bits = status::initialised | status::completed | status::cycle_completed;
 
 }  // namespace
+
+void CamFault::visit(StateArchive& archive) { STATE(archive, code, row, text); }
+void CamNote::visit(StateArchive& archive) { STATE(archive, warns, text); }
+void CamMaster::visit(StateArchive& archive) { STATE(archive, source_, last_, ticks_); }
+
+void Decam::visit(StateArchive& archive) {
+  STATE(archive, operands_, enabled_, has_block_, refusal_, fault_, state_, status_, zero_ticks_,
+        last_signal_);
+  STATE(archive, cyclic_, stops_by_itself_, function_, cycles_, delay_, first_, law_);
+  STATE(archive, master_, resume_, ended_, starts_, counts_, delayed_, cycle_, base_, target_, place_, slave_,
+        pause_ticks_, sync_output_, told_late_, notes_);
+}
 
 void CamMaster::begin(const CamPort& port) {
   last_ = value(port);

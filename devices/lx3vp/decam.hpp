@@ -31,12 +31,14 @@ struct CamFault {
   int code = 0;
   int row = 0;  ///< 6782: of the table
   std::string text;
+  void visit(StateArchive& archive);
 };
 
 /// Something to tell that is no error.
 struct CamNote {
   bool warns = true;  ///< else it only informs
   std::string text;
+  void visit(StateArchive& archive);
 };
 
 /// What moves the master, as counts from tick to tick.
@@ -48,6 +50,7 @@ class CamMaster {
   void begin(const CamPort& port);
   /// Counts since the last call.
   std::int64_t advance(const CamPort& port);
+  void visit(StateArchive& archive);
 
  private:
   [[nodiscard]] bool counts_pulses(const CamPort& port) const;
@@ -97,6 +100,8 @@ class Decam {
   std::optional<CamFault> take_fault();
   /// What is worth telling since the last call.
   std::vector<CamNote> take_notes() { return std::exchange(notes_, {}); }
+
+  void visit(StateArchive& archive);
 
  private:
   enum class State : std::uint8_t {

@@ -5,7 +5,17 @@
 #include <limits>
 #include <optional>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::devices::lx3vp {
+
+void SawParameters::visit(StateArchive& archive) {
+  STATE(archive, master_length, slave_length, sync_length, sync_ratio, max_ratio, acceleration, curve,
+        resolution);
+}
+void SCurveParameters::visit(StateArchive& archive) {
+  STATE(archive, length, top_speed, acceleration, deceleration, resolution);
+}
 
 namespace {
 

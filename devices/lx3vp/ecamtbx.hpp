@@ -8,6 +8,10 @@
 
 #include "devices/cam/law.hpp"
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::devices::lx3vp {
 
 /// A cam cycle as ECAMTBX constructs it (003 6.3 and its appendix), before anything is rounded to pulses: the
@@ -42,6 +46,7 @@ struct SawParameters {
   std::uint16_t curve = 0;         ///< P6 high word: 0, 1, 2, 3 or 5 (K100); bit 12 returns (slave backwards)
   std::uint16_t resolution = 0;    ///< P7, rows: 10..512, 0 = automatic
   bool operator==(const SawParameters&) const = default;
+  void visit(StateArchive& archive);
 };
 /// The cam curves of P6.
 enum SawCurve : std::uint16_t {
@@ -61,6 +66,7 @@ struct SCurveParameters {
   std::int16_t deceleration = 0;  ///< P5 [ms], 0..32767
   std::uint16_t resolution = 0;   ///< P6, rows: 51..512
   bool operator==(const SCurveParameters&) const = default;
+  void visit(StateArchive& archive);
 };
 
 /// A row of a cam table, both positions in pulses (the master of K0 and K1: in counts of 100 us).
@@ -68,6 +74,7 @@ struct CamTableRow {
   std::int32_t master = 0;
   std::int32_t slave = 0;
   friend bool operator==(const CamTableRow&, const CamTableRow&) = default;
+  void visit(StateArchive& archive);
 };
 
 /// What ECAMTBX reports in D1 below 0; the manual says only that it is an error.

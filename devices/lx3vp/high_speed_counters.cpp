@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::devices::lx3vp {
 
 namespace {
@@ -16,6 +18,9 @@ std::int64_t whole_pulses(std::int64_t edges) {
 }
 
 }  // namespace
+
+void HighSpeedCounters::Channel::visit(StateArchive& archive) { STATE(archive, enabled, preset, last); }
+void HighSpeedCounters::visit(StateArchive& archive) { STATE(archive, channels_, pulses_); }
 
 void HighSpeedCounters::enable(int number, std::int32_t preset, bool powered) {
   Channel& channel = channels_[static_cast<std::size_t>(number - first_wide_counter)];

@@ -21,11 +21,14 @@ class HighSpeedCounters {
   /// Pulses that each counter has counted since power-up, whatever was written to its register.
   [[nodiscard]] const std::array<std::int64_t, counters>& pulses() const { return pulses_; }
 
+  void visit(StateArchive& archive);
+
  private:
   struct Channel {
     bool enabled = false;
     std::int32_t preset = 0;
     std::int64_t last = 0;
+    void visit(StateArchive& archive);
   };
   std::array<Channel, counters - first_wide_counter> channels_{};
   std::array<std::int64_t, counters> pulses_{};

@@ -22,7 +22,7 @@ void ProgramScan::flow(const Step& step, Rung& rung) {
       if (step.memory >= 0) begin_state(step, rung);
       return;
     case Op::ret:
-      rung.state = nullptr;
+      rung.state = -1;
       rung.state_on = true;
       return rung.renew_supply();
     case Op::for_: {
@@ -66,7 +66,7 @@ void ProgramScan::begin_state(const Step& step, Rung& rung) {
   const auto memory = static_cast<std::size_t>(step.memory);
   const bool was_on = memories_[memory];
   memories_[memory] = on;
-  rung.state = &step;
+  rung.state = static_cast<int>(rung.next) - 1;
   rung.state_on = on;
   rung.flow = true;
   rung.renew_supply();
@@ -75,12 +75,13 @@ void ProgramScan::begin_state(const Step& step, Rung& rung) {
 
 /// Whether a coil on `device` goes on to another step of the sequence: it is none of an ordinary relay then.
 bool ProgramScan::transfers(const Operand& device, const Rung& rung) const {
-  return device.kind == OperandType::S && rung.state != nullptr &&
+  return device.kind == OperandType::S && rung.state >= 0 &&
          program_.states[static_cast<std::size_t>(device.number)];
 }
 
 void ProgramScan::transfer(const Operand& device, Rung& rung) {
-  for (const auto& state : rung.state->operands) write_bit(rung.registers, state, false);
+  const Step& from = program_.steps[static_cast<std::size_t>(rung.state)];
+  for (const auto& state : from.operands) write_bit(rung.registers, state, false);
   write_bit(rung.registers, device, true);
 }
 

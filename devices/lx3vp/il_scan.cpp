@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/state_archive.hpp"
 #include "base/text.hpp"
 #include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "devices/lx3vp/il_operands.hpp"
@@ -69,6 +70,24 @@ void ProgramScan::restart() {
   has_scanned_ = false;
   rung_.reset();
   scanned_.clear();
+}
+
+void ProgramScan::Rung::Loop::visit(StateArchive& archive) { STATE(archive, place, left); }
+void ProgramScan::Rung::Frame::visit(StateArchive& archive) { STATE(archive, back, loops); }
+void ProgramScan::Rung::visit(StateArchive& archive) {
+  STATE(archive, passed_ns, blocks, branches, loops, frames, open_masters, state, state_on, supply, flow,
+        work, next, over);
+}
+
+void ProgramScan::visit(StateArchive& archive, Registers& registers, Instructions& instructions) {
+  STATE(archive, memories_, fractions_, timed_ns_, last_scan_ns_, has_scanned_);
+  bool begun = rung_ != nullptr;
+  STATE(archive, begun);
+  if (archive.restores()) {
+    rung_ = begun ? std::make_unique<Rung>(registers, instructions) : nullptr;
+    watch(watched_);
+  }
+  STATE(archive, rung_);
 }
 
 void ProgramScan::watch(bool on) {

@@ -51,6 +51,9 @@ class ProgramScan {
   /// Line of the instruction that a scan in pieces comes to next; 0: it has come to its end.
   [[nodiscard]] int line() const;
 
+  /// The scan goes on on these, which it does not own. What somebody sees who looks at it is no state.
+  void visit(StateArchive& archive, Registers& registers, Instructions& instructions);
+
  private:
   struct Rung;
   void start(Rung& rung);
@@ -90,8 +93,8 @@ class ProgramScan {
   Step scratch_;                         ///< the step that `indexed` has made
   std::int64_t last_scan_ns_ = 0;
   bool has_scanned_ = false;
-  std::int64_t step_ns_;
-  std::int64_t most_;           ///< work of a scan
+  const std::int64_t step_ns_;
+  const std::int64_t most_;     ///< work of a scan
   std::unique_ptr<Rung> rung_;  ///< of the scan that go_on() goes on with
   bool watched_ = false;
   std::string scanning_;  ///< what the present scan has done so far
@@ -104,11 +107,13 @@ struct ProgramScan::Rung {
   struct Loop {
     int place = 0;
     int left = 0;  ///< times still to run
+    void visit(StateArchive& archive);
   };
   /// A subroutine that was called.
   struct Frame {
     std::size_t back = 0;   ///< place behind the CALL
     std::size_t loops = 0;  ///< that ran there
+    void visit(StateArchive& archive);
   };
   static constexpr std::size_t masters = 8;  ///< N0..N7
 
@@ -122,13 +127,15 @@ struct ProgramScan::Rung {
   std::vector<Loop> loops = {};
   std::vector<Frame> frames = {};
   std::array<bool, masters> open_masters = {};  ///< N0..N7: MC without power, until MCR
-  const Step* state = nullptr;                  ///< STL whose instructions run; nullptr: outside a sequence
+  int state = -1;  ///< place of the STL whose instructions run; -1: outside a sequence
   bool state_on = true;
   bool supply = true;  ///< all master contacts and the state are ON
   bool flow = false;
   std::int64_t work = 0;
   std::size_t next = 0;
   bool over = false;
+
+  void visit(StateArchive& archive);
 
   /// What reaches a coil.
   [[nodiscard]] bool power() const { return flow && supply; }

@@ -2,6 +2,10 @@
 #include <cstdint>
 #include <string>
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::devices::lx3vp {
 
 /// S1 of DECAM: what moves the master of the cam (003 2.2).
@@ -14,6 +18,7 @@ struct MasterSource {
   Kind kind = Kind::counter;
   std::int32_t number = 0;
   bool operator==(const MasterSource&) const = default;
+  void visit(StateArchive& archive);
 };
 
 /// S3 of DECAM: the start signal from outside.
@@ -21,6 +26,7 @@ struct StartSignal {
   bool is_input = true;  ///< X, else M
   int number = 0;        ///< plain: X10 is 8
   bool operator==(const StartSignal&) const = default;
+  void visit(StateArchive& archive);
 };
 
 /// Operands of DECAM as the program gives them; what they must be is checked when they are executed (6781).
@@ -31,12 +37,14 @@ struct DecamOperands {
   int output = 0;     ///< D1, plain number of the pulse output Y
   int direction = 0;  ///< D2, plain number of the direction output Y; on = forwards
   bool operator==(const DecamOperands&) const = default;
+  void visit(StateArchive& archive);
 };
 
 /// S3 of ZRN: the switch near the zero point.
 struct DogSignal {
   char letter = 'X';  ///< X, Y, M or S
   int number = 0;     ///< plain: X10 is 8
+  void visit(StateArchive& archive);
 };
 
 /// What DPLSV, DDRVI, DDRVA, PLSY and ZRN ask of a pulse output. All but DPLSV begin on the rising edge of
@@ -58,6 +66,7 @@ struct PulseOrder {
   std::int32_t pulses = 0;
   std::int32_t creep = 0;  ///< [Hz]
   DogSignal dog = {};
+  void visit(StateArchive& archive);
 };
 
 /// What instructions do beyond the registers: the controller gives it to the scan of its program. Every call
@@ -115,6 +124,7 @@ class PulseOutput {
   PulseTick run(std::int32_t frequency, std::int64_t most);
   /// Nothing is owed any more: what a fraction of a pulse has gathered is dropped.
   void halt() { credit_ = 0; }
+  void visit(StateArchive& archive);
 
  private:
   PulseTick give(std::int64_t pulses, bool forwards);

@@ -51,12 +51,11 @@ void Lx3vpController::keep_recipe(int number) {
   if (step == nullptr) return;
   const int list = step->operands[0].number;
   const il::Operand& type = step->operands[1];
-  EcamTable recipe;
+  Recipe& recipe = recipes_[step->operands[2].number];
   recipe.type = static_cast<EcamType>(type.kind == il::OperandType::constant ? type.value
                                                                              : registers_.i16(type.number));
   recipe.saw = read_saw_parameters(registers_, list);
   recipe.s_curve = read_s_curve_parameters(registers_, list);
-  recipes_[step->operands[2].number] = std::move(recipe);
 }
 
 std::shared_ptr<const devices::CamTable> Lx3vpController::cam_table_of(const il::Step& step) const {
@@ -68,7 +67,11 @@ std::shared_ptr<const devices::CamTable> Lx3vpController::cam_table_of(const il:
   if (rows.empty()) return nullptr;
   EcamTable table;
   // The parameters behind the rows, if an ECAMTBX made just these.
-  if (const auto found = recipes_.find(block); found != recipes_.end()) table = found->second;
+  if (const auto found = recipes_.find(block); found != recipes_.end()) {
+    table.type = found->second.type;
+    table.saw = found->second.saw;
+    table.s_curve = found->second.s_curve;
+  }
   if (!table.is_made() || make_table(*table.type, table.saw, table.s_curve).rows != rows) table = {};
   table.rows = rows;
   const std::int32_t most = registers_.i32(block + word::max_frequency);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::devices::lx3vp {
 
 namespace {
@@ -158,6 +160,23 @@ void Lx3vpController::power(bool on) {
   said_.clear();
   cam_tables_.clear();
 }
+
+// Not what the program, the wiring and who watches the programs have set up.
+void Lx3vpController::visit(StateArchive& archive) {
+  STATE(archive, tick_, scan_, scan_due_ns_, scan_begun_ns_, scan_took_ns_, scanning_, cards_, registers_,
+        counters_, pulses_, inputs_, outputs_, pulses_before_, powered_, first_scan_, stopped_, stopped_at_,
+        power_up_ns_, power_up_due_, events_, cam_tables_, recipes_);
+  struct Scanner {
+    Lx3vpController& plc;
+    void visit(StateArchive& to) { plc.scanner_.visit(to, plc.registers_, plc); }
+  } scanner{*this};
+  STATE(archive, scanner);
+  std::vector<std::pair<int, std::string>> said(said_.begin(), said_.end());
+  STATE(archive, said);
+  if (archive.restores()) said_ = {said.begin(), said.end()};
+}
+
+void Lx3vpController::Recipe::visit(StateArchive& archive) { STATE(archive, type, saw, s_curve); }
 
 void Lx3vpController::stop_outputs() {
   for (int i = 0; i < pulse_outputs; ++i) pulses_before_[static_cast<std::size_t>(i)] += pulses_.pulses(i);

@@ -47,6 +47,7 @@ class Lx3vpController : public Controller, private Instructions {
   void run_tasks(std::int64_t time_ns) override;
   void interrupt(int line, bool rising) override;
   void power(bool on) override;
+  void visit(StateArchive& archive) override;
 
   /// Registers by name, see RegisterName. X and Y are the levels of the terminals; X is read-only, Y is
   /// written into the image, which the end of a scan gives out unless the program drives it.
@@ -80,6 +81,14 @@ class Lx3vpController : public Controller, private Instructions {
   [[nodiscard]] Registers& registers() { return registers_; }
 
  private:
+  /// What an ECAMTBX made a table of.
+  struct Recipe {
+    EcamType type = EcamType::s_curve_0;
+    SawParameters saw = {};
+    SCurveParameters s_curve = {};
+    void visit(StateArchive& archive);
+  };
+
   void decam(int step, const DecamOperands& operands, bool powered) override;
   void pulses(int step, const PulseOrder& order, bool powered) override;
   void high_speed_counter(int number, std::int32_t preset, bool powered) override;
@@ -106,11 +115,11 @@ class Lx3vpController : public Controller, private Instructions {
   void tell(int step, std::string event, std::string text);
   [[nodiscard]] CamPort port() { return {registers_, inputs_, counters_.pulses(), outputs_}; }
 
-  il::IlProgram program_;
+  const il::IlProgram program_;
   il::ProgramScan scanner_;
   Due tick_{tick_ns};
   Due scan_;
-  std::int64_t step_ns_;
+  const std::int64_t step_ns_;
   // Where instructions take time:
   std::int64_t scan_due_ns_ = 0;    ///< the next scan begins
   std::int64_t scan_begun_ns_ = 0;  ///< the present one began
@@ -134,7 +143,7 @@ class Lx3vpController : public Controller, private Instructions {
   std::vector<ControllerEvent> events_;
   std::set<std::pair<int, std::string>> said_;  ///< since power-up, by step
   std::map<int, std::int32_t> cam_tables_;      ///< last results of ECAMTBX since power-up, by step
-  std::map<int, EcamTable> recipes_;            ///< what ECAMTBX last made tables of, by their blocks
+  std::map<int, Recipe> recipes_;               ///< of the last tables, by their blocks
 };
 
 }  // namespace drycut::devices::lx3vp

@@ -3,7 +3,18 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::devices::lx3vp {
+
+void MasterSource::visit(StateArchive& archive) { STATE(archive, kind, number); }
+void StartSignal::visit(StateArchive& archive) { STATE(archive, is_input, number); }
+void DecamOperands::visit(StateArchive& archive) { STATE(archive, master, block, start, output, direction); }
+void DogSignal::visit(StateArchive& archive) { STATE(archive, letter, number); }
+void PulseOrder::visit(StateArchive& archive) {
+  STATE(archive, kind, output, direction, frequency, pulses, creep, dog);
+}
+void PulseOutput::visit(StateArchive& archive) { STATE(archive, position_, credit_, forwards_); }
 
 PulseTick PulseOutput::give(std::int64_t pulses, bool forwards) {
   position_ += forwards ? pulses : -pulses;

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::devices::lx3vp {
 
 namespace {
@@ -26,6 +28,11 @@ bool stopped(const Registers& registers, int output) {
 }
 
 }  // namespace
+
+void PulseNote::visit(StateArchive& archive) { STATE(archive, step, code, text, owner); }
+void PulseUnit::Motion::visit(StateArchive& archive) { STATE(archive, step, order, target, speed, at_dog); }
+void PulseUnit::Line::visit(StateArchive& archive) { STATE(archive, output, motion, given); }
+void PulseUnit::visit(StateArchive& archive) { STATE(archive, lines_, cams_, drives_, refused_, notes_); }
 
 void PulseUnit::decam(int step, const DecamOperands& operands, bool powered, CamPort& port) {
   Decam& cam = cams_[step];

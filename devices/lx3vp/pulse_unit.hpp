@@ -17,6 +17,7 @@ struct PulseNote {
   int code = 0;  ///< of an error (6781 to 6783), 0 = a warning, -1 = it only informs
   std::string text;
   int owner = -1;  ///< step of the instruction that has the output instead, -1 = there is none
+  void visit(StateArchive& archive);
 };
 
 /// The pulse outputs Y0..Y3 with all that gives pulses on them: cams, DPLSV, DDRVI, DDRVA, PLSY and ZRN. One
@@ -47,6 +48,8 @@ class PulseUnit {
   [[nodiscard]] bool has_notes() const { return !notes_.empty(); }
   std::vector<PulseNote> take_notes();
 
+  void visit(StateArchive& archive);
+
  private:
   /// What an instruction does on an output.
   struct Motion {
@@ -58,11 +61,13 @@ class PulseUnit {
 
     /// A train may be without end.
     [[nodiscard]] bool ends() const { return order.kind != PulseOrder::Kind::train || order.pulses != 0; }
+    void visit(StateArchive& archive);
   };
   struct Line {
     PulseOutput output;
     Motion motion;
     std::int64_t given = 0;
+    void visit(StateArchive& archive);
   };
   enum class Progress : std::uint8_t { off, on, arrived };  ///< of an instruction that comes to an end
 

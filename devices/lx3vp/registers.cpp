@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/state_archive.hpp"
 #include "base/text.hpp"
 
 namespace drycut::devices::lx3vp {
@@ -86,6 +87,22 @@ auto* bit_in(Bits& registers, char letter, int number) {
 bool* bit_at(Registers& registers, char letter, int number) { return bit_in(registers, letter, number); }
 const bool* bit_at(const Registers& registers, char letter, int number) {
   return bit_in(registers, letter, number);
+}
+
+void Timer::visit(StateArchive& archive) { STATE(archive, value, coil, contact); }
+void PlcCounter::visit(StateArchive& archive) { STATE(archive, value, coil, contact); }
+
+// counts_pulses is wiring.
+void Registers::visit(StateArchive& archive) {
+  STATE(archive, d, m, x, y, s, t, c, v, z, time_ns);
+  constexpr std::size_t bits = 8;
+  std::array<std::uint8_t, data_words / bits> written_bits{};
+  static_assert(written_bits.size() * bits == data_words);
+  for (std::size_t at = 0; at < data_words; ++at)
+    if (written[at]) written_bits[at / bits] |= static_cast<std::uint8_t>(1U << at % bits);
+  STATE(archive, written_bits);
+  for (std::size_t at = 0; at < data_words; ++at)
+    written[at] = (written_bits[at / bits] >> at % bits & 1U) != 0;
 }
 
 std::uint32_t Registers::u32(int index) const {

@@ -9,6 +9,10 @@
 
 #include "devices/value_range.hpp"
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::devices::lx3vp {
 
 // The registers of the PLC: what programs, the cams and a panel on its port share. Numbers of X and Y are
@@ -54,11 +58,13 @@ struct Timer {
   std::uint16_t value = 0;
   bool coil = false;
   bool contact = false;
+  void visit(StateArchive& archive);
 };
 struct PlcCounter {
   std::int32_t value = 0;  ///< -32768..32767 below C200
   bool coil = false;
   bool contact = false;
+  void visit(StateArchive& archive);
 };
 
 /// Unit of a timer's value: 100 ms, 10 ms (T200..T245) or 1 ms (T246..T249) [ns].
@@ -88,6 +94,8 @@ struct Registers {
   /// Words of D that a program, a file or a scenario has written, be it 0 (003 5: the others have their
   /// initial values).
   std::bitset<data_words> written;
+
+  void visit(StateArchive& archive);
 
   // Accessors of D; a 32-bit value's second word is index + 1.
   [[nodiscard]] std::int16_t i16(int index) const {
