@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::devices {
 
 namespace {
@@ -122,5 +124,7 @@ std::variant<Address, TerminalFault> find_slot_terminal(const Cards& cards, cons
 }
 
 bool slot_takes_wire(const Address& address) { return address.kind != Kind::counter || address.slot != 1; }
+
+void ControllerEvent::visit(StateArchive& archive) { STATE(archive, source, event, text); }
 
 }  // namespace drycut::devices

@@ -165,6 +165,8 @@ struct ControllerEvent {
   /// "errorstop" ...
   std::string event;
   std::string text;
+
+  void visit(StateArchive& archive);
 };
 
 /// Why a text is no terminal of a controller.

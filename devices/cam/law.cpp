@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::devices {
 namespace {
 
@@ -321,5 +323,17 @@ CamMotion at(const CamLaw& law, std::size_t piece, double master) {
 CamMotion at(const CamLaw& law, double master) {
   return law.pieces.empty() ? CamMotion{} : at(law, piece_at(law, master), master);
 }
+
+void CamRamp::visit(StateArchive& archive) {
+  STATE(archive, from, start, length, position, v0, v1, excess, cycloidal);
+}
+void Arc::visit(StateArchive& archive) {
+  STATE(archive, radius, centre_x, centre_y, start_angle, sweep, sense, length);
+}
+void CamArc::visit(StateArchive& archive) { STATE(archive, arc, axis); }
+void CamTransition::visit(StateArchive& archive) { STATE(archive, r0, r1, shape); }
+void CamPolynomial::visit(StateArchive& archive) { STATE(archive, c); }
+void CamPiece::visit(StateArchive& archive) { STATE(archive, master, length, slave, row, law); }
+void CamLaw::visit(StateArchive& archive) { STATE(archive, pieces, master_length, slave_length, even); }
 
 }  // namespace drycut::devices
