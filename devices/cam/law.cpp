@@ -330,5 +330,10 @@ void CamRamp::visit(StateArchive& archive) {
 void Arc::visit(StateArchive& archive) {
   STATE(archive, radius, centre_x, centre_y, start_angle, sweep, sense, length);
 }
+void CamArc::visit(StateArchive& archive) { STATE(archive, arc, axis); }
+void CamTransition::visit(StateArchive& archive) { STATE(archive, r0, r1, shape); }
+void CamPolynomial::visit(StateArchive& archive) { STATE(archive, c); }
+void CamPiece::visit(StateArchive& archive) { STATE(archive, master, length, slave, row, law); }
+void CamLaw::visit(StateArchive& archive) { STATE(archive, pieces, master_length, slave_length, even); }
 
 }  // namespace drycut::devices

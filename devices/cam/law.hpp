@@ -72,6 +72,8 @@ CamMotion at(const Arc& arc, ArcAxis axis, double m, double um_per_turn);
 struct CamArc {
   Arc arc;
   ArcAxis axis = ArcAxis::x;
+
+  void visit(StateArchive& archive);
 };
 
 /// How a ratio goes over from the one end of a piece to the other, u = 0..1 (LX3VP, 003 6.3).
@@ -89,12 +91,15 @@ struct CamTransition {
   Transition shape = Transition::constant;
 
   [[nodiscard]] bool is_curved() const { return shape != Transition::constant; }
+  void visit(StateArchive& archive);
 };
 
 /// y = sum c[k] u^k, u = 0..1 over the piece (MC_CamIn, 004 "table_fkt_type"). One without coefficients holds
 /// the slave where it is.
 struct CamPolynomial {
   std::array<double, 6> c{};
+
+  void visit(StateArchive& archive);
 };
 /// At u over a piece of this length.
 CamMotion at(const CamPolynomial& polynomial, double u, double length);
@@ -117,6 +122,7 @@ struct CamPiece {
   [[nodiscard]] CamExtremes extremes(CamOrder order) const;
   /// Largest absolute value.
   [[nodiscard]] double peak(CamOrder order) const;
+  void visit(StateArchive& archive);
 };
 
 /// The law of a piece that has such a one.
@@ -131,6 +137,8 @@ struct CamLaw {
   double master_length = 0;      ///< of the cycle
   double slave_length = 0;       ///< how far on the slave is in the next one; negative backwards
   bool even = false;             ///< polynomials of one length each, from master 0
+
+  void visit(StateArchive& archive);
 };
 /// Place of the piece that holds `master`, 0..master_length; a boundary belongs to the piece that it begins.
 std::size_t piece_at(const CamLaw& law, double master);

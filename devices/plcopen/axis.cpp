@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 #include "devices/axis/regulator.hpp"
 
@@ -210,6 +211,29 @@ Position Axis::position_of(std::int64_t counts) const {
   }
   return advanced({static_cast<std::int64_t>(turns), static_cast<double>(rest) / static_cast<double>(per)},
                   home_offset_, modulo());
+}
+
+void DriveInputs::visit(StateArchive& archive) {
+  STATE(archive, counts, ready, emergency_stop, probe_counts, probe_edges);
+}
+void DriveOutputs::visit(StateArchive& archive) { STATE(archive, reference, enable); }
+void AxisControl::visit(StateArchive& archive) { STATE(archive, feed_enable, feed_hold, override_percent); }
+void CouplingLink::visit(StateArchive& archive) {
+  STATE(archive, master, actual_values, table, revision, locks_table, own_copy, endless, interpolation);
+}
+void CommandState::visit(StateArchive& archive) { STATE(archive, progress, error); }
+void WaitingCommand::visit(StateArchive& archive) { STATE(archive, ticket, mode, request); }
+void AxisRemark::visit(StateArchive& archive) { STATE(archive, event, text); }
+void Axis::Overlay::visit(StateArchive& archive) { STATE(archive, profile, time, ticket); }
+void Axis::Ended::visit(StateArchive& archive) { STATE(archive, ticket, state); }
+
+void Axis::visit(StateArchive& archive) {
+  STATE(archive, drive, control, parameters_, last_ticket_, ticket_, probe_ticket_, waiting_, ended_);
+  STATE(archive, remarks_, base_, set_, acceleration_before_, cycle_time_, actual_, home_offset_, home_to_);
+  STATE(archive, actual_velocity_, velocities_, profile_, profile_origin_, profile_time_, override_);
+  STATE(archive, program_override_, leftover_, limits_, target_, overlay_, overlay_sum_, coupling_, link_);
+  STATE(archive, profile_ends_, gear_dynamics_, error_, outputs_, state_, powered_, homed_, resetting_);
+  STATE(archive, done_, latched_, stop_held_, speed_cut_, profile_ended_);
 }
 
 }  // namespace drycut::devices::plcopen

@@ -21,17 +21,23 @@ struct DriveInputs {
   bool emergency_stop = false;    ///< seen over the drive interface; the drive still follows setpoints
   std::int64_t probe_counts = 0;  ///< of the encoder at the last rising edge of the probe
   std::uint32_t probe_edges = 0;  ///< rising edges of the probe so far
+
+  void visit(StateArchive& archive);
 };
 /// What the axis tells the drive, valid after each cycle.
 struct DriveOutputs {
   std::int16_t reference = 0;  ///< DAC word, -32767..32767 = -10..+10 V
   bool enable = false;
+
+  void visit(StateArchive& archive);
 };
 /// The operator's hand on the axis.
 struct AxisControl {
   bool feed_enable = true;
   bool feed_hold = false;
   double override_percent = 100;  ///< 0..100
+
+  void visit(StateArchive& archive);
 };
 
 /// How a slave hangs on its master.
@@ -44,6 +50,8 @@ struct CouplingLink {
   bool own_copy = false;  ///< changes of the table do not reach the coupling
   Endless endless = Endless::no;
   Interpolation interpolation = Interpolation::linear;
+
+  void visit(StateArchive& archive);
 };
 
 /// How far a command is. `failed` goes with the error that ended it.
@@ -51,6 +59,8 @@ enum class Progress : std::uint8_t { none, waiting, active, done, aborted, faile
 struct CommandState {
   Progress progress = Progress::none;
   ErrorId error = ErrorId::none;
+
+  void visit(StateArchive& archive);
 };
 
 /// A command that waits for its turn.
@@ -58,6 +68,8 @@ struct WaitingCommand {
   std::uint64_t ticket = 0;
   BufferMode mode = BufferMode::buffered;
   Request request = {};
+
+  void visit(StateArchive& archive);
 };
 /// Further ones are refused (44000). The kernel's own number is not published.
 inline constexpr std::size_t most_waiting = 8;
@@ -66,6 +78,8 @@ inline constexpr std::size_t most_waiting = 8;
 struct AxisRemark {
   std::string event;
   std::string text;
+
+  void visit(StateArchive& archive);
 };
 
 /// One axis: setpoints by the state diagram, actual values from counts, and the position controller that
@@ -184,17 +198,23 @@ class Axis {
   [[nodiscard]] bool has_remarks() const { return !remarks_.empty(); }
   std::vector<AxisRemark> take_remarks() { return std::exchange(remarks_, {}); }
 
+  void visit(StateArchive& archive);
+
  private:
   /// A superimposed movement.
   struct Overlay {
     JerkProfile profile = {};
     double time = 0;
     std::uint64_t ticket = 0;
+
+    void visit(StateArchive& archive);
   };
   /// How a command ended that is no longer in force.
   struct Ended {
     std::uint64_t ticket = 0;
     CommandState state = {};
+
+    void visit(StateArchive& archive);
   };
 
   [[nodiscard]] Position position_of(std::int64_t counts) const;
@@ -222,7 +242,7 @@ class Axis {
   void move_zero(double shift);
   void stand_on_actual();
 
-  std::string name_;
+  const std::string name_;
   AxisParameters parameters_;
   std::uint64_t last_ticket_ = 0;
   std::uint64_t ticket_ = 0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::devices::plcopen {
 namespace {
 
@@ -96,6 +98,11 @@ std::string_view unit_of(const AxisParameter& parameter, Measure measure) {
   const auto comma = parameter.unit.find(", ");
   if (comma == std::string_view::npos) return parameter.unit;
   return measure == Measure::length ? parameter.unit.substr(0, comma) : parameter.unit.substr(comma + 2);
+}
+
+void AxisParameters::visit(StateArchive& archive) {
+  for (const AxisParameter& parameter : parameter_rows)
+    std::visit([&](auto place) { archive.named(parameter.name, this->*place); }, parameter.member);
 }
 
 bool set_parameter(AxisParameters& parameters, const AxisParameter& parameter, double value) {

@@ -5,6 +5,10 @@
 #include <string_view>
 #include <variant>
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::devices::plcopen {
 
 /// Increments (0.1 um or 0.0001 deg) in the kernel's other units: speeds are given in um/s or 0.001 deg/s,
@@ -56,6 +60,9 @@ struct AxisParameters {
   double j_vel_sync = 1'000;
   bool keep_coupling_on_lr_error = false;
   bool keep_coupling_on_fe_drop = false;
+
+  /// They can be written while it runs.
+  void visit(StateArchive& archive);
 };
 
 /// One parameter of an axis: its face to programs, scenarios and `drycut devices`.

@@ -1,6 +1,6 @@
 #include "devices/plcopen/cam_table.hpp"
 
-#include "base/text.hpp"
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,9 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "base/state_archive.hpp"
+#include "base/text.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {
@@ -158,6 +161,12 @@ bool CamTables::busy(std::uint16_t id) const {
 std::uint64_t CamTables::revision(std::uint16_t id) const {
   const auto entry = entries_.find(id);
   return entry == entries_.end() ? 0 : entry->second.revision;
+}
+
+void CamTables::Entry::visit(StateArchive& archive) { STATE(archive, table.values, revision, changing); }
+
+void CamTables::visit(StateArchive& archive) {
+  for (auto& [id, entry] : entries_) archive.named(fmt::format("table{}", id), entry);
 }
 
 }  // namespace drycut::devices::plcopen

@@ -88,11 +88,16 @@ class CamTables {
   /// Counts up with every change of the table.
   [[nodiscard]] std::uint64_t revision(std::uint16_t id) const;
 
+  /// What has been written; tables come from their files.
+  void visit(StateArchive& archive);
+
  private:
   struct Entry {
     McCamTable table;
     std::uint64_t revision = 0;
     bool changing = false;
+
+    void visit(StateArchive& archive);
   };
   std::map<std::uint16_t, Entry> entries_;
 };
@@ -109,6 +114,8 @@ enum class Endless : std::int8_t { negative = -1, no = 0, positive = 1 };
 /// point comes after master 0, the end of the last row's piece is the first one, which begins below 0.
 struct CamCurve : CamLaw {
   std::int64_t turns = 0;  ///< of the slave in one turn of the master
+
+  void visit(StateArchive& archive);
 };
 
 /// The curve of a table that `check` finds sound. `slave_modulo`: 0 for a linear slave, whose cam cannot

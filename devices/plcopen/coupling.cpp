@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::devices::plcopen {
 namespace {
 
@@ -320,6 +322,24 @@ void Coupling::rebase_gear(const AxisMotion& master) {
   const auto turn = static_cast<std::int64_t>(slave_modulo_);
   gear_slave_.turns = plus(gear_slave_.turns, static_cast<std::int64_t>(way / turn));
   gear_slave_ = advanced(gear_slave_, static_cast<double>(way % turn), slave_modulo_);
+}
+
+void Position::visit(StateArchive& archive) { STATE(archive, turns, part); }
+void AxisMotion::visit(StateArchive& archive) { STATE(archive, position, velocity, acceleration); }
+void CamCurve::visit(StateArchive& archive) {
+  CamLaw::visit(archive);
+  STATE(archive, turns);
+}
+void CamFollow::visit(StateArchive& archive) {
+  STATE(archive, curve, master_scaling, slave_scaling, master_offset, slave_offset, periodic);
+}
+void GearFollow::visit(StateArchive& archive) { STATE(archive, numerator, denominator, master_modulo); }
+
+void Coupling::visit(StateArchive& archive) {
+  STATE(archive, law_, slave_modulo_, phase_, clamped_, by_acceleration_, time_, time_in_window_);
+  STATE(archive, offset_profile_, offset_time_, shifts_, shift_sum_, shift_profile_, shift_time_);
+  STATE(archive, first_cycle_, slave_turns_, last_cycle_, last_cycle_known_, pass_origin_, extra_pass_);
+  STATE(archive, profile_ends_, gear_master_, gear_slave_);
 }
 
 }  // namespace drycut::devices::plcopen

@@ -16,6 +16,8 @@ namespace drycut::devices::plcopen {
 struct Position {
   std::int64_t turns = 0;
   double part = 0;
+
+  void visit(StateArchive& archive);
 };
 
 /// `position` with `part` brought into 0..modulo.
@@ -58,6 +60,8 @@ struct MotionState {
   double position = 0;
   double velocity = 0;
   double acceleration = 0;
+
+  void visit(StateArchive& archive);
 };
 
 /// Bounds of a motion, each above 0 [inc/s, inc/s2, inc/s2, inc/s3].
@@ -66,6 +70,8 @@ struct JerkLimits {
   double acceleration = 0;  ///< while the speed grows
   double deceleration = 0;  ///< while it falls
   double jerk = 0;
+
+  void visit(StateArchive& archive);
 };
 
 /// Phases of constant jerk from `start`; after them the motion goes on as `end` moves, without acceleration.
@@ -73,12 +79,16 @@ struct JerkProfile {
   struct Phase {
     double duration = 0;  ///< [s]
     double jerk = 0;
+
+    void visit(StateArchive& archive);
   };
   std::array<Phase, 7> phases{};
   int count = 0;
   double duration = 0;  ///< of all phases [s]
   MotionState start;
   MotionState end;  ///< exact, not the rounded sum of the phases
+
+  void visit(StateArchive& archive);
 };
 
 /// `state` after `time` [s] of constant jerk.
@@ -111,6 +121,8 @@ struct AxisMotion {
   Position position;
   double velocity = 0;
   double acceleration = 0;
+
+  void visit(StateArchive& archive);
 };
 
 /// What bounds the ramp-in [inc, s]; from the slave's cam_gear parameters.
@@ -136,6 +148,8 @@ struct CamFollow {
   double master_offset = 0;
   double slave_offset = 0;
   bool periodic = true;
+
+  void visit(StateArchive& archive);
 };
 
 /// The slave moves numerator/denominator times as far as the master, from wherever both are at engagement.
@@ -143,6 +157,8 @@ struct GearFollow {
   std::int64_t numerator = 1;
   std::int64_t denominator = 1;
   double master_modulo = 0;
+
+  void visit(StateArchive& archive);
 };
 
 enum class CouplingPhase : std::uint8_t {
@@ -157,6 +173,8 @@ enum class CouplingOutcome : std::uint8_t { follows, timed_out, pass_complete };
 
 class Coupling {
  public:
+  /// For a state to be put into it.
+  Coupling() = default;
   Coupling(std::variant<CamFollow, GearFollow> law, double slave_modulo)
       : law_(std::move(law)), slave_modulo_(slave_modulo) {}
 
@@ -196,6 +214,8 @@ class Coupling {
   [[nodiscard]] std::int64_t profile_ends() const { return profile_ends_; }
   [[nodiscard]] const CamFollow* cam() const { return std::get_if<CamFollow>(&law_); }
   [[nodiscard]] bool running_pass() const { return engaged() && cam() != nullptr && !cam()->periodic; }
+
+  void visit(StateArchive& archive);
 
  private:
   struct Target {

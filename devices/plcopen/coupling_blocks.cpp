@@ -1,3 +1,4 @@
+#include "base/state_archive.hpp"
 #include "devices/plcopen/function_blocks.hpp"
 
 namespace drycut::devices::plcopen {
@@ -101,6 +102,21 @@ void CamTableWrite::call(MotionKernel& kernel) {
   if (Error || change_error_ == ErrorId::none) return;
   Error = true;
   ErrorID = static_cast<std::uint32_t>(change_error_);
+}
+
+void McCamIn::visit(StateArchive& archive) {
+  ExecutedBlock::visit(archive);
+  STATE(archive, ends_seen_);
+}
+
+void McPhasing::visit(StateArchive& archive) {
+  ExecutedBlock::visit(archive);
+  STATE(archive, shift_);
+}
+
+void CamTableWrite::visit(StateArchive& archive) {
+  ExecutedBlock::visit(archive);
+  STATE(archive, change_edge_, change_error_, changed_);
 }
 
 }  // namespace drycut::devices::plcopen

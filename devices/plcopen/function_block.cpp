@@ -1,3 +1,4 @@
+#include "base/state_archive.hpp"
 #include "devices/plcopen/function_blocks.hpp"
 
 namespace drycut::devices::plcopen {
@@ -72,6 +73,15 @@ void AxisReading::call(MotionKernel& kernel) {
   show_error(Enable ? error : ErrorId::none);
   Valid = Busy = Enable && !Error;
   read(Valid ? axis : nullptr);
+}
+
+void FunctionBlock::visit(StateArchive& archive) { STATE(archive, about); }
+
+void Edge::visit(StateArchive& archive) { STATE(archive, last_); }
+
+void ExecutedBlock::visit(StateArchive& archive) {
+  FunctionBlock::visit(archive);
+  STATE(archive, edge_, ticket_, progress_, shown_, holds_);
 }
 
 }  // namespace drycut::devices::plcopen

@@ -15,6 +15,7 @@ class Edge {
     last_ = level;
     return edge;
   }
+  void visit(StateArchive& archive);
 
  private:
   bool last_ = false;
@@ -47,6 +48,8 @@ struct ExecutedBlock : FunctionBlock {
   bool CommandAborted = false;
   bool Error = false;
   std::uint32_t ErrorID = 0;
+
+  void visit(StateArchive& archive) override;
 
  protected:
   /// Takes an order given at an edge: the outputs of the last one are gone.
@@ -120,6 +123,7 @@ struct AxisReading : EnabledBlock {
 struct McPower final : EnabledBlock {
   bool Status = false;
   void call(MotionKernel& kernel) override;
+  void visit(StateArchive& archive) override;
 
  private:
   bool last_ = false;
@@ -335,6 +339,7 @@ struct McTouchProbe final : ExecutedBlock {
   double LastPosition = 0;
   double RecordedPosition = 0;
   void call(MotionKernel& kernel) override;
+  void visit(StateArchive& archive) override;
 
  private:
   [[nodiscard]] ErrorId check(const plcopen::Axis* axis) const;
@@ -378,6 +383,7 @@ struct McCamIn final : ExecutedBlock, CoupledPins {
   bool InSync = false;
   bool EndOfProfile = false;
   void call(MotionKernel& kernel) override;
+  void visit(StateArchive& archive) override;
 
  private:
   std::int64_t ends_seen_ = 0;
@@ -405,6 +411,7 @@ struct McPhasing final : ExecutedBlock, CoupledPins, SlopePins {
   double PhaseShift = 0;
   double Velocity = 0;
   void call(MotionKernel& kernel) override;
+  void visit(StateArchive& archive) override;
 
  private:
   std::uint64_t shift_ = 0;  ///< number of this block's shift
@@ -420,6 +427,7 @@ struct CamTableWrite final : ExecutedBlock {
   double Value = 0;
   bool Changing = false;
   void call(MotionKernel& kernel) override;
+  void visit(StateArchive& archive) override;
 
  private:
   void change(MotionKernel& kernel);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::devices::plcopen {
 namespace {
 
@@ -198,5 +200,10 @@ std::optional<JerkProfile> to_position(const MotionState& state, double position
   profile.end = {position, backward ? 0 - built.now.velocity : built.now.velocity, 0};
   return profile;
 }
+
+void MotionState::visit(StateArchive& archive) { STATE(archive, position, velocity, acceleration); }
+void JerkLimits::visit(StateArchive& archive) { STATE(archive, velocity, acceleration, deceleration, jerk); }
+void JerkProfile::Phase::visit(StateArchive& archive) { STATE(archive, duration, jerk); }
+void JerkProfile::visit(StateArchive& archive) { STATE(archive, phases, count, duration, start, end); }
 
 }  // namespace drycut::devices::plcopen

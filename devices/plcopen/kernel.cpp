@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/state_archive.hpp"
 #include "base/text.hpp"
 
 namespace drycut::devices::plcopen {
@@ -313,6 +314,11 @@ void MotionKernel::cycle() {
   moved_.assign(axes_.size(), false);
   for (std::size_t i = 0; i < axes_.size(); ++i) set_points(i);
   for (Axis& axis : axes_) axis.regulate();
+}
+
+void MotionKernel::visit(StateArchive& archive) {
+  for (Axis& axis : axes_) archive.named(axis.name(), axis);
+  STATE(archive, tables_);
 }
 
 }  // namespace drycut::devices::plcopen

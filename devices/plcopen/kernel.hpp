@@ -47,6 +47,8 @@ class MotionKernel {
   /// One cycle: actual values, setpoints (masters before slaves), position controllers.
   void cycle();
 
+  void visit(StateArchive& archive);
+
  private:
   [[nodiscard]] bool locked(std::uint16_t table) const;
   [[nodiscard]] bool follows(const Axis& slave, const Axis& master) const;

@@ -1,3 +1,4 @@
+#include "base/state_archive.hpp"
 #include "devices/plcopen/function_blocks.hpp"
 
 namespace drycut::devices::plcopen {
@@ -51,6 +52,11 @@ void McSetOverride::call(MotionKernel& kernel) {
   if (Enable) error = axis == nullptr ? ErrorId::no_such_axis : axis->set_override(VelFactor);
   show_error(error);
   Enabled = Busy = Enable && !Error;
+}
+
+void McPower::visit(StateArchive& archive) {
+  EnabledBlock::visit(archive);
+  STATE(archive, last_);
 }
 
 }  // namespace drycut::devices::plcopen

@@ -46,6 +46,9 @@ class FunctionBlock {
   /// Reads the inputs, gives and watches the command, writes the outputs.
   virtual void call(MotionKernel& kernel) = 0;
 
+  /// What it keeps from call to call, its pins apart.
+  virtual void visit(StateArchive& archive);
+
   /// The axis that an error of the last call is about.
   AxisRef about;
 };

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/state_archive.hpp"
 #include "devices/plcopen/axis.hpp"
 
 namespace drycut::devices::plcopen {
@@ -117,6 +118,11 @@ ErrorId McAbortTrigger::answer(MotionKernel& /*kernel*/, plcopen::Axis* axis) {
   const ErrorId error = check_probe(axis, TriggerInput);
   if (error == ErrorId::none) axis->take_probe();
   return error;
+}
+
+void McTouchProbe::visit(StateArchive& archive) {
+  ExecutedBlock::visit(archive);
+  STATE(archive, edges_);
 }
 
 }  // namespace drycut::devices::plcopen

@@ -74,6 +74,7 @@ inline constexpr double pin_max = 2147483647;
 struct AxisRef {
   int number = -1;
   bool operator==(const AxisRef&) const = default;
+  void visit(StateArchive& archive);
 };
 
 /// Speed and slopes of a command in the units of the blocks' pins: um/s or 0.001 deg/s, mm/s2, mm/s3 or
@@ -83,6 +84,8 @@ struct Dynamics {
   double acceleration = 0;
   double deceleration = 0;
   double jerk = 0;
+
+  void visit(StateArchive& archive);
 };
 
 /// What becomes of a command: taken, with the ticket by which its block asks on, or refused.
@@ -114,6 +117,8 @@ struct MoveRequest {
   double way = 0;                            ///< Position, or Distance
   Dynamics dynamics;
   Direction direction = Direction::shortest_way;
+
+  void visit(StateArchive& archive);
 };
 
 /// Inputs of MC_CamIn, without its edge.
@@ -127,6 +132,8 @@ struct CamInRequest {
   std::uint32_t start_mode = 0;
   std::uint16_t table = 0;
   std::uint32_t interpolation = static_cast<std::uint32_t>(Interpolation::table_defined);
+
+  void visit(StateArchive& archive);
 };
 
 /// Inputs of MC_GearIn.
@@ -137,6 +144,8 @@ struct GearInRequest {
   std::uint32_t denominator = 1;
   Dynamics dynamics;
   std::uint32_t mode = 0;
+
+  void visit(StateArchive& archive);
 };
 inline constexpr std::uint32_t gear_on_actual_values = 0x80;
 

@@ -1,3 +1,4 @@
+#include "base/state_archive.hpp"
 #include "devices/plcopen/requests.hpp"
 
 namespace drycut::devices::plcopen {
@@ -68,6 +69,17 @@ CommandVerdict judge(AxisState from, Command command) {
       return if_allowed(from == AxisState::errorstop, AxisState::standstill);
   }
   return refused;
+}
+
+void AxisRef::visit(StateArchive& archive) { STATE(archive, number); }
+void Dynamics::visit(StateArchive& archive) { STATE(archive, velocity, acceleration, deceleration, jerk); }
+void MoveRequest::visit(StateArchive& archive) { STATE(archive, command, way, dynamics, direction); }
+void CamInRequest::visit(StateArchive& archive) {
+  STATE(archive, master, slave, master_offset, slave_offset, master_scaling, slave_scaling, start_mode);
+  STATE(archive, table, interpolation);
+}
+void GearInRequest::visit(StateArchive& archive) {
+  STATE(archive, master, slave, numerator, denominator, dynamics, mode);
 }
 
 }  // namespace drycut::devices::plcopen

@@ -6,6 +6,7 @@
 #include <array>
 #include <cassert>
 
+#include "base/state_archive.hpp"
 #include "base/text.hpp"
 
 namespace drycut::devices::plcopen {
@@ -191,7 +192,8 @@ std::string PlcopenController::terminal_name(const Address& address) const {
 }
 
 std::vector<Controller::Period> PlcopenController::periods() const {
-  std::vector<Period> periods{{"cycle", configuration_.cycle_ns, true}, {"task_cycle", configuration_.task_ns}};
+  std::vector<Period> periods{{"cycle", configuration_.cycle_ns, true},
+                              {"task_cycle", configuration_.task_ns}};
   for (const auto& task : configuration_.tasks.empty() ? program_.tasks() : configuration_.tasks)
     if (task.interval_ns > 0) periods.push_back({"task " + task.name, task.interval_ns});
   return periods;
@@ -260,10 +262,11 @@ void PlcopenController::give_located() {
 void PlcopenController::tell_overrun(const st::TaskRun& run) {
   const std::int64_t next_ns = run.due_ns + run.interval_ns;
   if (run.interval_ns == 0 || run.ended_ns <= next_ns) {
-    late_.erase(run.task);
+    std::erase(late_, run.task);
     return;
   }
-  if (!late_.insert(run.task).second) return;
+  if (std::find(late_.begin(), late_.end(), run.task) != late_.end()) return;
+  late_.push_back(run.task);
   constexpr double ns_per_ms = 1e6;
   const auto ms = [](std::int64_t ns) { return static_cast<double>(ns) / ns_per_ms; };
   events_.push_back(
@@ -375,6 +378,20 @@ void PlcopenController::tell_blocks() {
   fault_told_ = true;
   events_.push_back(
       {"program", "error", fmt::format("{}:{}:{}: {}", file_, fault->line, fault->column, fault->text)});
+}
+
+void PlcopenController::AxisPlugs::visit(StateArchive& archive) {
+  STATE(archive, counts_at_power_up, in_errorstop);
+}
+
+void PlcopenController::ErrorPins::visit(StateArchive& archive) { STATE(archive, seen, commanded); }
+
+void PlcopenController::visit(StateArchive& archive) {
+  STATE(archive, cards_, kernel_, plugs_, runtime_, blocks_, events_, cycle_, next_task_ns_, computing_);
+  STATE(archive, late_, powered_, power_up_due_, fault_told_);
+  // What the next power-up gives to the axes.
+  for (AxisConfiguration& axis : configuration_.axes)
+    archive.named(fmt::format("kept_{}", axis.name), axis.parameters);
 }
 
 }  // namespace drycut::devices::plcopen

@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -61,6 +60,7 @@ class PlcopenController : public Controller {
   void run_tasks(std::int64_t time_ns) override;
   void interrupt(int line, bool rising) override;
   void power(bool on) override;
+  void visit(StateArchive& archive) override;
 
   /// Values by name, any case: variables and pins of the program (`state`, `CamIn.InSync`), values of axes
   /// (axis_value_table: `Knife.actual_position`), their parameters in the kernel's units
@@ -105,6 +105,8 @@ class PlcopenController : public Controller {
     const DigitalInput* feed_hold = nullptr;
     std::int64_t counts_at_power_up = 0;
     bool in_errorstop = false;
+
+    void visit(StateArchive& archive);
   };
   /// A block of the program with Error and ErrorID pins.
   struct ErrorPins {
@@ -114,6 +116,8 @@ class PlcopenController : public Controller {
     bool seen = false;
     std::optional<std::size_t> command = {};  ///< Execute or Enable
     bool commanded = false;                   ///< it has been TRUE
+
+    void visit(StateArchive& archive);
   };
 
   void add_axes();
@@ -160,7 +164,7 @@ class PlcopenController : public Controller {
   Due cycle_{configuration_.cycle_ns};
   std::int64_t next_task_ns_ = 0;
   std::optional<st::TaskRun> computing_;  ///< a task whose outputs are to come
-  std::set<std::string> late_;            ///< tasks that overran the last time they ran
+  std::vector<std::string> late_;         ///< tasks that overran the last time they ran
   bool powered_ = true;
   MemoryFace modbus_{powered_};
   bool power_up_due_ = true;

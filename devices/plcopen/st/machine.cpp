@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/state_archive.hpp"
 #include "base/text.hpp"
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/code.hpp"
@@ -436,6 +437,25 @@ void Machine::call_motion(std::int64_t instance) {
     if (pin.section != VarClass::output) continue;
     if (const auto cell = cell_of_pin(motion.pins[i])) at(instance + pin.offset) = *cell;
   }
+}
+
+void Machine::Motion::visit(StateArchive& archive) {
+  // Inputs are given before each call, and no output is a CamRef.
+  for (std::size_t i = 0; i < pins.size(); ++i)
+    if (const Variable& pin = type->members[i]; pin.section == VarClass::output)
+      std::visit(
+          [&](auto* value) {
+            if constexpr (!std::is_same_v<decltype(value), CamRef*>) archive.named(pin.name, *value);
+          },
+          pins[i]);
+  block->visit(archive);
+}
+
+void Machine::visit(StateArchive& archive) {
+  STATE(archive, memory_);
+  if (memory_.size() != code_.image.size()) throw BadState("the memory of another program");
+  for (std::size_t i = 0; i < motions_.size(); ++i)
+    archive.named(fmt::format("{}_{}", motions_[i].type->name, i), motions_[i]);
 }
 
 }  // namespace drycut::devices::plcopen::st

@@ -49,12 +49,17 @@ class Machine {
   [[nodiscard]] const FunctionBlock* motion_at(int place) const;
   void set_cell(int place, Cell value) { memory_[static_cast<std::size_t>(place)] = value; }
 
+  /// Between two runs.
+  void visit(StateArchive& archive);
+
  private:
   enum class Flow : std::uint8_t { next, leave_loop, next_turn, leave_pou };
   struct Motion {
     std::unique_ptr<FunctionBlock> block;
     std::vector<PinValue> pins;
     const Type* type = nullptr;
+
+    void visit(StateArchive& archive);
   };
 
   [[nodiscard]] const Node& node(int number) const { return code_.nodes[static_cast<std::size_t>(number)]; }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/state_archive.hpp"
 #include "base/text.hpp"
 #include "devices/due.hpp"
 #include "devices/plcopen/st/code.hpp"
@@ -24,6 +25,8 @@ struct ScheduledTask {
   int single = -1;
   bool last = false;  ///< of SINGLE
   std::vector<std::size_t> programs = {};
+
+  void visit(StateArchive& archive) { STATE(archive, due, last); }
 };
 
 /// The tasks by their priorities, the controller's own last.
@@ -219,5 +222,14 @@ void Runtime::set_located(std::size_t i, bool level) {
   state_->machine.set_cell(state_->program.compiled().located_cells.at(i), level ? 1 : 0);
 }
 const std::optional<RuntimeFault>& Runtime::fault() const { return state_->fault; }
+
+void RuntimeFault::visit(StateArchive& archive) { STATE(archive, line, column, text); }
+void TaskRun::visit(StateArchive& archive) { STATE(archive, task, due_ns, begun_ns, ended_ns, interval_ns); }
+
+void Runtime::visit(StateArchive& archive) {
+  for (ScheduledTask& task : state_->tasks) archive.named(task.name, task);
+  archive("machine, free_ns, fault", state_->machine, state_->free_ns, state_->fault);
+  if (archive.restores()) watch(state_->watched);
+}
 
 }  // namespace drycut::devices::plcopen::st

@@ -29,6 +29,8 @@ struct RuntimeFault {
   int line = 0;
   int column = 0;
   std::string text;
+
+  void visit(StateArchive& archive);
 };
 
 /// When the programs run.
@@ -47,6 +49,8 @@ struct TaskRun {
   std::int64_t begun_ns = 0;     ///< later than due where others were at work
   std::int64_t ended_ns = 0;     ///< its outputs are there
   std::int64_t interval_ns = 0;  ///< 0: it runs by its SINGLE
+
+  void visit(StateArchive& archive);
 };
 
 /// Programs in a controller: their variables and function blocks, and their scans.
@@ -93,6 +97,9 @@ class Runtime {
   [[nodiscard]] int line_at(std::int64_t into_ns) const;
   /// Set: the program stands until the next cold start.
   [[nodiscard]] const std::optional<RuntimeFault>& fault() const;
+
+  /// What was watched is forgotten: it is of another moment.
+  void visit(StateArchive& archive);
 
  private:
   struct State;
