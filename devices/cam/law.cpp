@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/state_archive.hpp"
+#include "devices/cam/table.hpp"
 
 namespace drycut::devices {
 namespace {
@@ -324,6 +325,7 @@ CamMotion at(const CamLaw& law, double master) {
   return law.pieces.empty() ? CamMotion{} : at(law, piece_at(law, master), master);
 }
 
+void CamTravel::visit(StateArchive& archive) { STATE(archive, least, most); }
 void CamRamp::visit(StateArchive& archive) {
   STATE(archive, from, start, length, position, v0, v1, excess, cycloidal);
 }

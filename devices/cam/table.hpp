@@ -4,6 +4,10 @@
 #include <string_view>
 #include <utility>
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::devices {
 
 /// From where to where the slave's machine lets it go, in its unit, from the place where the cam counts 0.
@@ -14,18 +18,23 @@ struct CamTravel {
 
   [[nodiscard]] bool is_given() const { return least || most; }
   bool operator==(const CamTravel&) const = default;
+  void visit(StateArchive& archive);
 };
 
 /// A cam with all that its law needs, as a controller holds it or a file gives it. What it consists of is the
-/// business of its kind: a copyable and comparable type with its name in `kind`.
+/// business of its kind: a copyable and comparable type with its name in `kind` and a visit of all that it
+/// holds.
 struct CamTable {
   CamTable() = default;
   template <typename Table>
   requires requires { Table::kind; }
   CamTable(Table table)
-      : kind_(Table::kind), table_(std::move(table)), same_([](const std::any& a, const std::any& b) {
+      : kind_(Table::kind),
+        table_(std::move(table)),
+        same_([](const std::any& a, const std::any& b) {
           return std::any_cast<const Table&>(a) == std::any_cast<const Table&>(b);
-        }) {}
+        }),
+        visit_([](std::any& table, StateArchive& archive) { std::any_cast<Table&>(table).visit(archive); }) {}
 
   /// As `drycut cam --device` has it; "" of no table.
   [[nodiscard]] std::string_view kind() const { return kind_; }
@@ -38,6 +47,10 @@ struct CamTable {
   [[nodiscard]] Table& as() {
     return std::any_cast<Table&>(table_);
   }
+  /// All that it holds, of a table that has its kind already.
+  void visit(StateArchive& archive) {
+    if (visit_ != nullptr) visit_(table_, archive);
+  }
   bool operator==(const CamTable& other) const {
     return kind_ == other.kind_ && (same_ == nullptr || same_(table_, other.table_));
   }
@@ -46,6 +59,7 @@ struct CamTable {
   std::string_view kind_;
   std::any table_;
   bool (*same_)(const std::any&, const std::any&) = nullptr;
+  void (*visit_)(std::any&, StateArchive&) = nullptr;
 };
 
 }  // namespace drycut::devices

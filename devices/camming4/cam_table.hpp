@@ -36,6 +36,7 @@ struct CamSectors {
     return number >= 1 && number <= cam_rows && sector(number).line > 0;
   }
   [[nodiscard]] int count() const;
+  void visit(StateArchive& archive);
   bool operator==(const CamSectors&) const = default;
 };
 

@@ -1,6 +1,7 @@
 // The cam of a CAMMING4 as a simulation compares it with its law.
 #include <algorithm>
 
+#include "base/state_archive.hpp"
 #include "devices/axis/position.hpp"
 #include "devices/camming4/cam_table.hpp"
 #include "devices/camming4/camming4.hpp"
@@ -44,6 +45,11 @@ std::shared_ptr<const devices::CamTable> Camming4::cam_table() const {
     table.tdecmax = value("tdecmax");
   }
   return std::make_shared<const devices::CamTable>(std::move(table));
+}
+
+void CamSectors::visit(StateArchive& archive) {
+  STATE(archive, file, settings, unitvel, maxvel, taccmax, tdecmax, TCamp, travel);
+  archive.each("sectors", sectors, [&](Sector& sector) { STATE(archive, sector.row, sector.line); });
 }
 
 int CamSectors::count() const {

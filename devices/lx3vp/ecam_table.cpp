@@ -2,6 +2,7 @@
 
 #include <tuple>
 
+#include "base/state_archive.hpp"
 #include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp {
@@ -16,6 +17,11 @@ void EcamTable::complete() {
   } else if (!max_ratio) {
     max_ratio = static_cast<double>(saw.max_ratio);
   }
+}
+
+void EcamTable::visit(StateArchive& archive) {
+  STATE(archive, file, max_frequency, time_axis, max_ratio, travel, cyclic, rows, lines, type, saw, s_curve);
+  if (archive.restores()) complete();
 }
 
 bool operator==(const EcamTable& a, const EcamTable& b) {

@@ -34,6 +34,7 @@ struct EcamTable {
   /// Fills in what follows from the rest: made and its rows, the largest ratio, the time axis of an S-curve,
   /// the largest frequency.
   void complete();
+  void visit(StateArchive& archive);
   /// By what is given.
   friend bool operator==(const EcamTable& a, const EcamTable& b);
 };

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/state_archive.hpp"
 #include "devices/plcopen/tab_file.hpp"
 
 // Cams as files of their own: CSV, and what comments say of the axes.
@@ -299,6 +300,12 @@ std::optional<CamFile> parse_cam_csv(std::string_view text, const std::string& f
                                     meaning_of(refusal.error)),
                         refusal.remedy});
   return refused.empty() ? std::move(cam) : std::nullopt;
+}
+
+void CamFile::visit(StateArchive& archive) {
+  STATE(archive, table.file, table.name, table.id, table.type, table.interpolation, table.values,
+        table.places, interpolation, endless, master_modulo, master_modulo_given, slave_modulo, periodic,
+        master_unit, slave_unit, limits.velocity, limits.acceleration, limits.jerk, limits.travel, header);
 }
 
 }  // namespace drycut::devices::plcopen

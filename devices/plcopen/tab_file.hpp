@@ -72,6 +72,7 @@ struct CamFile {
   CamFileLimits limits;
   int header = 1;  ///< line of the header, or of the first row's columns
   bool operator==(const CamFile&) const = default;
+  void visit(StateArchive& archive);
 };
 
 /// A key of a cam file's comments, `# key: value`.

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "base/state_archive.hpp"
 #include "devices/cam/table.hpp"
 #include "devices/lx3vp/ecam_table.hpp"
 
@@ -16,6 +17,7 @@ struct PaperCam {
   static constexpr std::string_view kind = "paper";
   int teeth = 0;
   bool operator==(const PaperCam&) const = default;
+  void visit(StateArchive& archive) { STATE(archive, teeth); }
 };
 
 TEST(CamTable, HoldsAKindThatNobodyKnows) {
