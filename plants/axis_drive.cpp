@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/problem.hpp"
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 #include "plants/axis_objections.hpp"
 
@@ -128,12 +129,12 @@ bool AxisDrive::live() const {
 }
 
 // Contacts that open while the drive gives current burn; those that close onto its voltage let it jump.
-void AxisDrive::switch_over(Shaft& rotor, double h) {
-  const auto now = changeover_.update(rotor, h);
+void AxisDrive::switch_over(double h) {
+  const int now = changeover_.update(h);
   if (now != connected_ && live()) {
-    if (connected_.rotor != nullptr)
+    if (connected_ != Changeover::nothing)
       switched_.push_back({"switched_live", 0, {{"torque", drive_torque(), "N m"}, {"closed", 0, ""}}});
-    if (now.rotor != nullptr)
+    if (now != Changeover::nothing)
       switched_.push_back({"switched_live", 0, {{"torque", 0, "N m"}, {"closed", 1, ""}}});
   }
   connected_ = now;
@@ -152,10 +153,13 @@ PowerStage::Step AxisDrive::given() const {
 void AxisDrive::drive(Shaft& rotor, double h) {
   if (data_.brake.torque > 0) brake_.account(rotor, h);
   const bool shared = changeover_.shared();
-  if (shared) switch_over(rotor, h);
-  SharedMotor* const other = connected_.motor;
-  Shaft& fed = other != nullptr ? *connected_.rotor : rotor;
-  const Feed feed{shared && connected_.rotor == nullptr, other != nullptr ? &other->power() : nullptr};
+  const int before = connected_;
+  if (shared) switch_over(h);
+  SharedMotor* const other = changeover_.other(connected_);
+  const SharedMotor* const other_before = changeover_.other(before);
+  Shaft& fed = changeover_.rotor(connected_, rotor);
+  const Feed feed{shared && connected_ == Changeover::nothing, &changeover_.rotor(before, rotor),
+                  other_before != nullptr ? &other_before->power() : nullptr};
   bool tripped = false;
   moves_ = std::visit(Overloaded{[&](ServoDrive& servo) {
                                    servo.drive(fed, h, feed);
@@ -190,7 +194,7 @@ void AxisDrive::drive(Shaft& rotor, double h) {
 }
 
 double AxisDrive::torque() const {
-  if (connected_.motor != nullptr) return 0;
+  if (connected_ > Changeover::own) return 0;
   return drive_torque();
 }
 
@@ -276,6 +280,13 @@ void AxisDrive::offer_events(std::vector<EventType>& types) {
                    "or the load drives it away from there; speed of the motor and slip then",
                    Severity::error});
   PowerStage::offer_events(types);
+}
+
+void AxisDrive::visit(StateArchive& archive) {
+  std::visit([&archive](auto& drive) { archive.named("drive_", drive); }, drive_);
+  STATE(archive, brake_, changeover_, connected_, moves_, tripped_, just_tripped_, against_brake_,
+        just_against_brake_);
+  if (archive.restores()) switched_.clear();
 }
 
 Parameters axis_drive_parameters(AxisDriveData& data, const AxisDriveSources& from) {

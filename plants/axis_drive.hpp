@@ -81,18 +81,21 @@ class AxisDrive {
   void offer_faults(std::vector<Fault>& faults);
   static void offer_events(std::vector<EventType>& types);
 
+  /// Between two steps, as its events have been taken.
+  void visit(StateArchive& archive);
+
  private:
   [[nodiscard]] double rated_torque() const;
   [[nodiscard]] double drive_torque() const;
   [[nodiscard]] PowerStage::Step given() const;
   [[nodiscard]] bool live() const;
-  void switch_over(Shaft& rotor, double h);
+  void switch_over(double h);
 
-  AxisDriveData data_;
+  const AxisDriveData data_;
   std::variant<ServoDrive, Inverter, ContactorDrive, SharedMotor> drive_;
   HoldingBrake brake_;
   Changeover changeover_;
-  Changeover::Connected connected_;  // in the last step
+  int connected_ = Changeover::nothing;  // in the last step
   bool moves_ = false;
   bool tripped_ = false;
   bool just_tripped_ = false;

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 namespace {
@@ -87,6 +89,10 @@ void AxisTransducers::offer_faults(std::vector<Fault>& faults) {
   home_.offer_faults(faults, "home");
   limit_min_.offer_faults(faults, "limit_min");
   limit_max_.offer_faults(faults, "limit_max");
+}
+
+void AxisTransducers::visit(StateArchive& archive) {
+  STATE(archive, encoder_, scale_, scale_index_, home_, limit_min_, limit_max_);
 }
 
 Parameters axis_transducer_parameters(AxisTransducersData& data, const AxisTransducersSources& from) {

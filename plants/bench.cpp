@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 void Bench::CounterInput::sense(double h) {
@@ -37,6 +39,12 @@ void Bench::sense(double h) {
     input.port.add_edge(input.shown, 0);
   }
 }
+
+void Bench::CounterInput::visit(StateArchive& archive) {
+  STATE(archive, port, index, position, rate, pulses_wanted, pulses);
+}
+void Bench::DigitalInput::visit(StateArchive& archive) { STATE(archive, port, shown); }
+void Bench::visit(StateArchive& archive) { STATE(archive, counters_, inputs_, outputs_, analogue_); }
 
 std::vector<Port> Bench::ports() {
   std::vector<Port> ports;

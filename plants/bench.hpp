@@ -19,6 +19,7 @@ class Bench : public Plant {
 
   void drive(double h) override { (void)h; }
   void sense(double h) override;
+  void visit(StateArchive& archive) override;
   std::vector<Port> ports() override;
   std::vector<Channel> channels() override;
   std::vector<Setting> settings() override;
@@ -33,10 +34,12 @@ class Bench : public Plant {
     int pulses = 0;
     void sense(double h);
     void set_count(double count);
+    void visit(StateArchive& archive);
   };
   struct DigitalInput {
     SignalPort port;
     bool shown = false;  // level for which an edge was given
+    void visit(StateArchive& archive);
   };
   std::array<CounterInput, counters> counters_;
   std::array<DigitalInput, digital> inputs_;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 // Contacts in order, the drive's own first. A coil has voltage while all others are open.
-Changeover::Connected Changeover::update(Shaft& own_rotor, double h) {
+int Changeover::update(double h) {
   const bool selected = std::any_of(motors_.begin(), motors_.end(),
                                     [](const Motor& other) { return other.motor->select.level; });
   const auto others_closed = [&](const SharedMotor* but) {
@@ -17,10 +19,10 @@ Changeover::Connected Changeover::update(Shaft& own_rotor, double h) {
   own_.update(!selected && !others_closed(nullptr), h);
   for (const Motor& one : motors_)
     one.motor->contact().update(one.motor->select.level && !own_.closed() && !others_closed(one.motor), h);
-  if (own_.closed()) return {&own_rotor, nullptr};
-  for (const Motor& one : motors_)
-    if (one.motor->contact().closed()) return {one.rotor, one.motor};
-  return {};
+  if (own_.closed()) return own;
+  for (std::size_t i = 0; i < motors_.size(); ++i)
+    if (motors_[i].motor->contact().closed()) return static_cast<int>(i) + 1;
+  return nothing;
 }
 
 bool Changeover::take_trip() {
@@ -42,6 +44,10 @@ void Changeover::offer_channels(std::vector<Channel>& channels) const {
 void Changeover::offer_faults(std::vector<Fault>& faults) {
   if (shared()) own_.offer_faults(faults, "shared");
 }
+
+void SharedMotor::visit(StateArchive& archive) { STATE(archive, select, power_, contact_, given_, last_); }
+
+void Changeover::visit(StateArchive& archive) { STATE(archive, own_); }
 
 Parameters shared_drive_parameters(SharedDriveData& data, std::string_view type) {
   return {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,10 +37,7 @@ class SharedMotor {
     last_ = given_;
     given_ = {};
   }
-  void give(const PowerStage::Step& step) {
-    given_ = step;
-    given_.motor = nullptr;
-  }
+  void give(const PowerStage::Step& step) { given_ = step; }
   [[nodiscard]] double torque() const { return last_.torque; }  ///< on the rotor [N m]
   /// It is connected to a drive that is on.
   [[nodiscard]] bool moving() const { return last_.energised; }
@@ -47,6 +45,8 @@ class SharedMotor {
   [[nodiscard]] const DelayedContact& contact() const { return contact_; }
   [[nodiscard]] PowerStage& power() { return power_; }
   [[nodiscard]] const PowerStage& power() const { return power_; }
+
+  void visit(StateArchive& archive);
 
  private:
   PowerStage power_;
@@ -66,13 +66,19 @@ class Changeover {
   void add(SharedMotor& motor, Shaft& rotor) { motors_.push_back({&motor, &rotor}); }
   [[nodiscard]] bool shared() const { return !motors_.empty(); }
 
-  struct Connected {
-    Shaft* rotor = nullptr;        ///< null: nothing
-    SharedMotor* motor = nullptr;  ///< null: the drive's own
-    bool operator==(const Connected&) const = default;
-  };
-  /// What is connected in the coming step of `h` seconds.
-  Connected update(Shaft& own_rotor, double h);
+  // What is connected: nothing, the drive's own motor, or the n-th other one.
+  static constexpr int nothing = -1;
+  static constexpr int own = 0;
+  /// That in the coming step of `h` seconds.
+  int update(double h);
+  /// The other motor that is connected, null where none is.
+  [[nodiscard]] SharedMotor* other(int connected) const {
+    return connected > own ? motors_[static_cast<std::size_t>(connected) - 1].motor : nullptr;
+  }
+  /// Its rotor, else the drive's own.
+  [[nodiscard]] Shaft& rotor(int connected, Shaft& own_rotor) const {
+    return connected > own ? *motors_[static_cast<std::size_t>(connected) - 1].rotor : own_rotor;
+  }
   [[nodiscard]] bool own_closed() const { return own_.closed(); }
   /// Another motor's sensor has told of an overload.
   bool take_trip();
@@ -80,6 +86,8 @@ class Changeover {
   // What it adds to a plant's lists, where the drive is shared.
   void offer_channels(std::vector<Channel>& channels) const;
   void offer_faults(std::vector<Fault>& faults);
+
+  void visit(StateArchive& archive);
 
  private:
   struct Motor {

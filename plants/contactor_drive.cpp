@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 ContactorDrive::ContactorDrive(const ContactorData& data, const InductionMotorData& motor,
@@ -54,6 +56,11 @@ void ContactorDrive::offer_faults(std::vector<Fault>& faults) {
   forward_contact_.offer_faults(faults, "drive.forward");
   backward_contact_.offer_faults(faults, "drive.backward");
   slow_contact_.offer_faults(faults, "drive.slow");
+}
+
+void ContactorDrive::visit(StateArchive& archive) {
+  STATE(archive, forward, backward, slow, power_, last_, forward_contact_, backward_contact_, slow_contact_,
+        fast_contact_, random_, state_, field_, slip_, torque_, phase_lost_, pullout_);
 }
 
 Parameters contactor_parameters(ContactorData& data) {

@@ -57,12 +57,14 @@ class ContactorDrive {
   [[nodiscard]] PowerStage& power() { return power_; }  ///< the electrical side
   [[nodiscard]] const PowerStage& power() const { return power_; }
 
+  void visit(StateArchive& archive);
+
  private:
   PowerStage power_;
   PowerStage::Step last_;
-  Winding fast_;
-  Winding slow_winding_;
-  double mains_;  // [Hz]
+  const Winding fast_;
+  const Winding slow_winding_;
+  const double mains_;  // [Hz]
   DelayedContact forward_contact_;
   DelayedContact backward_contact_;
   DelayedContact slow_contact_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 namespace {
@@ -59,6 +61,7 @@ Cutter::Cutter(const CutterData& data, const Shaft& drum)
       lag_(helix_lag(data.radius, data.helix, data.width)),
       touch_(engagement_angle(closing_, data.thickness)),
       engagement_(touch_ + lag_ / 2),
+      coupling_(data.coupling),
       theta_(nearest_blade(drum)),
       engaged_(std::abs(theta_) < engagement_),
       direction_(theta_ <= 0 ? 1 : -1),
@@ -114,7 +117,7 @@ void Cutter::push_by_helix(const Shaft& drum, const Slide& web, Load& load) cons
     const double share = (to - from) / lag_;
     const double arm = along_ * (std::sin(to) - std::sin(from)) / (to - from);
     const double mismatch = drum.speed * arm - web.speed;
-    const double force = share * std::clamp(data_.coupling * mismatch, -data_.grip, most);
+    const double force = share * std::clamp(coupling_ * mismatch, -data_.grip, most);
     load.web_force += force;
     load.torque -= force * arm;
   };
@@ -139,7 +142,7 @@ Cutter::Load Cutter::load(const Shaft& drum, const Slide& web) {
   const double mismatch = drum.speed * along_ * cosine - web.speed;
   // Once the piece is off, the web can only run up against the blade; the blade no longer pulls it.
   if (separated_ && mismatch > 0) return load;
-  load.web_force = std::clamp(data_.coupling * mismatch, -data_.grip, data_.grip);
+  load.web_force = std::clamp(coupling_ * mismatch, -data_.grip, data_.grip);
   load.torque = -load.web_force * along_ * cosine;
   return load;
 }
@@ -219,6 +222,11 @@ Cutter::Outcome Cutter::sense(const Shaft& drum, const Slide& web, double h) {
   if (!separated_) follow(drum, web, before, h, outcome);
   farthest_ = std::max(farthest_, lead());
   return outcome;
+}
+
+void Cutter::visit(StateArchive& archive) {
+  STATE(archive, coupling_, theta_, engaged_, separated_, failed_, direction_, deepest_, farthest_,
+        first_mark_, middle_mark_, largest_mismatch_, largest_force_, mismatch_, force_);
 }
 
 }  // namespace drycut::plants

@@ -71,7 +71,7 @@ class Cutter {
   [[nodiscard]] Load load(const Shaft& drum, const Slide& web);
 
   /// Another coupling from now on [N s/m].
-  void couple(double coupling) { data_.coupling = coupling; }
+  void couple(double coupling) { coupling_ = coupling; }
 
   /// What happened in the last step.
   struct Outcome {
@@ -99,6 +99,8 @@ class Cutter {
   /// helical blade that goes with the web begins at the negative end.
   [[nodiscard]] double place() const;
 
+  void visit(StateArchive& archive);
+
  private:
   [[nodiscard]] double nearest_blade(const Shaft& drum) const;
   // Of the leading end of a helical blade, whichever it is, counted up while it cuts [rad].
@@ -111,12 +113,13 @@ class Cutter {
   void enter(const Shaft& drum, const Slide& web, double before);
   void follow(const Shaft& drum, const Slide& web, double before, double h, Outcome& outcome);
 
-  CutterData data_;
-  double closing_;     // radius in heights and depths [m]
-  double along_;       // radius in speeds along the web [m]
-  double lag_;         // of a helical blade [rad]
-  double touch_;       // angle at which a point of it touches the web [rad]
-  double engagement_;  // angle at which the whole blade has left it [rad]
+  const CutterData data_;
+  const double closing_;     // radius in heights and depths [m]
+  const double along_;       // radius in speeds along the web [m]
+  const double lag_;         // of a helical blade [rad]
+  const double touch_;       // angle at which a point of it touches the web [rad]
+  const double engagement_;  // angle at which the whole blade has left it [rad]
+  double coupling_;          // [N s/m]
   double theta_;
   bool engaged_;
   bool separated_ = false;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 namespace {
@@ -58,6 +60,11 @@ void DcLink::offer_faults(std::vector<Fault>& faults) {
       fault_value("mains", "dip", "%", dip_, "so much of the mains' voltage is missing", in_percent));
   faults.push_back(fault_state("mains", "phase_lost", phase_lost_, "1: two phases of the mains are left"));
   faults.push_back(fault_state("mains", "outage", outage_, "1: the mains are gone"));
+}
+
+void DcLink::visit(StateArchive& archive) {
+  STATE(archive, energy_, mains_, burnt_, mains_power_, resistor_power_, load_, time_, braking_, dip_,
+        phase_lost_, outage_);
 }
 
 Parameters supply_parameters(SupplyData& data) {

@@ -42,10 +42,12 @@ class DelayedContact {
         fault_state(component, "stuck_off", stuck_off_, "1: coil or wire broken, the contact stays open"));
   }
 
+  void visit(StateArchive& archive);
+
  private:
-  double close_delay_;
-  double open_delay_;
-  double scatter_;
+  const double close_delay_;
+  const double open_delay_;
+  const double scatter_;
   bool command_ = false;
   bool follows_ = false;
   double remaining_ = 0;  // until the contact follows [s]

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 namespace {
@@ -75,5 +77,7 @@ double ElasticStrip::travel_at(double distance) const {
   const double share = std::clamp((high - distance) / (high - low), 0.0, 1.0);
   return from.position + (to.position - from.position) * share;
 }
+
+void ElasticStrip::visit(StateArchive& archive) { STATE(archive, tension_, puller_tension_, loop_); }
 
 }  // namespace drycut::plants

@@ -62,11 +62,13 @@ class ElasticStrip {
   /// Material in the loops of both spans [m].
   [[nodiscard]] double loop() const { return loop_; }
 
+  void visit(StateArchive& archive);
+
  private:
   [[nodiscard]] double pull(const Slide& from, const Slide& to, double stiffness, double damping);
 
-  ElasticStripData data_;
-  StripSprings springs_;
+  const ElasticStripData data_;
+  const StripSprings springs_;
   World& world_;
   Slide& puller_;
   Slide& wheel_;

@@ -1,4 +1,5 @@
 #include "base/problem.hpp"
+#include "base/state_archive.hpp"
 #include "plants/transducers.hpp"
 
 #include <fmt/format.h>
@@ -105,6 +106,13 @@ void PulseLine::offer_faults(std::vector<Fault>& faults, const std::string& comp
                                "how long the next burst lasts; 10 ms at first", {0, 60000, false}));
 }
 
+void PulseLine::FalseCount::visit(StateArchive& archive) { STATE(archive, time, count); }
+
+void PulseLine::visit(StateArchive& archive) {
+  STATE(archive, port, random_, gain_, anchor_, base_, last_, forward_, stuck_, reverse_, jitter_,
+        jitter_now_, noisy_, burst_time_, clock_, burst_);
+}
+
 void put_index(SignalPort& index, double turns_before, double turns, double count_before, double count,
                double count_per_turn, double width) {
   if (between_same_wholes(turns_before, turns)) return;
@@ -152,6 +160,8 @@ void Encoder::sense(const Shaft& shaft, double h) {
   index.edges.clear();
   if (!pulses.stuck()) put_index(index, from, to, before, now, bits_per_turn_, data_.index_width);
 }
+
+void Encoder::visit(StateArchive& archive) { STATE(archive, pulses, index); }
 
 Parameters encoder_error_parameters(EncoderData& data) {
   return {

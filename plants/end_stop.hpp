@@ -69,13 +69,15 @@ class EndStop {
   /// How deep a slide at `position` is in it, < 0 outside [m].
   [[nodiscard]] double depth(double position) const { return side_ * (position - position_); }
 
+  void visit(StateArchive& archive);
+
  private:
   // Dry friction that brings a slide to rest leaves a rounding of its speed [m/s].
   static constexpr double standstill = 1e-12;
 
-  EndStopData data_;
-  double position_;
-  double side_;
+  const EndStopData data_;
+  const double position_;
+  const double side_;
   double force_ = 0;
   bool touched_ = false;
   bool compressing_ = false;

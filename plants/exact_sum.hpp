@@ -1,5 +1,9 @@
 #pragma once
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::plants {
 
 /// What rounding took away from `sum`, the rounded a + b (two-sum of Knuth).
@@ -19,6 +23,8 @@ class ExactSum {
     high_ = sum;
   }
   [[nodiscard]] double value() const { return high_ + low_; }
+
+  void visit(StateArchive& archive);
 
  private:
   double high_;

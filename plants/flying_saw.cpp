@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 
 namespace drycut::plants {
@@ -154,6 +155,14 @@ void FlyingSaw::report(const SawCut::Outcome& outcome) {
   happened(std::move(cut));
   for (MachineEvent& scrap : station_.take_events()) happened(std::move(scrap));
   hold_ = {.on = true};
+}
+
+void FlyingSaw::Crash::visit(StateArchive& archive) { STATE(archive, impulse, time, touched, reported); }
+void FlyingSaw::Hold::visit(StateArchive& archive) { STATE(archive, on, mismatch, slip); }
+
+void FlyingSaw::visit(StateArchive& archive) {
+  STATE(archive, station_, screw_, servo_, outer_force_, crashes_, clamp_, head_, cut_, hold_, cuts_,
+        last_slant_, last_pinch_);
 }
 
 std::vector<DriveOfPlant> FlyingSaw::drives() { return servo_.drives(load_inertia(data_)); }

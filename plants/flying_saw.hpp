@@ -65,6 +65,7 @@ class FlyingSaw : public Plant, public TellsMotorLoad {
 
   void drive(double h) override;
   void sense(double h) override;
+  void visit(StateArchive& archive) override;
   std::vector<Port> ports() override;
   [[nodiscard]] std::optional<PlugScale> scale_of(std::string_view port) const override;
   std::vector<Channel> channels() override;
@@ -92,12 +93,14 @@ class FlyingSaw : public Plant, public TellsMotorLoad {
     double time = 0;     // [s]
     bool touched = false;
     bool reported = false;
+    void visit(StateArchive& archive);
   };
   /// What clamps and blade have done with the material since one of them took hold of it.
   struct Hold {
     bool on = false;
     double mismatch = 0;  // largest difference of speed [m/s]
     double slip = 0;      // largest of the clamps [m]
+    void visit(StateArchive& archive);
   };
   void watch(const EndStop& stop, Crash& crash);
   void hold(const Slide& material, bool was_engaged);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 namespace {
@@ -77,6 +79,11 @@ SawCut::Outcome SawCut::sense(const Slide& head, const Slide& carriage, const Sl
     outcome.time = time_ - (1 - outcome.fraction) * h;
   }
   return outcome;
+}
+
+void SawCut::visit(StateArchive& archive) {
+  STATE(archive, engaged_, separated_, pinched_, mark_, displacement_, given_, deepest_, time_, resistance_,
+        force_, sideways_, largest_pinch_, largest_force_);
 }
 
 Parameters saw_blade_parameters(SawBladeData& data) {

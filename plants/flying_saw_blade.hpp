@@ -61,13 +61,15 @@ class SawCut {
   /// Way of the blade on the material since the touch, 0 outside [m].
   [[nodiscard]] double displacement() const { return engaged_ ? displacement_ : 0; }
 
+  void visit(StateArchive& archive);
+
  private:
   void enter(double fraction, const Slide& carriage, const Slide& material, double h);
 
-  SawBladeData blade_;
-  Section section_;
-  double clearance_;
-  double height_;
+  const SawBladeData blade_;
+  const Section section_;
+  const double clearance_;
+  const double height_;
   bool engaged_ = false;
   bool separated_ = false;
   bool pinched_ = false;

@@ -1,5 +1,7 @@
 #include "plants/flying_saw_clamp.hpp"
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 void Clamp::move_jaws(double h) {
@@ -38,6 +40,10 @@ void Clamp::offer_faults(std::vector<Fault>& faults, const std::string& componen
   faults.push_back(fault_value(component, "force_loss", "%", lost_,
                                "share of the clamping force that is missing: a leak, oil on the jaws",
                                in_percent));
+}
+
+void Clamp::visit(StateArchive& archive) {
+  STATE(archive, command, closed, stroke_, closed_, gripped_, let_go_, friction_, slip_, lost_);
 }
 
 Parameters clamp_parameters(ClampData& data) {

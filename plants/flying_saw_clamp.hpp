@@ -45,10 +45,12 @@ class Clamp {
   /// force_loss under the component name `component`.
   void offer_faults(std::vector<Fault>& faults, const std::string& component);
 
+  void visit(StateArchive& archive);
+
  private:
   void move_jaws(double h);
 
-  ClampData data_;
+  const ClampData data_;
   double stroke_ = 0;  // of the jaws: 0 open .. 1 at the material
   bool closed_ = false;
   bool gripped_ = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 #include "plants/lag.hpp"
 
@@ -90,6 +91,11 @@ void SawHead::offer_faults(std::vector<Fault>& faults) {
                                "share of the cylinder's force that is missing, both ways", in_percent));
   up_.offer_faults(faults, "head.up");
   down_.offer_faults(faults, "head.down");
+}
+
+void SawHead::visit(StateArchive& archive) {
+  STATE(archive, plunge, upper_, lower_, up_, down_, valve_down_, valve_waiting_, force_, pressure_loss_,
+        blade_turn_);
 }
 
 Parameters saw_head_parameters(SawHeadData& data) {

@@ -58,10 +58,12 @@ class SawHead {
   void offer_channels(std::vector<Channel>& channels) const;
   void offer_faults(std::vector<Fault>& faults);
 
+  void visit(StateArchive& archive);
+
  private:
   void valve(double h);
 
-  SawHeadData data_;
+  const SawHeadData data_;
   Slide& body_;
   EndStop upper_;
   EndStop lower_;

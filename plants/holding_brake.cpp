@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 
 namespace drycut::plants {
@@ -44,6 +45,11 @@ void HoldingBrake::offer_faults(std::vector<Fault>& faults) {
   faults.push_back(fault_state("brake", "stuck_closed", stuck_closed_, "1: it does not release any more"));
   faults.push_back(
       fault_value("brake", "worn", "", worn_, "this share of its torque is lost", {0, 1, false}));
+}
+
+void HoldingBrake::visit(StateArchive& archive) {
+  STATE(archive, release, contact_, random_, holds_, stuck_open_, stuck_closed_, worn_, applied_, held_,
+        energy_, last_energy_, engagements_);
 }
 
 Parameters holding_brake_parameters(HoldingBrakeData& data, std::string_view torque_from) {

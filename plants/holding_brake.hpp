@@ -54,8 +54,10 @@ class HoldingBrake {
   void offer_channels(std::vector<Channel>& channels) const;
   void offer_faults(std::vector<Fault>& faults);
 
+  void visit(StateArchive& archive);
+
  private:
-  HoldingBrakeData data_;
+  const HoldingBrakeData data_;
   DelayedContact contact_;  // closed = released
   Random random_;
   bool holds_ = true;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/problem.hpp"
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 
 namespace drycut::plants {
@@ -31,6 +32,10 @@ void IdealAxis::sense(double h) {
               direction * before, direction * now, direction * counts_per_pitch);
   for (PositionSwitch& s : switches_)
     s.sense(data_.start + before * data_.resolution, data_.start + now * data_.resolution, h);
+}
+
+void IdealAxis::visit(StateArchive& archive) {
+  STATE(archive, reference_, speed_, travel_, pulses_, index_, switches_);
 }
 
 std::vector<Port> IdealAxis::ports() {

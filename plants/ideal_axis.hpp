@@ -24,13 +24,14 @@ class IdealAxis : public Plant {
 
   void drive(double h) override { (void)h; }
   void sense(double h) override;
+  void visit(StateArchive& archive) override;
   std::vector<Port> ports() override;
   [[nodiscard]] std::optional<PlugScale> scale_of(std::string_view port) const override;
   std::vector<Channel> channels() override;
   std::vector<Fault> faults() override;
 
  private:
-  IdealAxisData data_;
+  const IdealAxisData data_;
   ReferencePort reference_;
   double speed_ = 0;  // [m/s]
   ExactSum travel_;   // since the start [bits x4]

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 namespace {
@@ -56,6 +58,8 @@ DriveRatings ratings(const InductionMotorData& data, double peak) {
           .max_speed = data.max_speed,
           .works_at_limit = true};
 }
+
+void PulloutWatch::visit(StateArchive& archive) { STATE(archive, wanted_, least_, no_nearer_, told_); }
 
 Parameters winding_parameters(WindingData& data, std::string_view source) {
   return {

@@ -96,6 +96,8 @@ class PulloutWatch {
     return told_ = true;
   }
 
+  void visit(StateArchive& archive);
+
  private:
   static constexpr double away = 5;      // [rad/s]
   static constexpr double soon = 50e-3;  // [s] that the load drives it away

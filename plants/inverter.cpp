@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 namespace {
@@ -77,8 +79,7 @@ void Inverter::advance(int direction, double h) {
 }
 
 void Inverter::drive(Shaft& rotor, double h, const Feed& feed) {
-  power_.account(last_, turned_ != nullptr ? *turned_ : rotor, h);
-  turned_ = &rotor;
+  power_.account(last_, feed.turned != nullptr ? *feed.turned : rotor, h, feed.other);
   const int forwards = forward_filter_.update(forward.level, h) ? 1 : 0;
   const int backwards = backward_filter_.update(backward.level, h) ? 1 : 0;
   slow_filter_.update(slow.level, h);
@@ -112,7 +113,6 @@ void Inverter::drive(Shaft& rotor, double h, const Feed& feed) {
       last_ = {torque_, -torque_ * rotor.speed, 0, true};
     }
   }
-  last_.motor = feed.motor;
   rotor.add_torque(torque_);
   if (pullout_.update(limited_, target_, rotor.speed, h)) power_.pulled_out(rotor.speed, slip_);
 }
@@ -139,6 +139,12 @@ void Inverter::offer_faults(std::vector<Fault>& faults) {
   forward_filter_.offer_faults(faults, "drive.forward");
   backward_filter_.offer_faults(faults, "drive.backward");
   slow_filter_.offer_faults(faults, "drive.slow");
+}
+
+void Inverter::visit(StateArchive& archive) {
+  STATE(archive, forward, backward, slow, power_, last_, forward_filter_, backward_filter_, slow_filter_,
+        state_, remaining_, field_, slip_, torque_, limit_slip_, target_, pullout_, limited_, live_, trip_,
+        phase_lost_);
 }
 
 Parameters inverter_parameters(InverterData& data) {

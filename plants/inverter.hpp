@@ -68,17 +68,18 @@ class Inverter {
   [[nodiscard]] PowerStage& power() { return power_; }  ///< the electrical side
   [[nodiscard]] const PowerStage& power() const { return power_; }
 
+  void visit(StateArchive& archive);
+
  private:
   void advance(int direction, double h);
   void ramp(double target, double h);
 
-  InverterData data_;
+  const InverterData data_;
   PowerStage power_;
   PowerStage::Step last_;
-  const Shaft* turned_ = nullptr;  // in the last step
-  Winding winding_;
-  double speed_per_hertz_;  // of the field [rad/s/Hz]
-  double rated_field_;      // [rad/s]
+  const Winding winding_;
+  const double speed_per_hertz_;  // of the field [rad/s/Hz]
+  const double rated_field_;      // [rad/s]
   DelayedContact forward_filter_;
   DelayedContact backward_filter_;
   DelayedContact slow_filter_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 LineDrive::LineDrive(const LineDriveData& data)
@@ -18,5 +20,7 @@ void LineDrive::drive(Slide& web, double h) {
                       data_.max_force);
   web.add_force(force_);
 }
+
+void LineDrive::visit(StateArchive& archive) { STATE(archive, set_speed_, roll_speed_, draw_, force_); }
 
 }  // namespace drycut::plants

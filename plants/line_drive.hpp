@@ -30,6 +30,9 @@ class LineDrive {
   /// Acts on the web for the coming step of `h` seconds.
   void drive(Slide& web, double h);
 
+  /// But the data, which whoever gives them keeps.
+  void visit(StateArchive& archive);
+
  private:
   LineDriveData data_;
   double set_speed_;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 
 namespace drycut::plants {
@@ -39,6 +40,8 @@ void LinearAxis::sense(double h) {
   for (MachineEvent& event : drive_.take_events(rotor())) happened(std::move(event));
   if (tool_.level && data_.tool == "pen") draw_ink();
 }
+
+void LinearAxis::visit(StateArchive& archive) { STATE(archive, screw_, drive_, outer_force_, tool_, ink_); }
 
 Parameters LinearAxis::live_parameters() { return live_rows(linear_axis_parameters(data_)); }
 

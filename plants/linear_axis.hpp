@@ -49,6 +49,7 @@ class LinearAxis : public Plant, public TellsMotorLoad {
 
   void drive(double h) override;
   void sense(double h) override;
+  void visit(StateArchive& archive) override;
   std::vector<Port> ports() override;
   [[nodiscard]] std::optional<PlugScale> scale_of(std::string_view port) const override;
   std::vector<Channel> channels() override;

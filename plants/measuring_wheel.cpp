@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/problem.hpp"
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 
 namespace drycut::plants {
@@ -68,6 +69,10 @@ void MeasuringWheel::offer_faults(std::vector<Fault>& faults, const std::string&
        {-100, 100, false},
        [this] { return data_.slip; }});
   pulses.offer_faults(faults, component);
+}
+
+void MeasuringWheel::visit(StateArchive& archive) {
+  STATE(archive, pulses, index, turns_per_metre_, anchor_, base_, travel_, revolutions_);
 }
 
 Parameters wheel_parameters(MeasuringWheelData& data) {

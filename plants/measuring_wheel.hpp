@@ -48,6 +48,8 @@ class MeasuringWheel {
   /// slip, and what PulseLine offers, under the component name `component`.
   void offer_faults(std::vector<Fault>& faults, const std::string& component);
 
+  void visit(StateArchive& archive);
+
  private:
   void set_slip(double share);
   // The integral of acceleration_slip * acceleration * speed since the start [m].
@@ -58,8 +60,8 @@ class MeasuringWheel {
   [[nodiscard]] double turned(double rolled) const;
   [[nodiscard]] double shown(double turns) const;
 
-  MeasuringWheelData data_;
-  double start_speed_;          // [m/s]
+  const MeasuringWheelData data_;
+  const double start_speed_;    // [m/s]
   double turns_per_metre_ = 0;  // with the slip of now
   double anchor_ = 0;           // travel where the slip changed last [m]
   double base_ = 0;             // turns there

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 MotorHeat::MotorHeat(const MotorHeatData& data, double cold_loss, double rotor_loss) {
@@ -32,6 +34,8 @@ double MotorHeat::cold_loss_for(double winding, double other) const {
   const double loss = (winding - ambient) / (to_housing_ + to_air_) - other;
   return std::max(0.0, loss / (1 + copper * (winding - reference)));
 }
+
+void MotorHeat::visit(StateArchive& archive) { STATE(archive, winding_, housing_); }
 
 Parameters motor_heat_parameters(MotorHeatData& data, std::string_view source) {
   return {

@@ -1,5 +1,7 @@
 #include "plants/motor_load.hpp"
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 void TellsMotorLoad::keep(const MotorLoad& load) {
@@ -13,5 +15,11 @@ void TellsMotorLoad::keep(const MotorLoad& load) {
                      static_cast<float>(load.friction), static_cast<float>(load.load),
                      static_cast<float>(load.gravity), static_cast<float>(load.speed)});
 }
+
+void TellsMotorLoad::Sample::visit(StateArchive& archive) {
+  STATE(archive, torque, acceleration, friction, load, gravity, speed);
+}
+void TellsMotorLoad::Kept::visit(StateArchive& archive) { STATE(archive, samples, left_out); }
+void TellsMotorLoad::visit_motor_loads(StateArchive& archive) { STATE(archive, kept_); }
 
 }  // namespace drycut::plants

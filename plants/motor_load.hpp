@@ -5,6 +5,10 @@
 #include <memory>
 #include <vector>
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::plants {
 
 /// Coulomb, static and viscous friction of a guided body; in N m and N m s/rad for a shaft, N and N s/m for a
@@ -76,10 +80,12 @@ class TellsMotorLoad {
     float load;
     float gravity;
     float speed;
+    void visit(StateArchive& archive);
   };
   struct Kept {
     std::vector<Sample> samples;
     std::size_t left_out = 0;  ///< earlier ones
+    void visit(StateArchive& archive);
   };
 
   virtual ~TellsMotorLoad() = default;
@@ -90,6 +96,8 @@ class TellsMotorLoad {
   void keep_motor_loads() { kept_ = std::make_unique<Kept>(); }
   /// A sample a step since the start; nullptr where nobody asked.
   [[nodiscard]] const Kept* motor_loads() const { return kept_.get(); }
+  /// What was kept: no part of the machine's state, megabytes for whoever writes a report after it.
+  void visit_motor_loads(StateArchive& archive);
 
  protected:
   TellsMotorLoad() = default;

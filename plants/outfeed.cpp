@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 
 namespace drycut::plants {
@@ -102,5 +103,9 @@ int Outfeed::on_belt() const {
   return static_cast<int>(
       std::count_if(pieces_.begin(), pieces_.end(), [](const Piece& p) { return p.body->awake; }));
 }
+
+void Outfeed::Piece::visit(StateArchive& archive) { STATE(archive, length, mark); }
+
+void Outfeed::visit(StateArchive& archive) { STATE(archive, pieces_, next_, belt_travel_); }
 
 }  // namespace drycut::plants

@@ -33,6 +33,8 @@ class Outfeed {
     Slide* body = nullptr;  ///< position of its middle [m]
     double length = 0;      ///< [m]
     double mark = 0;        ///< of its tail: travel of the web when that passed x = 0 [m]
+
+    void visit(StateArchive& archive);
   };
   /// What comes off.
   struct Cut {
@@ -55,16 +57,18 @@ class Outfeed {
   [[nodiscard]] const Piece* lying_at(double x) const;
   [[nodiscard]] const Piece& piece_of(const Slide& body) const;
 
+  void visit(StateArchive& archive);
+
  private:
   void make_pool(int size, bool slow);
   Piece& next(const Cut& cut, double speed);
 
-  OutfeedData data_;
+  const OutfeedData data_;
   World& world_;
-  double mass_per_metre_;
+  const double mass_per_metre_;
   std::vector<Piece> pieces_;
   std::size_t next_ = 0;
-  bool closely_ = false;
+  bool closely_ = false;  // since it was built
   double belt_travel_ = 0;
 };
 

@@ -200,6 +200,7 @@ struct EncoderPort {
   [[nodiscard]] std::int64_t count_at(double fraction) const {
     return static_cast<std::int64_t>(std::floor(before + (now - before) * fraction + 0.5));
   }
+  void visit(StateArchive& archive);
 };
 
 /// A signal that the plant gives: sensor, index pulse, in-position.
@@ -208,6 +209,7 @@ struct SignalPort {
     bool rising = false;
     double fraction = 0;  ///< when in the last step, 0..1
     double width = 0;     ///< of the zero pulse that begins here, in steps; 0 = as its falling edge says
+    void visit(StateArchive& archive);
   };
   bool level = false;       ///< at the end of the last step
   std::vector<Edge> edges;  ///< of the last step, in order of time
@@ -221,22 +223,26 @@ struct SignalPort {
     add_edge(now, fraction);
     return true;
   }
+  void visit(StateArchive& archive);
 };
 
 /// A signal that the plant takes: enable, forward, brake release.
 struct CommandPort {
   bool level = false;
+  void visit(StateArchive& archive);
 };
 
 /// An analogue reference that the plant takes [V].
 struct ReferencePort {
   double volts = 0;
+  void visit(StateArchive& archive);
 };
 
 /// A pulse train that the plant takes: pulses since the start, each one counted whatever its direction, which
 /// is a signal of its own as on the cable. Never decreases; the pulses of a step come evenly within it.
 struct PulsePort {
   std::int64_t pulses = 0;
+  void visit(StateArchive& archive);
 };
 
 class World;
@@ -404,8 +410,12 @@ class Plant {
   /// Updates transducers, cuts and events from what the bodies did in the last step of `h` seconds.
   virtual void sense(double h) = 0;
 
-  /// All that changes while it runs, but the bodies, which are the world's.
+  /// All that changes while it runs, but the bodies, which are the world's, and the live parameters. Between
+  /// two steps, as its events have been taken.
   virtual void visit(StateArchive& archive) = 0;
+  /// The same with the live parameters: what whoever keeps a state visits. Before the world, whose bodies
+  /// have the last word on their masses.
+  void visit_all(StateArchive& archive);
 
   // What it offers; asked once after construction. Pointers and functions stay valid as long as the plant.
   virtual std::vector<Port> ports() { return {}; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 PositionSwitch::PositionSwitch(const PositionSwitchData& data, double period, double start)
@@ -84,6 +86,10 @@ void PositionSwitch::offer_faults(std::vector<Fault>& faults, const std::string&
                       if (!stuck_) port.level = filtered_ && !dead_;
                     },
                     "1: wire broken, the signal is low"});
+}
+
+void PositionSwitch::visit(StateArchive& archive) {
+  STATE(archive, port, distance_, raw_, filtered_, pending_, remaining_, stuck_, dead_);
 }
 
 }  // namespace drycut::plants

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/problem.hpp"
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 
 namespace drycut::plants {
@@ -76,8 +77,8 @@ void PowerStage::prepare(double h) {
 }
 
 // Another motor has the torque: amplifier and link feel it, this motor stands still.
-void PowerStage::feed(const Step& step, double speed, double h) {
-  other_ = step.motor;
+void PowerStage::feed(const Step& step, const PowerStage& other, double speed, double h) {
+  elsewhere_resistance_ = other.heat_.resistance();
   elsewhere_.work += step.torque * speed * h;
   elsewhere_.torque_squared += step.torque * step.torque * h;
   elsewhere_.rotor_loss += step.rotor_loss * h;
@@ -115,14 +116,14 @@ void PowerStage::settle(double h) {
   double fed = squared;
   double energy = sum_.work + copper;
   bool energised_at_all = energised > 0;
-  if (other_ != nullptr) {
+  if (elsewhere_resistance_ > 0) {
     const double lost = elsewhere_.rotor_loss / seconds;
     const double theirs =
         amperes_squared(current_, elsewhere_.torque_squared / seconds, lost, elsewhere_.energised / seconds);
     fed += theirs;
-    energy += elsewhere_.work + (current_.resistance * theirs * other_->heat_.resistance() + lost) * seconds;
+    energy += elsewhere_.work + (current_.resistance * theirs * elsewhere_resistance_ + lost) * seconds;
     energised_at_all = energised_at_all || elsewhere_.energised > 0;
-    other_ = nullptr;
+    elsewhere_resistance_ = 0;
     elsewhere_ = {};
   }
   if (amplifier_) i2t_ += (fed / (amplifier_->current * amplifier_->current) - i2t_) * i2t_share_;
@@ -191,6 +192,29 @@ void PowerStage::clear_edges() {
   ready.edges.clear();
   mains_ok.edges.clear();
   edge_ = false;
+}
+
+void DriveTotals::visit(StateArchive& archive) {
+  STATE(archive, time, work, copper, rotor_loss, from_mains, in_resistor, torque_squared, current_squared,
+        fed_squared, travel, saturated);
+}
+
+void DrivePeaks::visit(StateArchive& archive) { STATE(archive, torque, speed, share, voltage, i2t, winding); }
+
+void PowerStage::Step::visit(StateArchive& archive) { STATE(archive, torque, rotor_loss, asked, energised); }
+
+void PowerStage::Sum::visit(StateArchive& archive) {
+  STATE(archive, work, torque_squared, travel, rotor_loss, energised);
+}
+
+void PowerStage::Saturation::visit(StateArchive& archive) { STATE(archive, on, begin, end, asked); }
+
+void PowerStage::visit(StateArchive& archive) {
+  if (link_) archive.named("link_", *link_);
+  STATE(archive, ready, mains_ok, heat_, every_, steps_, h_, i2t_share_, sum_, elsewhere_,
+        elsewhere_resistance_, totals_, without_mains_, peaks_, torque_, speed_, i2t_, loss_, speed_share_,
+        tripped_, armed_, edge_, saturation_);
+  if (archive.restores()) events_.clear();
 }
 
 void PowerStage::offer_ports(std::vector<Port>& ports, const std::string& drive) {

@@ -47,6 +47,8 @@ class MotorHeat {
   /// The inverse: loss in the cold winding that ends at `winding` [K], at least 0.
   [[nodiscard]] double cold_loss_for(double winding, double other) const;
 
+  void visit(StateArchive& archive);
+
  private:
   double to_housing_;  // thermal resistance [K/W]
   double to_air_;
@@ -104,15 +106,17 @@ class DcLink {
   /// dip, phase_lost and outage of the mains, under the component name "mains". 0 clears each.
   void offer_faults(std::vector<Fault>& faults);
 
+  void visit(StateArchive& archive);
+
  private:
   [[nodiscard]] double rectified(double time) const;  // energy up to which the mains fill the link [J]
 
-  SupplyData data_;
-  double nominal_;  // energies at the voltages of the data [J]
-  double brake_on_;
-  double brake_off_;
-  double over_;
-  double under_;
+  const SupplyData data_;
+  const double nominal_;  // energies at the voltages of the data [J]
+  const double brake_on_;
+  const double brake_off_;
+  const double over_;
+  const double under_;
   double energy_;
   double mains_ = 0;
   double burnt_ = 0;
@@ -168,6 +172,8 @@ struct DriveTotals {
   [[nodiscard]] DriveTotals operator+(const DriveTotals& more) const { return combined(more, 1); }
   [[nodiscard]] DriveTotals operator-(const DriveTotals& less) const { return combined(less, -1); }
 
+  void visit(StateArchive& archive);
+
  private:
   [[nodiscard]] DriveTotals combined(const DriveTotals& other, double sign) const;
 };
@@ -180,14 +186,18 @@ struct DrivePeaks {
   double voltage = 0;  ///< of the link [V]
   double i2t = 0;      ///< of the amplifier, 1 = it trips
   double winding = 0;  ///< temperature [K]
+
+  void visit(StateArchive& archive);
 };
 
 class PowerStage;
 
-/// What the contactors between a drive and its motors connect.
+/// How contactors between a drive and several motors stand.
 struct Feed {
-  bool open = false;            ///< nothing: the drive gives no current
-  PowerStage* motor = nullptr;  ///< another motor of the same type, by its own stage; null = the drive's own
+  bool open = false;  ///< they connect nothing: the drive gives no current
+  // In the last step:
+  const Shaft* turned = nullptr;      ///< what turned; null = the rotor of now
+  const PowerStage* other = nullptr;  ///< whose it was, see PowerStage::account
 };
 
 /// The electrical side of a drive: current, loss and heat of its motor, the amplifier's I2t, DC link, brake
@@ -206,14 +216,16 @@ class PowerStage {
     double rotor_loss = 0;  ///< of an induction motor [W]
     double asked = 0;       ///< torque over what the limit let through, at most 1 where it let all through
     bool energised = false;
-    const PowerStage* motor = nullptr;  ///< whose torque it was, see Feed
+
+    void visit(StateArchive& archive);
   };
-  /// Accounts for the last step of `h` seconds.
-  void account(const Step& step, const Shaft& rotor, double h) {
+  /// Accounts for the last step of `h` seconds. `other`: whose torque it was, another motor of the same type,
+  /// by its own stage.
+  void account(const Step& step, const Shaft& rotor, double h, const PowerStage* other = nullptr) {
     if (edge_) clear_edges();
     const double speed = 0.5 * (rotor.speed_before + rotor.speed);
-    if (step.motor != nullptr) {
-      feed(step, speed, h);
+    if (other != nullptr) {
+      feed(step, *other, speed, h);
     } else {
       sum_.work += step.torque * speed * h;
       sum_.torque_squared += step.torque * step.torque * h;
@@ -273,9 +285,12 @@ class PowerStage {
   [[nodiscard]] bool has_events() const { return !events_.empty(); }
   [[nodiscard]] std::vector<MachineEvent> take_events() { return std::exchange(events_, {}); }
 
+  /// Between two steps, as its events have been taken.
+  void visit(StateArchive& archive);
+
  private:
   void prepare(double h);
-  void feed(const Step& step, double speed, double h);
+  void feed(const Step& step, const PowerStage& other, double speed, double h);
   void saturate(double asked, double h);
   void settle(double h);
   void end_saturation();
@@ -284,12 +299,12 @@ class PowerStage {
   void show();
   void clear_edges();
 
-  DriveRatings ratings_;
-  std::optional<AmplifierData> amplifier_;
+  const DriveRatings ratings_;
+  const std::optional<AmplifierData> amplifier_;
   std::optional<DcLink> link_;
-  MotorCurrent current_;
+  const MotorCurrent current_;
   MotorHeat heat_;
-  double limit_;  // temperature of the winding that trips [K]
+  const double limit_;  // temperature of the winding that trips [K]
 
   // Steps that are summed up, and what they sum up to.
   int every_ = 1;
@@ -302,9 +317,11 @@ class PowerStage {
     double travel = 0;
     double rotor_loss = 0;
     double energised = 0;
+
+    void visit(StateArchive& archive);
   } sum_;
-  Sum elsewhere_;                      // of another motor
-  const PowerStage* other_ = nullptr;  // that motor, where it had torque since the last settling
+  Sum elsewhere_;                    // of another motor
+  double elsewhere_resistance_ = 0;  // of its winding over that at 20 degC; 0: it had no torque
 
   DriveTotals totals_;
   double without_mains_ = 0;
@@ -323,6 +340,8 @@ class PowerStage {
     double begin = 0;  // [s]
     double end = 0;    // so far [s]
     double asked = 0;  // largest
+
+    void visit(StateArchive& archive);
   } saturation_;
   std::vector<MachineEvent> events_;
 };

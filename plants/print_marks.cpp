@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 namespace {
@@ -72,5 +74,7 @@ void PrintMarks::offer_faults(std::vector<Fault>& faults, const std::string& mar
                                {-1e5, 1e5, false}));
   photocell_.offer_faults(faults, photocell);
 }
+
+void PrintMarks::visit(StateArchive& archive) { STATE(archive, noise_, places_, next_, shift_, photocell_); }
 
 }  // namespace drycut::plants

@@ -47,11 +47,13 @@ class PrintMarks {
   /// shift under `marks`, and what the photocell offers under `component`.
   void offer_faults(std::vector<Fault>& faults, const std::string& marks, const std::string& photocell);
 
+  void visit(StateArchive& archive);
+
  private:
   void print();
   [[nodiscard]] double nearest(double place) const;
 
-  PrintMarkData data_;
+  const PrintMarkData data_;
   Random noise_;
   std::deque<double> places_;
   ExactSum next_;           // place of the next mark without its scatter [m]

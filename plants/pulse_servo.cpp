@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/state_archive.hpp"
 #include "plants/lag.hpp"
 
 namespace drycut::plants {
@@ -86,6 +87,14 @@ void PulseServo::offer_faults(std::vector<Fault>& faults, const std::string& com
                     },
                     "so many pulses are lost at once, negative: too many are counted", in_counts});
   faults.push_back(fault_state(component, "broken_cable", cable_broken_, "1: no pulse arrives"));
+}
+
+void ElectronicGear::visit(StateArchive& archive) { STATE(archive, counts_, remainder_); }
+
+void PulseServo::visit(StateArchive& archive) {
+  STATE(archive, pulses, direction, reset, in_position, alarm, gear_, seen_, cleared_, counts_before_,
+        reference_, deviation_, forward_speed_, trip_turns_, tripped_, just_tripped_, reset_before_,
+        cable_broken_);
 }
 
 Parameters pulse_servo_parameters(PulseServoData& data) {

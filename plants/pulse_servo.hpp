@@ -45,9 +45,11 @@ class ElectronicGear {
     return static_cast<double>(denominator_) / static_cast<double>(numerator_);
   }
 
+  void visit(StateArchive& archive);
+
  private:
-  std::int64_t numerator_;
-  std::int64_t denominator_;
+  const std::int64_t numerator_;
+  const std::int64_t denominator_;
   std::int64_t counts_ = 0;
   std::int64_t remainder_ = 0;
 };
@@ -80,15 +82,17 @@ class PulseServo {
   /// Faults of the pulse cable, under the component name `component`.
   void offer_faults(std::vector<Fault>& faults, const std::string& component);
 
+  void visit(StateArchive& archive);
+
  private:
   [[nodiscard]] std::int64_t actual(const Shaft& rotor) const;
   void take_pulses();
 
-  PulseServoData data_;
+  const PulseServoData data_;
   ServoDrive& amplifier_;
   ElectronicGear gear_;
-  std::int64_t start_turns_;
-  double start_part_;
+  const std::int64_t start_turns_;
+  const double start_part_;
   std::int64_t seen_ = 0;     // of the pulse port
   std::int64_t cleared_ = 0;  // counts of the reference that are not to be followed
   std::int64_t counts_before_ = 0;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::plants {
 
 namespace {
@@ -41,6 +43,11 @@ double Random::gaussian() {
   spare_ = v * factor;
   has_spare_ = true;
   return u * factor;
+}
+
+void Random::visit(StateArchive& archive) {
+  archive.plain("engine_", engine_);
+  STATE(archive, spare_, has_spare_);
 }
 
 }  // namespace drycut::plants

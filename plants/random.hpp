@@ -3,6 +3,10 @@
 #include <random>
 #include <string_view>
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::plants {
 
 /// One source of random numbers: same seed and name, same draws, on every machine and standard library.
@@ -15,6 +19,8 @@ class Random {
   double uniform();
   /// Normal with mean 0 and standard deviation 1. std::normal_distribution is not the same in every library.
   double gaussian();
+
+  void visit(StateArchive& archive);
 
  private:
   std::mt19937_64 engine_;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 #include "plants/stiff_pair.hpp"
 
@@ -209,6 +210,10 @@ MotorLoad RotaryKnife::motor_load(double h) const {
 std::vector<Recurrence> RotaryKnife::recurrences() {
   return {{"drum", 0, static_cast<double>(data_.blade_count)},
           {"motor", 0, data_.blade_count / data_.gear.ratio}};
+}
+
+void RotaryKnife::visit(StateArchive& archive) {
+  STATE(archive, station_, servo_, gear_, encoder_, home_, cutter_, cuts_, last_mismatch_, last_skew_);
 }
 
 Parameters RotaryKnife::live_parameters() { return live_rows(rotary_knife_parameters(data_)); }

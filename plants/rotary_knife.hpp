@@ -60,6 +60,7 @@ class RotaryKnife : public Plant, public TellsMotorLoad {
 
   void drive(double h) override;
   void sense(double h) override;
+  void visit(StateArchive& archive) override;
   std::vector<Port> ports() override;
   [[nodiscard]] std::optional<PlugScale> scale_of(std::string_view port) const override;
   std::vector<Channel> channels() override;
@@ -86,9 +87,9 @@ class RotaryKnife : public Plant, public TellsMotorLoad {
 
   RotaryKnifeData data_;
   World& world_;
-  double radius_;
-  double along_web_;   // radius in speeds along the web [m]
-  Friction friction_;  // of the drum and what is geared to it
+  const double radius_;
+  const double along_web_;  // radius in speeds along the web [m]
+  Friction friction_;       // of the drum and what is geared to it
   Station station_;
   Shaft& rotor_;
   Shaft& drum_;

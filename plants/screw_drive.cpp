@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 
 namespace drycut::plants {
@@ -89,5 +90,7 @@ void ScrewDrive::take(const ScrewDriveData& data, double mass, World& world) {
 double ScrewDrive::screw_turn() const {
   return units::turn * std::fmod(rotor.revolutions() / data_.gear.ratio, 1.0);
 }
+
+void ScrewDrive::visit(StateArchive& archive) { STATE(archive, stops, sensors, twist_, torque_, force_); }
 
 }  // namespace drycut::plants

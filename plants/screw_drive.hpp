@@ -72,11 +72,14 @@ class ScrewDrive {
   [[nodiscard]] double stop_force() const { return stops[0].force() + stops[1].force(); }  ///< [N]
   [[nodiscard]] double screw_turn() const;  ///< within a turn [rad]
 
+  /// But the data, which whoever gives them keeps.
+  void visit(StateArchive& archive);
+
  private:
   [[nodiscard]] double rate() const;
 
   ScrewDriveData data_;
-  double screw_per_metre_;  // turn of the screw per travel [rad/m]
+  const double screw_per_metre_;  // turn of the screw per travel [rad/m]
   double twist_;
   double torque_ = 0;
   double force_ = 0;

@@ -1,5 +1,6 @@
 #include "plants/servo_axis.hpp"
 
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 #include "plants/axis_objections.hpp"
 
@@ -86,6 +87,11 @@ void ServoAxis::offer_faults(std::vector<Fault>& faults) {
   }
   amplifier_.offer_power_faults(faults, "servo");
   pulses_->offer_faults(faults, "servo");
+}
+
+void ServoAxis::visit(StateArchive& archive) {
+  STATE(archive, amplifier_);
+  if (pulses_) archive.named("pulses_", *pulses_);
 }
 
 Parameters servo_axis_parameters(ServoAxisData& data, const ServoSources& from) {

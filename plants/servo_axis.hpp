@@ -55,6 +55,9 @@ class ServoAxis {
   /// What happened to it since it was asked last.
   [[nodiscard]] std::vector<MachineEvent> take_events(const Shaft& rotor);
 
+  /// Between two steps, as its events have been taken.
+  void visit(StateArchive& archive);
+
  private:
   ServoDrive amplifier_;
   std::optional<PulseServo> pulses_;

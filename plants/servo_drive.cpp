@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/problem.hpp"
+#include "base/state_archive.hpp"
 #include "plants/lag.hpp"
 
 namespace drycut::plants {
@@ -127,10 +128,8 @@ void ServoDrive::give(double command, Shaft& rotor) {
 // What the last step came to, and a trip that the enable takes back.
 void ServoDrive::begin(const Shaft& rotor, double h, const Feed& feed) {
   if (h != h_) prepare(h);
-  const Shaft& turned = turned_ != nullptr ? *turned_ : rotor;
-  power_.account({torque_, 0, saturated_ ? asked_ : 0, energised_, motor_of_}, turned, h);
-  turned_ = &rotor;
-  motor_of_ = feed.motor;
+  const Shaft& turned = feed.turned != nullptr ? *feed.turned : rotor;
+  power_.account({torque_, 0, saturated_ ? asked_ : 0, energised_}, turned, h, feed.other);
   if (enable.level && !enabled_before_) power_.reset();
   enabled_before_ = enable.level;
   energised_ = enabled();
@@ -203,6 +202,15 @@ void ServoDrive::offer_power_faults(std::vector<Fault>& faults, const std::strin
   faults.push_back(fault_value(component, "torque_limit", "N m", f.torque_limit,
                                "the torque is limited to this; 0 takes the limit away", {0, 1e5, false}));
   power_.offer_faults(faults);
+}
+
+void ServoDrive::Faults::visit(StateArchive& archive) {
+  STATE(archive, offset, drift, drifted, noise, stuck, stuck_at, disabled, torque_limit);
+}
+
+void ServoDrive::visit(StateArchive& archive) {
+  STATE(archive, reference, enable, power_, random_, converted_, filtered_, integral_, torque_, saturated_,
+        asked_, energised_, enabled_before_, faults_);
 }
 
 Parameters servo_parameters(ServoData& data, const ServoSources& from) {

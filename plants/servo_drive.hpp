@@ -93,6 +93,8 @@ class ServoDrive {
   /// Those of them that do not need the analogue input.
   void offer_power_faults(std::vector<Fault>& faults, const std::string& component);
 
+  void visit(StateArchive& archive);
+
  private:
   void begin(const Shaft& rotor, double h, const Feed& feed = {});
   void release(Shaft& rotor);
@@ -101,7 +103,7 @@ class ServoDrive {
   [[nodiscard]] double speed_loop(double speed, double h);
   void give(double command, Shaft& rotor);
 
-  ServoData data_;
+  const ServoData data_;
   PowerStage power_;
   Random random_;
   double h_ = 0;  // the step for which the coefficients below hold
@@ -117,8 +119,6 @@ class ServoDrive {
   bool saturated_ = false;
   double asked_ = 0;  // torque over what the limit let through
   bool energised_ = false;
-  const Shaft* turned_ = nullptr;         // in the last step
-  const PowerStage* motor_of_ = nullptr;  // whose it was
   bool enabled_before_ = true;
 
   struct Faults {
@@ -130,6 +130,8 @@ class ServoDrive {
     double stuck_at = 0;  // [V]
     bool disabled = false;
     double torque_limit = 0;  // [N m], 0 = none
+
+    void visit(StateArchive& archive);
   } faults_;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/problem.hpp"
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 
 namespace drycut::plants {
@@ -79,6 +80,14 @@ void Station::offer_events(std::vector<EventType>& types) const {
                      {{"length", "mm"}, {"number", ""}, {"total", "mm"}},
                      "a piece that it cut off drops out, being short or its turn: length, number since the "
                      "start, length of all"});
+}
+
+void Station::visit(StateArchive& archive) {
+  std::vector<Slide*> bodies = {&web_.material(), &air_};
+  for (const Outfeed::Piece& piece : web_.outfeed().pieces()) bodies.push_back(piece.body);
+  archive.pointer("material_", material_, bodies);
+  STATE(archive, air_, length_, rest_, cuts_, dropped_, dropped_length_);
+  if (archive.restores()) events_.clear();
 }
 
 }  // namespace drycut::plants

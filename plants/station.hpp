@@ -49,8 +49,11 @@ class Station {
   void offer_events(std::vector<EventType>& types) const;
   [[nodiscard]] std::vector<MachineEvent> take_events() { return std::exchange(events_, {}); }
 
+  /// Between two steps, as its events have been taken.
+  void visit(StateArchive& archive);
+
  private:
-  StationData data_;
+  const StationData data_;
   Web& web_;
   Slide air_ = {.mass = 1e-9};  // yields to everything
   Slide* material_;

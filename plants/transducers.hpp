@@ -40,11 +40,14 @@ class PulseLine {
   /// clears stuck, reverse and jitter.
   void offer_faults(std::vector<Fault>& faults, const std::string& component);
 
+  void visit(StateArchive& archive);
+
  private:
   /// A count that the motion did not make, at a time on clock_ [s].
   struct FalseCount {
     double time;
     double count;  // 1 or -1
+    void visit(StateArchive& archive);
   };
 
   void change_gain();
@@ -103,14 +106,16 @@ class Encoder {
   /// Follows the shaft over the last step of `h` seconds.
   void sense(const Shaft& shaft, double h);
 
+  void visit(StateArchive& archive);
+
  private:
   // What it shows ahead of the shaft at a part of a turn [turns].
   [[nodiscard]] double error(double part) const;
 
-  EncoderData data_;
-  bool uneven_;
-  double bits_per_turn_;
-  double start_;  // as it shows it
+  const EncoderData data_;
+  const bool uneven_;
+  const double bits_per_turn_;
+  const double start_;  // as it shows it
 };
 
 /// A proximity or limit switch with a target of some width: on while the position is over the target. All
@@ -137,6 +142,8 @@ class PositionSwitch {
 
   /// stuck and dead under the component name `component`. 0 clears each.
   void offer_faults(std::vector<Fault>& faults, const std::string& component);
+
+  void visit(StateArchive& archive);
 
  private:
   [[nodiscard]] double shorter(double way) const;
@@ -192,9 +199,11 @@ class AxisTransducers {
   void offer_channels(std::vector<Channel>& channels) const;
   void offer_faults(std::vector<Fault>& faults);
 
+  void visit(StateArchive& archive);
+
  private:
-  AxisTransducersData data_;
-  double start_;
+  const AxisTransducersData data_;
+  const double start_;
   Encoder encoder_;
   PulseLine scale_;
   SignalPort scale_index_;

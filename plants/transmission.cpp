@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/state_archive.hpp"
 #include "plants/stiff_pair.hpp"
 
 namespace drycut::plants {
@@ -26,6 +27,8 @@ double transmission_torque(const TransmissionData& data, double twist, double tw
   }
   return 0;
 }
+
+void Transmission::visit(StateArchive& archive) { STATE(archive, twist_, rate_, torque_); }
 
 double resonance(const TransmissionData& data, double motor_inertia, double load_inertia) {
   return std::sqrt(data.stiffness / reduced(motor_inertia * data.ratio * data.ratio, load_inertia));

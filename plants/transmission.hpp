@@ -50,6 +50,9 @@ class Transmission {
   [[nodiscard]] double twist() const { return twist_; }    ///< motor/ratio - load [rad]
   [[nodiscard]] double rate() const { return rate_; }  ///< of the twist when torque() was computed [rad/s]
 
+  /// But the data, which whoever gives them keeps.
+  void visit(StateArchive& archive);
+
  private:
   TransmissionData data_;
   double twist_ = 0;

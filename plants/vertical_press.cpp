@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 
 namespace drycut::plants {
@@ -133,6 +134,11 @@ std::vector<DriveOfPlant> VerticalPress::drives() { return drive_.drives(load_in
 
 MotorLoad VerticalPress::motor_load(double h) const {
   return screw_.motor_load(drive_.torque(), data_.counterbalance - ram().mass * units::gravity, h);
+}
+
+void VerticalPress::visit(StateArchive& archive) {
+  archive.named("load", data_.load);  // a setting
+  STATE(archive, screw_, drive_, outer_force_, workpiece_, resting_, sagged_);
 }
 
 Parameters VerticalPress::live_parameters() { return live_rows(vertical_press_parameters(data_)); }

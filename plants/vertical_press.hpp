@@ -52,6 +52,7 @@ class VerticalPress : public Plant, public TellsMotorLoad {
 
   void drive(double h) override;
   void sense(double h) override;
+  void visit(StateArchive& archive) override;
   std::vector<Port> ports() override;
   std::vector<Channel> channels() override;
   std::vector<Setting> settings() override;

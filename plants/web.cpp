@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/problem.hpp"
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 #include "plants/axis_objections.hpp"
 #include "plants/materials.hpp"
@@ -205,6 +206,12 @@ void Web::parameters_changed() {
   drive_.take(data_.drive);
   Slide& pulled = strip_ ? strip_->puller() : material_;
   if (pulled.mass != data_.mass) world_.set_mass(pulled, data_.mass);
+}
+
+void Web::visit(StateArchive& archive) {
+  STATE(archive, drive_, wheel_, marks_, outfeed_, slack_, held_, h_, lead_end_, last_cut_, pieces_, scraps_,
+        scrap_length_);
+  if (strip_) archive.named("strip_", *strip_);
 }
 
 Parameters web_parameters(WebData& data) {

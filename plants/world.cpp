@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/state_archive.hpp"
 #include "base/units.hpp"
 #include "plants/exact_sum.hpp"
 #include "plants/random.hpp"
@@ -41,10 +42,30 @@ void rotate_about_z(btMatrix3x3& basis, double angle) {
   basis.setValue(nx * unit, -ny * unit, 0, ny * unit, nx * unit, 0, 0, 0, 1);
 }
 
+void set_inertia_of(btRigidBody& body, double inertia) {
+  body.setMassProps(1, btVector3(inertia, inertia, inertia));
+  body.updateInertiaTensor();
+}
+void set_mass_of(btRigidBody& body, double mass) { body.setMassProps(mass, btVector3(0, 0, 0)); }
+
+// Bullet's bodies get speed and force from ours in every step: what it keeps itself are places and inertias.
+
 struct ShaftBody {
   Shaft state;
   std::string name;
   std::unique_ptr<btRigidBody> body;
+
+  void visit(StateArchive& archive) {
+    // Its basis is turned on and on: the part of a turn has not the same last digits.
+    btMatrix3x3& basis = body->getWorldTransform().getBasis();
+    double cosine = basis[0].x();
+    double sine = basis[1].x();
+    state.visit(archive);
+    STATE(archive, cosine, sine);
+    if (!archive.restores()) return;
+    basis.setValue(cosine, -sine, 0, sine, cosine, 0, 0, 0, 1);
+    set_inertia_of(*body, state.inertia);
+  }
 };
 struct SlideBody {
   Slide state;
@@ -52,6 +73,14 @@ struct SlideBody {
   std::unique_ptr<btRigidBody> body;
   btVector3 axis;
   double weight = 0;  // along the axis [N]
+
+  void visit(StateArchive& archive) {
+    state.visit(archive);
+    STATE(archive, weight);
+    if (!archive.restores()) return;
+    body->getWorldTransform().setOrigin(axis * state.position);
+    set_mass_of(*body, state.mass);
+  }
 };
 
 /// Bullet's world without its collision pass: guided bodies cannot meet, so broad phase, islands, constraint
@@ -247,7 +276,7 @@ void World::set_mass(Slide& slide, double mass) {
       if (&s.state != &slide) continue;
       s.weight *= mass / s.state.mass;
       s.state.mass = mass;
-      s.body->setMassProps(mass, btVector3(0, 0, 0));
+      set_mass_of(*s.body, mass);
       return;
     }
   throw std::invalid_argument("World::set_mass: a slide of another world");
@@ -258,8 +287,7 @@ void World::set_inertia(Shaft& shaft, double inertia) {
   for (ShaftBody& s : bodies_->world.shafts) {
     if (&s.state != &shaft) continue;
     shaft.inertia = inertia;
-    s.body->setMassProps(1, btVector3(inertia, inertia, inertia));
-    s.body->updateInertiaTensor();
+    set_inertia_of(*s.body, inertia);
     return;
   }
   throw std::invalid_argument("World::set_inertia: a shaft of another world");
@@ -277,6 +305,27 @@ void World::step(double h) {
         "unstable "
         "loop, a missing limit or too long a step",
         *world.failed, world.failed_speed, h * 1e6);
+}
+
+void Shaft::visit(StateArchive& archive) {
+  STATE(archive, inertia, torque, speed, speed_before, turns, part, turns_before, part_before);
+}
+
+void Slide::visit(StateArchive& archive) {
+  STATE(archive, mass, force, speed, speed_before, position, position_before, remainder, awake);
+}
+
+void World::visit(StateArchive& archive) {
+  GuidedWorld& world = bodies_->world;
+  int number = 0;  // two knives have bodies of the same names
+  const auto visit_all = [&](auto& bodies) {
+    for (auto& body : bodies) archive.named(fmt::format("{} {}", ++number, body.name), body);
+  };
+  visit_all(world.shafts);
+  visit_all(world.slides);
+  visit_all(world.slow_slides);
+  STATE(archive, since_slow_, failure_);
+  if (archive.restores()) world.failed = nullptr;
 }
 
 Random World::random(std::string_view source) {

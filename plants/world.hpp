@@ -31,6 +31,7 @@ struct Shaft {
   [[nodiscard]] double revolutions_before() const { return static_cast<double>(turns_before) + part_before; }
   /// Unwrapped angle [rad].
   [[nodiscard]] double angle() const { return 2 * std::numbers::pi * revolutions(); }
+  void visit(StateArchive& archive);
 };
 
 /// A body that moves along a straight axis: web, carriage, piece.
@@ -45,6 +46,7 @@ struct Slide {
   bool awake = true;     ///< an asleep slide keeps its place
 
   void add_force(double newton) { force += newton; }
+  void visit(StateArchive& archive);
 };
 
 /// Where a motion was at `fraction` 0..1 of a step of `h` seconds: the parabola of constant acceleration
@@ -113,6 +115,9 @@ class World {
   /// The pose that Bullet keeps of a body of this world.
   [[nodiscard]] Pose pose(const Shaft& shaft) const;
   [[nodiscard]] Pose pose(const Slide& slide) const;
+
+  /// All bodies, after the plants: their live parameters are masses.
+  void visit(StateArchive& archive);
 
  private:
   struct Bodies;
