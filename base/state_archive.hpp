@@ -118,11 +118,16 @@ class StateArchive {
   /// Visits a member under a name that is made while it runs: a plant's, a device's.
   template <class M>
   void named(std::string_view name, M& member) {
-    if (list_ == nullptr) return one(member);
+    under(name, [&] { one(member); });
+  }
+  /// What `use` visits belongs to a group of that name.
+  template <class Use>
+  void under(std::string_view name, const Use& use) {
+    if (list_ == nullptr) return use();
     const std::size_t before = path_.size();
-    if (!path_.empty()) path_ += '.';
+    if (before > 0) path_ += '.';
     path_ += name;
-    one(member);
+    use();
     path_.resize(before);
   }
   /// Visits the elements of a list by `use`, which is given each, where a struct need not know that it is
@@ -233,13 +238,13 @@ class StateArchive {
 
   template <class All, class Use>
   void visit_each(std::string_view name, All& all, Use use) {
-    const std::size_t before = path_.size();
     std::size_t n = 0;
     for (auto& element : all) {
-      if (list_ != nullptr)
-        path_.append(before > 0 ? "." : "").append(name).append(".").append(std::to_string(n++));
-      use(element);
-      path_.resize(before);
+      if (list_ == nullptr) {
+        use(element);
+      } else {
+        under(name, [&] { under(std::to_string(n++), [&] { use(element); }); });
+      }
     }
   }
 

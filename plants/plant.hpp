@@ -292,6 +292,8 @@ struct Fault {
   Range range = {};  ///< whoever acts keeps to it
   /// What the machine has without the fault, where it stands in for a parameter; none = 0.
   std::function<double()> without = {};
+  double strong =
+      1;  ///< a value that shows, to try the fault with [SI, as the value]; 0 = it alone does nothing
 };
 
 // Rows of the lists above for what is kept in a member.
@@ -306,13 +308,9 @@ inline Fault fault_state(std::string component, std::string name, bool& state, s
           std::move(meaning)};
 }
 inline Fault fault_value(std::string component, std::string name, std::string_view unit, double& value,
-                         std::string meaning, Range range) {
-  return {std::move(component),
-          std::move(name),
-          unit,
-          [&value](double v) { value = v; },
-          std::move(meaning),
-          range};
+                         std::string meaning, Range range, double strong = 1) {
+  return {std::move(component), std::move(name), unit, [&value](double v) { value = v; },
+          std::move(meaning),   range,           {},   strong};
 }
 
 /// Something that happened in the machine, at an exact time inside the step.

@@ -603,7 +603,8 @@ record::Outcome Simulation::outcome() {
 
 void Simulation::visit(StateArchive& archive) {
   STATE(archive, time_, next_record_, failure_, program_error_);
-  for (const auto& [name, plant] : named_) archive.named(name, *plant);
+  for (const auto& [name, plant] : named_)
+    archive.under(name, [&, plant = plant] { plant->visit_all(archive); });
   STATE(archive, world_);
   if (controller_) STATE(archive, *controller_);
   STATE(archive, bus_);

@@ -390,6 +390,13 @@ struct VariableEntry {
   bool given_anew = false;               ///< another value than what is extended or the file has
 };
 
+/// What `drycut faults` holds a fault to.
+struct FaultsSection {
+  std::optional<Text> told;  ///< expression; absent: an error of the controller, or a drive switched off
+  Time within = 2 * second;  ///< after the fault
+  std::vector<Text> product = {};  ///< names of checks; none: all that look at each cut
+};
+
 struct Scenario {
   std::filesystem::path file;
   Text extends;  ///< never kept: for the schema
@@ -407,6 +414,7 @@ struct Scenario {
   std::vector<CheckRequest> checks;
   PicturesSection pictures;
   OpcuaSection opcua;
+  FaultsSection faults;
   /// True if the machine can be built: plants and controller have no problem and all periods are multiples
   /// of the step. Problems elsewhere do not stop a check of the names.
   bool buildable = false;
