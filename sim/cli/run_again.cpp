@@ -1,8 +1,10 @@
 // A run that goes on from a kept moment: of the same run, or of one from which it branches.
 #include <fmt/format.h>
 
+#include "sim/cli/arguments.hpp"
 #include "sim/cli/run_work.hpp"
 #include "sim/live/session.hpp"
+#include "sim/loop/names.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
 

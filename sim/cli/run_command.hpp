@@ -13,15 +13,15 @@ namespace drycut::sim::cli {
 enum class Say { failures, results, more };
 
 struct RunOptions {
-  std::vector<std::filesystem::path> scenarios;
+  std::vector<std::filesystem::path> scenarios = {};
   std::filesystem::path out = "out";
   int jobs = 1;
-  std::optional<std::uint64_t> seed;  ///< in place of the scenarios'
+  std::optional<std::uint64_t> seed = {};  ///< in place of the scenarios'
   bool pictures = true;
-  bool verify_step = false;      ///< again at half the step: how far every margin moves
-  bool strict = false;           ///< warnings fail it, too
-  bool gltf = false;             ///< the run as an animated .glb file, with or without pictures
-  std::vector<std::string> set;  ///< "plants.web.speed=80 m/min"
+  bool verify_step = false;           ///< again at half the step: how far every margin moves
+  bool strict = false;                ///< warnings fail it, too
+  bool gltf = false;                  ///< the run as an animated .glb file, with or without pictures
+  std::vector<std::string> set = {};  ///< "plants.web.speed=80 m/min"
   Say say = Say::results;
   std::filesystem::path cache = {};    ///< keeps results by what determines them, "" = nothing is kept
   std::filesystem::path summary = {};  ///< in Markdown, "" = none

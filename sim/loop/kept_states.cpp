@@ -11,6 +11,7 @@
 #include <fstream>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "base/output_file.hpp"
 #include "sim/loop/simulation.hpp"
@@ -31,7 +32,8 @@ std::string name_of(Time time) {
 Time time_of(const std::string& name) {
   const auto digits = name.substr(std::string_view(states_folder).size());
   const auto dot = digits.find('.');
-  return std::strtoll(digits.c_str(), nullptr, 10) * second + std::strtoll(digits.c_str() + dot + 1, nullptr, 10);
+  return std::strtoll(digits.c_str(), nullptr, 10) * second +
+         std::strtoll(digits.c_str() + dot + 1, nullptr, 10);
 }
 
 /// At most so many bytes of a file; nothing where it cannot be read.
@@ -108,6 +110,10 @@ void KeptStates::keep(Simulation& simulation) {
   if (!trouble_.empty()) return;
   try {
     const auto state = simulation.save(&journal_);
+    // The run's own files want room until the next moment, too.
+    constexpr std::uintmax_t moments_ahead = 8;
+    if (fs::space(folder_.path()).available < moments_ahead * (journal_.bytes.size() + state.size()))
+      throw std::runtime_error(std::strerror(ENOSPC));
     if (file_ < 0) {
       file_ = open(folder_.add(journal_name).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
       const auto begin = static_cast<off_t>(journal_.begin);
@@ -122,8 +128,19 @@ void KeptStates::keep(Simulation& simulation) {
     kept_.push_back({name, simulation.time() / every_});
     thin();
   } catch (const std::exception& error) {
-    trouble_ = fmt::format("no more states are kept from {} s on: {}",
-                           record::seconds_text(simulation.time()), error.what());
+    trouble_ = fmt::format(
+        "no states are kept from {} s on, and those before are given up for the run's own files: {}",
+        record::seconds_text(simulation.time()), error.what());
+    give_up();
+  }
+}
+
+void KeptStates::give_up() {
+  if (file_ >= 0) close(std::exchange(file_, -1));
+  try {
+    for (const auto& [name, number] : std::exchange(kept_, {})) folder_.take_back(name);
+    folder_.take_back(journal_name);
+  } catch (const std::exception&) {  // they stay where they are
   }
 }
 

@@ -32,7 +32,7 @@ std::optional<KeptMoment> kept_moment(const std::filesystem::path& run, Time unt
 
 /// Keeps moments of a run in its folder: a file each, and a journal of what was recorded. Of many every
 /// second one goes, then every second of the rest, so that they lie evenly over the run; the last two stay.
-/// What cannot be written ends the keeping, not the run.
+/// Where there is no more room the keeping ends, not the run: what was kept makes room for it.
 class KeptStates {
  public:
   /// A moment `every` so often, `most` files, 4 or more. `from`: what the run goes on from, which may lie in
@@ -48,6 +48,7 @@ class KeptStates {
 
  private:
   void thin();
+  void give_up();
 
   struct Kept {
     std::string name;

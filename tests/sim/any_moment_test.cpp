@@ -1,0 +1,293 @@
+// Any moment of a run kept, come back to and gone on from: as if nothing had been between. What keeps it out.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <drycut/simulation.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/cli/run_command.hpp"
+#include "sim/loop/kept_states.hpp"
+#include "sim/loop/simulation.hpp"
+#include "sim/loop/state_bytes.hpp"
+#include "sim/scenario/scenario.hpp"
+#include "tests/sim/command_bench.hpp"
+#include "tests/test_folder.hpp"
+
+namespace drycut::sim::loop {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+const auto scenes = std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes";
+using Bytes = StateArchive::Bytes;
+
+/// A simulation of a shipped scene, without pictures.
+struct Line {
+  explicit Line(const std::string& scene, const std::vector<scenario::Override>& set = {})
+      : scenario(scenario::read_scenario(scenes / (scene + ".yaml"), set, problems)) {
+    scenario.pictures = {};
+    simulation = std::make_unique<Simulation>(scenario, problems);
+    EXPECT_TRUE(problems.empty()) << to_string(problems.front());
+  }
+  void run_to(Time time) const {
+    while (simulation->time() < time && simulation->advance()) continue;
+  }
+  [[nodiscard]] Bytes members() const {
+    Bytes bytes;
+    auto archive = StateArchive::saving(bytes);
+    simulation->visit(archive);
+    return bytes;
+  }
+
+  Problems problems;
+  scenario::Scenario scenario;
+  std::unique_ptr<Simulation> simulation;
+};
+
+/// "controller_.devices_.0.values_" of the first member that differs, "" = none.
+std::string first_difference(const Line& a, const Line& b) {
+  std::vector<StateArchive::Member> list;
+  Bytes one;
+  auto first = StateArchive::saving(one, &list);
+  a.simulation->visit(first);
+  const auto other = b.members();
+  for (const auto& [name, offset, size] : list)
+    if (offset + size > other.size() || !std::equal(one.begin() + static_cast<std::ptrdiff_t>(offset),
+                                                    one.begin() + static_cast<std::ptrdiff_t>(offset + size),
+                                                    other.begin() + static_cast<std::ptrdiff_t>(offset)))
+      return name;
+  return one.size() == other.size() ? "" : "the end";
+}
+
+class AnyMoment : public testing::TestWithParam<const char*> {};
+
+// The whole of a line is compared: members of all its parts, after two more seconds.
+TEST_P(AnyMoment, GoesOnAsIfNothingHadBeenBetween) {
+  const Line whole(GetParam());
+  const Line again(GetParam());
+  constexpr Time on = second;
+  for (const Time moment : {500 * millisecond, 1537 * millisecond + 100 * microsecond, 2900 * millisecond}) {
+    whole.run_to(moment);
+    const auto kept = whole.simulation->save();
+    const auto late = again.simulation->time();
+    again.simulation->restore(kept);
+    EXPECT_EQ(again.simulation->time(), moment);
+    ASSERT_EQ(first_difference(whole, again), "") << "restored from " << seconds(late) << " s";
+    again.run_to(moment + on);
+    // This one goes on in one piece, then comes back.
+    whole.run_to(moment + on);
+    ASSERT_EQ(first_difference(whole, again), "") << "from " << seconds(moment) << " s on";
+    whole.simulation->restore(kept);
+    whole.run_to(moment + on);
+    EXPECT_EQ(first_difference(whole, again), "") << "back at " << seconds(moment) << " s";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lines, AnyMoment,
+                         testing::Values("rotary_knife", "rotary_knife_lx3vp", "rotary_knife_mc_camin",
+                                         "flying_saw", "flying_saw_mc_camin", "press_learning", "three_way",
+                                         "onoff_backlash", "shared_drive", "rotary_knife_fault"),
+                         [](const auto& line) { return std::string(line.param); });
+
+// What a state needs, member by member: one that is not restored is noticed in what is recorded from then on,
+// or is listed here with the reason why it cannot.
+struct Unneeded {
+  const char* part;  ///< of the member's name
+  const char* why;
+};
+
+TEST(AnyMoment, IsItself) {
+  const Line line("rotary_knife");
+  line.run_to(3 * second);
+  const auto kept = line.simulation->save();
+  EXPECT_LT(kept.size(), std::size_t{64} << 10U);
+  line.simulation->restore(kept);
+  EXPECT_EQ(line.simulation->save(), kept);
+  const Line other("rotary_knife");
+  other.simulation->restore(kept);
+  EXPECT_EQ(other.simulation->save(), kept);
+}
+
+std::string refusal(Simulation& simulation, const Bytes& state) {
+  try {
+    simulation.restore(state);
+  } catch (const BadState& bad) {
+    return bad.what();
+  }
+  return "";
+}
+
+TEST(AnyMoment, NoByteMayBeAnother) {
+  const Line line("commissioning_counter");
+  line.run_to(20 * millisecond);
+  const auto kept = line.simulation->save();
+  const auto before = line.members();
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    auto bad = kept;
+    bad[i] ^= std::byte{0x10};
+    ASSERT_NE(refusal(*line.simulation, bad), "") << "byte " << i;
+  }
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{7}, std::size_t{31}, std::size_t{32}, kept.size() - 1})
+    EXPECT_NE(
+        refusal(*line.simulation, Bytes(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(size))), "");
+  auto longer = kept;
+  longer.push_back({});
+  EXPECT_NE(refusal(*line.simulation, longer), "");
+  EXPECT_EQ(line.members(), before);
+}
+
+TEST(AnyMoment, OfAnotherScenarioIsRefusedWithWhatDiffers) {
+  const Line line("rotary_knife");
+  line.run_to(100 * millisecond);
+  const auto kept = line.simulation->save();
+  const Line other("rotary_knife", {{"plants.knife.drum_inertia", "0.5 kg m2"}});
+  EXPECT_THAT(refusal(*other.simulation, kept), AllOf(HasSubstr("plants"), HasSubstr("differ")));
+  const Line program("rotary_knife_short");
+  EXPECT_NE(refusal(*program.simulation, kept), "");
+  // Whoever branches wants just that.
+  other.simulation->restore(kept, {}, true);
+  EXPECT_EQ(other.simulation->time(), 100 * millisecond);
+}
+
+TEST(AnyMoment, OfAnotherBuildIsRefused) {
+  const Line line("commissioning_counter");
+  const auto kept = line.simulation->save();
+  auto [head, members] = open_state(kept);
+  head.origin.build = "another";
+  EXPECT_THAT(refusal(*line.simulation, seal(head, Bytes(members.begin(), members.end()))),
+              HasSubstr("another"));
+}
+
+TEST(AnyMoment, ForPrograms) {
+  drycut::Simulation line(scenes / "rotary_knife.yaml");
+  line.advance(2);
+  std::ignore = line.take_events();
+  const auto kept = line.save();
+  line.advance(3);
+  const auto events = line.take_events();
+  const double angle = line.read("knife.angle.total");
+  ASSERT_FALSE(events.empty());
+
+  drycut::Simulation other(scenes / "rotary_knife.yaml");
+  for (auto* again : {&line, &other}) {
+    again->restore(kept);
+    EXPECT_EQ(again->time(), 2);
+    again->advance(3);
+    EXPECT_EQ(again->read("knife.angle.total"), angle);
+    const auto same = again->take_events();
+    ASSERT_EQ(same.size(), events.size());
+    for (std::size_t i = 0; i < same.size(); ++i) EXPECT_EQ(same[i].time, events[i].time);
+  }
+  auto bad = kept;
+  bad.back() ^= std::byte{1};
+  EXPECT_THROW(line.restore(bad), BadInput);
+}
+
+struct KeptRuns : CommandTest {
+  static constexpr auto* web = R"(scene: {step: 1 ms, duration: 2 s}
+plants: {web: {type: web, speed: 60 m/min}}
+timeline: [{at: 1.5 s, ramp: {web.speed: 80 m/min}, over: 0.2 s}]
+record: {every: 10 ms, channels: [web.speed, web.position]}
+checks:
+  - {name: slow enough, always: "web.speed <= 100"}
+  - {name: mean, always: "mean(web.speed) >= 59"}
+)";
+  KeptRuns() { folder.file("web.yaml", web); }
+  int run(const cli::RunOptions& asked) {
+    auto options = asked;
+    options.pictures = false;
+    if (options.resume.empty()) options.scenarios = {folder / "web.yaml"};
+    if (options.out == "out") options.out = folder / "out";
+    return captured([&] { return cli::run_scenarios(options); });
+  }
+  [[nodiscard]] std::vector<std::string> states(const std::string& out = "out") const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / out / "web/states"))
+      if (entry.path().extension() == ".state") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+  TestFolder folder;
+};
+
+TEST_F(KeptRuns, LieEvenlyOverTheRunAndTheLastTwoAlways) {
+  ASSERT_EQ(run({.states = "50 ms", .most_states = 8}), 0) << err;
+  const auto kept = states();
+  ASSERT_LE(kept.size(), 8U);
+  ASSERT_GE(kept.size(), 4U);
+  EXPECT_EQ(kept.back(), "0000002.000000000");
+  EXPECT_EQ(kept[kept.size() - 2], "0000001.950000000");
+}
+
+TEST_F(KeptRuns, GoOnToTheSameBytes) {
+  ASSERT_EQ(run({.out = folder / "whole"}), 0);
+  ASSERT_EQ(run({.states = "50 ms"}), 0);
+  const auto kept = states();
+  for (auto later = kept.begin() + 20; later != kept.end(); ++later)
+    std::filesystem::remove(folder / "out/web/states" / (*later + ".state"));
+  ASSERT_EQ(run({.resume = folder / "out/web"}), 0) << err;
+  for (const auto* file : {"web/trace.csv", "web/events.csv", "web/checks.json", "web/verdict.json"})
+    EXPECT_EQ(content(folder / "out" / file), content(folder / "whole" / file)) << file;
+  EXPECT_EQ(states(), kept);
+}
+
+TEST_F(KeptRuns, TakeTheNewestThatIsWhole) {
+  ASSERT_EQ(run({.states = "0.5 s"}), 0);
+  const auto last = folder / "out/web/states/0000002.000000000.state";
+  std::filesystem::resize_file(last, std::filesystem::file_size(last) / 2);
+  ASSERT_EQ(run({.resume = folder / "out/web"}), 0) << err;
+  EXPECT_THAT(out + err, AllOf(HasSubstr("[state.damaged]"), HasSubstr("1.5 s")));
+}
+
+TEST_F(KeptRuns, BranchWhereOneLikes) {
+  ASSERT_EQ(run({.states = "0.5 s"}), 0);
+  ASSERT_EQ(run({.out = folder / "branch",
+                 .set = {"plants.web.speed=90 m/min"},
+                 .from = (folder / "out/web").string() + "@1.2 s"}),
+            0)
+      << err;
+  EXPECT_THAT(out, AllOf(HasSubstr("[state.went-on]"), HasSubstr("1.2 s"), HasSubstr("1.0 s")));
+  const auto before = content(folder / "out/web/trace.csv");
+  const auto after = content(folder / "branch/web/trace.csv");
+  const auto place = before.find("\n1.2,");
+  ASSERT_NE(place, std::string::npos);
+  EXPECT_EQ(after.substr(0, place), before.substr(0, place));
+  EXPECT_NE(after.find("\n1.21,90,"), std::string::npos) << after.substr(place, 200);
+}
+
+TEST_F(KeptRuns, WithoutStatesABranchRunsFromZero) {
+  ASSERT_EQ(run({}), 0);
+  ASSERT_EQ(run({.out = folder / "branch", .from = (folder / "out/web").string() + "@1.2 s"}), 0) << err;
+  EXPECT_THAT(out, HasSubstr("from zero"));
+  EXPECT_EQ(content(folder / "branch/web/trace.csv"), content(folder / "out/web/trace.csv"));
+}
+
+TEST_F(KeptRuns, RefuseWhatDoesNotFit) {
+  ASSERT_EQ(run({}), 0);
+  EXPECT_EQ(run({.resume = folder / "out/web"}), 2);
+  EXPECT_THAT(err, HasSubstr("[state.none]"));
+  EXPECT_EQ(run({.from = (folder / "out/web").string() + "@1.2 s"}), 2);  // its own folder
+  EXPECT_THAT(err, HasSubstr("[state.refused]"));
+  EXPECT_EQ(run({.out = folder / "branch", .from = (folder / "out/web").string() + "@1.2"}), 2);
+  EXPECT_EQ(run({.out = folder / "branch", .from = (folder / "out/web").string()}), 2);
+  EXPECT_THAT(err, HasSubstr("[state.none]"));
+  EXPECT_EQ(run({.states = "0 s"}), 2);
+  EXPECT_EQ(run({.states = "soon"}), 2);
+  ASSERT_EQ(run({.states = "0.5 s"}), 0);
+  folder.file("web.yaml", std::string(web) + "panel: {push_buttons: []}\n# another\n");
+  EXPECT_EQ(run({.resume = folder / "out/web"}), 0) << "a remark changes nothing: " << err;
+  auto faster = std::string(web);
+  faster.replace(faster.find("60 m/min"), 2, "61");
+  folder.file("web.yaml", faster);
+  EXPECT_EQ(run({.resume = folder / "out/web"}), 2);
+  EXPECT_THAT(err, AllOf(HasSubstr("[state.refused]"), HasSubstr("plants")));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/web/trace.csv"));
+}
+
+}  // namespace
+}  // namespace drycut::sim::loop
