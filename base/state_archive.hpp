@@ -113,7 +113,10 @@ class StateArchive {
   /// Visits `members`, whose names stand in `names` with commas between: see STATE.
   template <class... M>
   void operator()(std::string_view names, M&... members) {
-    (named(next(names), members), ...);
+    if (list_ == nullptr)
+      (one(members), ...);
+    else
+      (named(next(names), members), ...);
   }
   /// Visits a member under a name that is made while it runs: a plant's, a device's.
   template <class M>
@@ -294,8 +297,9 @@ class StateArchive {
   void raw(void* data, std::size_t size) {
     if (out_ != nullptr) {
       if (list_ != nullptr) list_->push_back({path_, out_->size(), size});
-      const auto* from = static_cast<const std::byte*>(data);
-      out_->insert(out_->end(), from, from + size);
+      const auto place = out_->size();
+      out_->resize(place + size);
+      std::memcpy(out_->data() + place, data, size);
       return;
     }
     if (left() < size) throw BadState("it ends too early");
@@ -393,7 +397,11 @@ class StateArchive {
   }
   template <class T, std::size_t N>
   void container(std::array<T, N>& all) {
-    elements(all);
+    if constexpr (std::is_arithmetic_v<T> && N > 0) {
+      raw(all.data(), sizeof all);
+    } else {
+      elements(all);
+    }
   }
   template <class T, std::size_t N>
   void container(T (&all)[N]) {

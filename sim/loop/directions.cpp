@@ -37,7 +37,8 @@ Directions::Directions(const scenario::Scenario& scenario, devices::Controller& 
 }
 
 void Directions::sample(Time now) {
-  std::erase_if(axes_, [&](Axis& axis) {
+  for (auto& axis : axes_) {
+    if (axis.done) continue;
     const double drive = axis.loop.drive();
     const auto counts = axis.loop.counts();
     const auto gone = counts - axis.counts;
@@ -48,8 +49,8 @@ void Directions::sample(Time now) {
     }
     const bool wrong = axis.against >= counts_enough && axis.against > clearly * axis.with;
     if (wrong) tell(axis, now);
-    return wrong || (axis.begun && now - *axis.begun >= watched_time);
-  });
+    axis.done = wrong || (axis.begun && now - *axis.begun >= watched_time);
+  }
 }
 
 void Directions::tell(const Axis& axis, Time now) {
@@ -64,8 +65,9 @@ void Directions::tell(const Axis& axis, Time now) {
 }
 
 void Directions::visit(StateArchive& archive) {
-  archive.each("axes_", axes_,
-               [&](Axis& axis) { STATE(archive, axis.counts, axis.begun, axis.with, axis.against); });
+  archive.each("axes_", axes_, [&](Axis& axis) {
+    STATE(archive, axis.counts, axis.begun, axis.with, axis.against, axis.done);
+  });
   archive.list("found_", found_, [&](Found& found) { STATE(archive, found.at, found.what); });
 }
 

@@ -34,6 +34,7 @@ class Directions : public record::Observer {
     std::optional<Time> begun = {};  ///< when it was driven first
     std::int64_t with = 0;           ///< counts gone where it was driven to ...
     std::int64_t against = 0;        ///< ... and the other way
+    bool done = false;               ///< it is not looked at any more
   };
   void tell(const Axis& axis, Time now);
 

@@ -353,7 +353,34 @@ std::vector<record::CheckResult> DriveJudge::results(
   return {result};
 }
 
-void Thinned::visit(StateArchive& archive) { STATE(archive, stride_, seen_, points_); }
+void Thinned::visit(StateArchive& archive, const std::string& name) {
+  auto stride = stride_;
+  auto seen = seen_;
+  STATE(archive, stride, seen);
+  if (archive.restores() && stride == 0) throw BadState("points without a stride");
+  if (stride != stride_) points_.clear();
+  stride_ = stride;
+  archive.log(name, *this);
+  seen_ = seen;
+}
+
+void Thinned::shorten(std::size_t seen) {
+  points_.resize(std::min(points_.size(), (seen + stride_ - 1) / stride_));
+}
+
+// Point i is the one seen as number i * stride. In the journal lies what was kept then, of it what is kept
+// now.
+void Thinned::entries(StateArchive& archive, std::size_t from, std::size_t to) {
+  auto stride = stride_;
+  STATE(archive, stride);
+  if (stride == 0) throw BadState("points without a stride");
+  for (auto number = (from + stride - 1) / stride * stride; number < to; number += stride) {
+    std::pair<double, double> point;
+    if (!archive.restores() && number / stride < points_.size()) point = points_[number / stride];
+    STATE(archive, point);
+    if (archive.restores() && number % stride_ == 0) points_.push_back(point);
+  }
+}
 
 void DriveJudge::visit(StateArchive& archive) {
   archive.each("drives_", drives_, [&](Drive& drive) {
@@ -361,7 +388,10 @@ void DriveJudge::visit(StateArchive& archive) {
     STATE(archive, drive.cycles, drive.counted, drive.energy, drive.row, drive.judged, drive.steady,
           drive.heavier, drive.even, worst.torque, worst.speed, worst.share, worst.constant,
           worst.current_squared, worst.rotor_loss, worst.fed_squared, worst.resistor, worst.saturated,
-          worst.saturated_once, drive.trips, drive.cycle_points, drive.points);
+          worst.saturated_once, drive.trips);
+    const auto name = drive.plant + "." + drive.name;
+    drive.cycle_points.visit(archive, name + " cycles");
+    drive.points.visit(archive, name);
     for (auto* at : {&drive.in_cycle, &drive.elsewhere}) STATE(archive, at->times, at->seconds, at->first);
   });
 }

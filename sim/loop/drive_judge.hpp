@@ -19,10 +19,16 @@ class Thinned {
  public:
   void add(double x, double y);
   [[nodiscard]] const std::vector<std::pair<double, double>>& points() const { return points_; }
-  /// A log of the points: those that went come again.
-  void visit(StateArchive& archive);
+  /// `name` is like no other's.
+  void visit(StateArchive& archive, const std::string& name);
 
  private:
+  friend class drycut::StateArchive;
+  // A log of the points.
+  [[nodiscard]] std::size_t grown() const { return seen_; }
+  void shorten(std::size_t seen);
+  void entries(StateArchive& archive, std::size_t from, std::size_t to);
+
   std::vector<std::pair<double, double>> points_;
   std::size_t stride_ = 1;
   std::size_t seen_ = 0;
