@@ -230,12 +230,13 @@ Whole expect_whole_states(const Builder& build) {
   return whole;
 }
 
-/// A drum at web speed [m/s] behind its filter, with some ripple.
-void follow_the_web(Site& site, std::size_t knife, double speed = 1) {
+/// A drum at web speed, 1 m/s, with some ripple.
+void follow_the_web(Site& site, std::size_t knife) {
   auto& machine = static_cast<RotaryKnife&>(site.plant(knife));
-  machine.drum().speed = speed / machine.radius();
+  machine.drum().speed = 1 / machine.radius();
   machine.rotor().speed = machine.drum().speed * 5;
-  site.volts = [speed](double t) { return speed * (2.5 + 0.05 * std::sin(turn * t / 0.1)); };
+  const double volts = machine.rotor().speed * rpm / 200;  // 2000 rpm at 10 V
+  site.volts = [volts](double t) { return volts * (1 + 0.02 * std::sin(turn * t / 0.1)); };
 }
 
 struct Case {
@@ -259,7 +260,7 @@ std::vector<Case> cases() {
                    web.data.wheel.acceleration_slip = 1e-3;
                    web.data.wheel.eccentricity = 1e-3;
                    RotaryKnifeDefinition knife;
-                   knife.data.circumference = 0.15;
+                   knife.data.circumference = 0.2;
                    knife.data.drive.servo.offset = 0.01;
                    knife.data.encoder.eccentricity = 0.01;
                    knife.data.drum_eccentricity = 1e-4;
@@ -291,8 +292,9 @@ std::vector<Case> cases() {
                    RotaryKnifeDefinition first;
                    first.data.circumference = 0.2;
                    RotaryKnifeDefinition second;
-                   second.data.circumference = 0.06;
-                   second.data.station = {.place = 0.4, .scrap_shorter = 0.03, .scrap_every = 2};
+                   second.data.circumference = 0.2;
+                   second.data.initial_angle = 0.3;
+                   second.data.station = {.place = 0.45, .scrap_shorter = 0.03, .scrap_every = 2};
                    site.add("web", web).add("first", first).add("second", second).built();
                    follow_the_web(site, 1);
                    follow_the_web(site, 2);
@@ -354,6 +356,14 @@ std::vector<Case> cases() {
                      };
                    },
                    event});
+  all.push_back({"a saw that leans on its stop",
+                 [](Site& site) {
+                   FlyingSawDefinition saw;
+                   saw.data.start = 0.7;
+                   site.add("web", WebDefinition()).add("saw", saw).built();
+                   site.volts = [](double) { return 3.0; };
+                 },
+                 "crash"});
   all.push_back({"a motor that gets hot",
                  [](Site& site) {
                    LinearAxisDefinition axis;
