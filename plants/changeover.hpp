@@ -61,7 +61,7 @@ class SharedMotor {
 /// selected the first in order closes.
 class Changeover {
  public:
-  explicit Changeover(const SharedDriveData& own) : own_(own.close_delay, own.open_delay) {}
+  explicit Changeover(const SharedDriveData& data) : own_(data.close_delay, data.open_delay) {}
 
   void add(SharedMotor& motor, Shaft& rotor) { motors_.push_back({&motor, &rotor}); }
   [[nodiscard]] bool shared() const { return !motors_.empty(); }
