@@ -1,0 +1,531 @@
+// A PLC's state: saved at any tick and restored, it goes on as if nothing had been.
+#include <gmock/gmock.h>
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/state_archive.hpp"
+#include "devices/lx3vp/lx3vp_controller.hpp"
+#include "tests/devices/lx3vp/ecamtbx_bench.hpp"
+
+namespace drycut::devices::lx3vp {
+namespace {
+
+using Bytes = StateArchive::Bytes;
+using Members = std::vector<StateArchive::Member>;
+
+/// Something that happens to the PLC from outside, at a tick.
+struct Act {
+  int tick;
+  std::string name;  ///< of an input, a register, or "power"
+  double value;
+};
+
+/// A program, what is in the registers before, and what happens to it.
+struct Story {
+  std::string name;
+  std::string program;
+  std::int64_t step_ns = 0;
+  void (*prepare)(Registers& registers) = nullptr;
+  std::vector<Act> acts;
+  int ticks = 2000;
+};
+
+/// A PLC that lives through a story. C235 counts the pulses of Y1.
+class Teller {
+ public:
+  explicit Teller(const Story& story)
+      : story_(story), controller_(compiled(story.program), 1'000'000, story.step_ns) {
+    for (const Act& act : story.acts)
+      if (act.name.front() == 'X') controller_.terminal(act.name);
+    controller_.offer({Kind::counter, 0, 235});
+    controller_.offer({Kind::output, 0, 1});
+    controller_.offer({Kind::output, 0, 7});
+    axes_ = controller_.cam_axes();
+    for (const auto kind : {RegisterName::Kind::x, RegisterName::Kind::y})
+      for (int n = 0; n < 16; ++n)
+        levels_.push_back(controller_.find(to_string(RegisterName{kind, n}))->read);
+    if (story.prepare != nullptr) story.prepare(controller_.registers());
+  }
+
+  /// Goes on to a tick; what is seen on the way, a line a tick.
+  std::vector<std::string> until(int tick) {
+    std::vector<std::string> seen{look_round()};
+    while (tick_ < tick) {
+      const std::int64_t now = tick_ * tick_ns;
+      controller_.run_devices(now);
+      controller_.run_tasks(now);
+      ++tick_;
+      auto& cards = controller_.cards();
+      cards.counters[{Kind::counter, 0, 235}].count = 4 * cards.pulse_outputs[{Kind::output, 0, 1}].count;
+      // Behind it, so that there are moments between an act and what the PLC makes of it.
+      for (const Act& act : story_.acts)
+        if (act.tick == tick_) happen(act);
+      seen.push_back(look());
+    }
+    seen.push_back(look_round());
+    return seen;
+  }
+
+  Bytes save(Members* list = nullptr) {
+    Bytes bytes;
+    auto archive = StateArchive::saving(bytes, list);
+    controller_.visit(archive);
+    return bytes;
+  }
+  void restore(const Bytes& bytes, int tick, std::optional<std::size_t> skip = {}) {
+    auto archive = StateArchive::restoring(bytes.data(), bytes.size(), skip);
+    controller_.visit(archive);
+    if (archive.left() > 0) throw BadState("more than its state");
+    tick_ = tick;
+  }
+  [[nodiscard]] int tick() const { return tick_; }
+
+ private:
+  static il::IlProgram compiled(const std::string& text) {
+    Problems problems;
+    auto program = il::compile(text, "test.il", problems);
+    for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
+    return program;
+  }
+  void happen(const Act& act) {
+    if (act.name == "power")
+      controller_.power(act.value != 0);
+    else if (act.name.front() == 'X')
+      controller_.cards().inputs.at(*parse_base_terminal(act.name)).level = act.value != 0;
+    else
+      controller_.find(act.name).value().write(act.value);
+  }
+  std::string look() {
+    const auto& cards = controller_.cards();
+    std::string text;
+    for (const auto& [address, output] : cards.outputs) text += output.level ? '1' : '0';
+    for (const auto& [address, train] : cards.pulse_outputs) text += fmt::format(" {}", train.count);
+    const auto& registers = controller_.registers();
+    for (const std::size_t d : {0, 1, 2, 3, 4, 5, 100, 540, 2001, 2025, 3001, 8010})
+      text += fmt::format(" {}", registers.d[d]);
+    for (const CamAxis& axis : axes_) {
+      const CamMoment moment = axis.moment();
+      text += fmt::format(" {} {} {} {}", axis.start(), moment.follows, moment.master, moment.set);
+    }
+    for (const auto& task : controller_.positions(0).tasks)
+      text += fmt::format(" {} {}", task.line, task.doing);
+    // Not at once, so that there are some that wait.
+    if (tick_ % 7 == 0)
+      for (const auto& event : controller_.take_events())
+        text += fmt::format(" {} {}: {}", event.source, event.event, event.text);
+    return text;
+  }
+  /// All that can be seen of it from outside, as bytes.
+  std::string look_round() {
+    const auto& registers = controller_.registers();
+    std::string text = registers.written.to_string();
+    const auto append = [&](const auto& values) {
+      text.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(values[0]));
+    };
+    append(registers.d);
+    append(registers.m);
+    append(registers.s);
+    append(registers.v);
+    append(registers.z);
+    for (const Timer& timer : registers.t) text += fmt::format(" {}{}", timer.value, timer.contact);
+    for (const PlcCounter& counter : registers.c)
+      text += fmt::format(" {}{}", counter.value, counter.contact);
+    for (const auto& level : levels_) text += level() != 0 ? '1' : '0';
+    for (const CamAxis& axis : axes_)
+      if (const auto table = axis.table()) {
+        const auto& rows = table->as<EcamTable>();
+        text += fmt::format("{} {} {} {}", rows.rows.size(), rows.is_made(), rows.saw.slave_length,
+                            rows.s_curve.length);
+        for (const CamTableRow& row : rows.rows) text += fmt::format(" {},{}", row.master, row.slave);
+      }
+    for (const ProgramWait& wait : controller_.waits()) text += wait.lacks;
+    return text;
+  }
+
+  const Story& story_;
+  Lx3vpController controller_;
+  std::vector<CamAxis> axes_;
+  std::vector<std::function<double()>> levels_;  ///< of terminals
+  int tick_ = 0;
+};
+
+void straight_table(Registers& registers, int block,
+                    const std::vector<std::pair<std::int32_t, std::int32_t>>& rows) {
+  registers.put(block + word::rows, static_cast<std::uint16_t>(rows.size()));
+  int at = block + word::table;
+  for (const auto& [master, slave] : rows) {
+    registers.set_i32(at, master);
+    registers.set_i32(at + 2, slave);
+    at += row_words;
+  }
+}
+
+// Two cams that run, of which one is stopped, goes on where it was and gets another table meanwhile; one that
+// is refused; instructions that fail.
+const Story cams{
+    "cams",
+    R"(
+LD M8002
+MOV K1 D2004          ; synchronous output Y7
+MOV K7 D2008
+LD M1
+ECAMTBX D500 D530 D2000 D540
+LD M8000
+OUT C235 K1500
+OUT C240 K9
+LD M7
+ECAMTBX D600 K0 D5000 D640
+LD M0
+DPLSV D520 Y1 Y5
+DECAM C235 D2000 X2 Y0 Y4
+LD M2
+DECAM K2 D3000 X2 Y2 Y6
+LD M3
+DECAM D100 D4000 M20 Y0 Y10
+LD M4
+DPLSV K1000 Y0 Y4
+LD M6
+DECAM D100 D5000 M20 Y3 Y11
+LDP M5
+DIV D100 D101 D102
+LD X3
+INC D100
+LD C235
+OUT Y12
+END
+)",
+    0,
+    [](Registers& registers) {
+      ecams::put(registers, 500, ecams::rotary_demo());
+      ecams::put(registers, 600, ecams::s_curve_demo());
+      registers.d[530] = 100;
+      registers.set_i32(520, 60'000);
+      registers.put(3003, function::external_start | function::delayed_start | function::start_position |
+                              function::master_zoom | function::slave_zoom);
+      registers.put(3005, 2);
+      registers.set_i32(3006, 9'000);
+      registers.put(3014, 1);
+      registers.put(3015, 50);
+      registers.put(3017, 30);
+      registers.put(3024, 7);
+      registers.put(3030, 3);
+      straight_table(registers, 3000, {{10, 5}, {150, 100}, {500, 500}});
+      registers.put(5003, function::resume);
+      registers.put(5005, 1);
+      straight_table(registers, 5000, {{0, 0}, {10, 3}});
+      straight_table(registers, 4000, {{0, 0}, {10, 3}});
+    },
+    {{20, "M1", 1},          {33, "M2", 1},        {40, "D2005", 1},   {41, "M0", 1},      {50, "M3", 1},
+     {60, "M4", 1},          {70, "M6", 1},        {90, "X3", 1},      {95, "M5", 1},      {120, "X2", 1},
+     {150, "X2", 0},         {300, "DD502", 900},  {420, "D2005", 0},  {440, "D2003", 64}, {450, "D2005", 1},
+     {500, "DD500", 1},      {555, "D5005", 0},    {570, "D511", 3},   {575, "M4", 0},     {580, "M4", 1},
+     {600, "DD500", 3000},   {610, "D5005", 2},    {650, "M3", 0},     {660, "M3", 1},     {700, "D2005", 0},
+     {705, "D2005", 1},      {760, "D4005", 1},    {800, "M0", 0},     {850, "M0", 1},     {900, "D2003", 0},
+     {920, "D2005", 0},      {930, "D2005", 1},    {1100, "X2", 1},    {1150, "X2", 0},    {1180, "X2", 1},
+     {1300, "D530", 101},    {1400, "D2038", 1},   {1410, "D2005", 0}, {1420, "D2005", 1}, {1500, "M2", 0},
+     {1510, "D3014", 65535}, {1520, "M2", 1},      {1560, "X2", 0},    {1580, "X2", 1},    {1800, "power", 0},
+     {1850, "power", 1},     {1880, "DD502", 1000}}};
+
+// All that gives pulses by itself: ramps, trains, a return to zero, and who comes second.
+const Story pulses{
+    "pulses",
+    R"(
+LD M0
+DDRVI K3000 K80000 Y0 Y4
+LD M1
+DDRVA K-900 K30000 Y1 Y5
+LD M2
+PLSY D10 K50 Y2
+LD M3
+DZRN K20000 K900 M40 Y3
+LD M4
+DPLSV D50 Y3 Y7
+LD M5
+DDRVI K500 K10000 Y0 Y4
+LD M8029
+OUT Y10
+LD M8147
+OUT Y11
+END
+)",
+    0,
+    nullptr,
+    {{11, "M0", 1},      {23, "M1", 1},      {30, "D10", 700},   {31, "M2", 1},     {42, "M3", 1},
+     {50, "M5", 1},      {55, "M4", 1},      {200, "D10", 333},  {500, "M40", 1},   {640, "M40", 0},
+     {700, "M3", 0},     {720, "D50", 777},  {760, "M8153", 1},  {800, "M8153", 0}, {810, "D50", -55},
+     {900, "M0", 0},     {910, "M1", 0},     {920, "M5", 0},     {950, "M1", 1},    {980, "M5", 1},
+     {1000, "M8146", 1}, {1020, "M8146", 0}, {1040, "M4", 0},    {1060, "M3", 1},   {1100, "M4", 1},
+     {1300, "power", 0}, {1310, "D10", 400}, {1350, "power", 1}, {1360, "M2", 1},   {1400, "D10", 20}}};
+
+// A program whose instructions take time: most ticks end within a loop, a subroutine, a block, a branch, a
+// step of a sequence.
+const Story logic{"logic",
+                  R"(
+LD M8000
+OUT T0 K5
+LDI T0
+OUT T200 K3
+LD X0
+OUT T246 D20
+LD T0
+RST T0
+INC D3
+LDP X0
+OUT C0 K3
+LD M8012
+OUT C100 K2
+LD M8011
+OUT C200 K4
+LD C0
+RST C0
+LD X0
+OR X1
+LD X2
+ORI X1
+ANB
+MPS
+AND X0
+OUT Y0
+MRD
+ANI X2
+OUT Y1
+MPP
+AND X2
+PLS M30
+PLF M31
+LD M30
+INC D4
+LD X1
+MC N0 M100
+LD X2
+OUT Y2
+LDF X2
+MC N1 M101
+LD M8000
+INC D5
+MCR N1
+MCR N0
+FOR K3
+LD M8000
+INC D0
+CALL P1
+FOR D6
+LD M8000
+INC Z1
+ADD V1 K3 V1
+NEXT
+NEXT
+LD M8002
+SET S0
+STL S0
+OUT Y3
+LD X0
+SET S20
+STL S20
+OUT Y4
+OUT T1 K2
+LD T1
+SET S21
+STL S21
+OUT Y5
+LD X1
+OUT S0
+RET
+LD X3
+CALL P3
+LD X2
+DIV D0 D21 D22
+LD M8000
+MOV K7 D300Z2
+FEND
+P1
+LD M8000
+INC D1
+LD X2
+CALL P2
+LD X2
+CJ P4
+INV
+INC D2
+P4
+SRET
+P2
+LDP M8011
+INC D2
+SRET
+P3
+LD M8000
+CALL P3
+SRET
+END
+)",
+                  23'000,
+                  [](Registers& registers) { registers.d[20] = 250; },
+                  {{13, "X0", 1},   {150, "X1", 1},  {222, "X2", 1},    {300, "X0", 0},  {391, "X0", 1},
+                   {402, "D6", 4},  {500, "X2", 0},  {571, "X1", 0},    {600, "X1", 1},  {666, "X3", 1},
+                   {700, "X0", 0},  {720, "X0", 1},  {760, "X2", 1},    {800, "D21", 3}, {840, "Z2", 10},
+                   {850, "X3", 0},  {903, "X1", 0},  {950, "power", 0}, {960, "X1", 1},  {977, "power", 1},
+                   {1000, "X0", 0}, {1040, "X0", 1}, {1100, "X2", 0},   {1210, "X2", 1}, {1333, "Z2", -400},
+                   {1400, "X3", 1}, {1555, "X1", 0}, {1600, "X1", 1},   {1700, "X0", 0}, {1780, "X0", 1}}};
+
+// The same without time, with the clocks and timers at work.
+Story quick_logic() {
+  Story story = logic;
+  story.name = "quick logic";
+  story.step_ns = 0;
+  return story;
+}
+
+// A scan that does not end: the watchdog stops the PLC, until it is switched off and on.
+const Story stopped{"stopped",
+                    "LD M8000\nINC D300\nDPLSV K500 Y1 Y5\nP0\nLD M8000\nINC D0\nLD X0\nCJ P0\nEND\n",
+                    100'000,
+                    nullptr,
+                    {{50, "X0", 1}, {2500, "X0", 0}, {2600, "power", 0}, {2650, "power", 1}, {2800, "X0", 1}},
+                    3500};
+
+std::vector<Story> stories() { return {cams, pulses, logic, quick_logic(), stopped}; }
+
+/// What is seen first that differs.
+testing::AssertionResult alike(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  for (std::size_t n = 0; n < std::min(a.size(), b.size()); ++n)
+    if (a[n] != b[n])
+      return testing::AssertionFailure()
+             << "after " << n << " ticks: " << a[n].substr(0, 500) << "\nand " << b[n].substr(0, 500);
+  if (a.size() != b.size()) return testing::AssertionFailure() << "one is longer";
+  return testing::AssertionSuccess();
+}
+
+/// Behind each act and some time later, and all along.
+std::set<int> moments(const Story& story) {
+  std::set<int> ticks;
+  for (const Act& act : story.acts)
+    for (const int later : {1, 7}) ticks.insert(act.tick + later);
+  for (int tick = 0; tick < story.ticks; tick += 211) ticks.insert(tick);
+  ticks.erase(ticks.upper_bound(story.ticks), ticks.end());
+  return ticks;
+}
+
+// At every so many ticks, of any phase to scans and movements: restored into the same PLC, into a fresh one,
+// and into one that is at the end of its story.
+TEST(Lx3vpState, ARestoredPlcGoesOnAsBefore) {
+  for (const Story& story : stories()) {
+    SCOPED_TRACE(story.name);
+    Teller whole(story);
+    Teller ended(story);
+    ended.until(story.ticks);
+    const Bytes last = ended.save();
+    for (const int at : moments(story)) {
+      whole.until(at);
+      SCOPED_TRACE(at);
+      const Bytes bytes = whole.save();
+      const int end = std::min(at + 200, story.ticks);
+      const auto seen = whole.until(end);
+      const Bytes after = whole.save();
+      Teller fresh(story);
+      for (Teller* plc : {&whole, &fresh, &ended}) {
+        plc->restore(bytes, at);
+        ASSERT_EQ(plc->save(), bytes);
+        ASSERT_TRUE(alike(plc->until(end), seen));
+        ASSERT_EQ(plc->save(), after);
+      }
+      whole.restore(bytes, at);
+      ended.restore(last, story.ticks);
+      ASSERT_EQ(ended.save(), last);
+    }
+  }
+}
+
+/// A member's name without places in lists: one stands for all.
+std::string family_of(const std::string& name) {
+  std::string text;
+  for (std::size_t n = 0; n < name.size(); ++n) {
+    const bool begins = n == 0 || name[n - 1] == '.';
+    if (begins && name[n] >= '0' && name[n] <= '9') {
+      text += '#';
+      while (n + 1 < name.size() && name[n + 1] != '.') ++n;
+    } else {
+      text += name[n];
+    }
+  }
+  return text;
+}
+
+/// The members of a state with their bytes, by names that tell those of a map apart.
+struct Snapshot {
+  explicit Snapshot(Teller& plc) : tick(plc.tick()), bytes(plc.save(&members)) {
+    std::map<std::string, int> before;
+    for (const auto& member : members) {
+      const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(member.offset);
+      keys.push_back(fmt::format("{} {}", member.name, before[member.name]++));
+      values[keys.back()] = {begin, begin + static_cast<std::ptrdiff_t>(member.size)};
+    }
+  }
+  int tick;
+  Members members;
+  Bytes bytes;
+  std::vector<std::string> keys;
+  std::map<std::string, Bytes> values;
+};
+
+/// Whether a story goes on otherwise if a member is left as it is in a PLC at another moment.
+bool matters(const Story& story, const Snapshot& there, const Snapshot& here, std::size_t member) {
+  Teller left(story);
+  Teller whole(story);
+  left.restore(there.bytes, there.tick);
+  whole.restore(here.bytes, here.tick);
+  try {
+    left.restore(here.bytes, here.tick, member);
+    for (int n = 0; n < 8 && left.tick() < story.ticks; ++n) {
+      const int next = std::min(left.tick() + 60, story.ticks);
+      if (!alike(left.until(next), whole.until(next))) return true;
+    }
+  } catch (const std::exception&) {
+    return true;  // the size of a list, and nothing fits any more
+  }
+  return false;
+}
+
+// Each member is needed: where one is left as it is, a run goes on otherwise.
+TEST(Lx3vpState, NoMemberIsForNothing) {
+  constexpr int tries = 3;
+  std::set<std::string> all;
+  std::set<std::string> needed;
+  for (const Story& story : stories()) {
+    Teller plc(story);
+    const Snapshot begin(plc);
+    plc.until(story.ticks);
+    const Snapshot end(plc);
+    Teller whole(story);
+    for (const int at : moments(story)) {
+      whole.until(at);
+      const Snapshot here(whole);
+      std::map<std::string, int> tried;
+      for (std::size_t n = 0; n < here.members.size(); ++n) {
+        const auto family = family_of(here.members[n].name);
+        // Terminals have tests of their own; places in the program fit each other, or nothing goes on.
+        if (family.starts_with("cards_.") || family.starts_with("scanner.rung_.")) continue;
+        all.insert(family);
+        if (needed.contains(family)) continue;
+        for (const Snapshot* there : {&begin, &end}) {
+          const auto same = there->values.find(here.keys[n]);
+          if (same != there->values.end() && same->second == here.values.at(here.keys[n])) continue;
+          if (++tried[family] > tries) break;
+          if (matters(story, *there, here, n)) needed.insert(family);
+        }
+      }
+    }
+  }
+  std::vector<std::string> useless;
+  std::set_difference(all.begin(), all.end(), needed.begin(), needed.end(), std::back_inserter(useless));
+  for (auto& u : useless) std::printf("%s\n", u.c_str());
+  EXPECT_THAT(useless, testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace drycut::devices::lx3vp
