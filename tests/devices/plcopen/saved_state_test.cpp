@@ -262,7 +262,7 @@ TEST(PlcopenSavedState, OfMovementsTimersAndErrorsGoesOn) {
   StateScene scene{movements};
   scene.inputs = {{100, {{"IX0.0", 1}}},
                   {160, {{"IX0.0", 0}}},
-                  {700, {{"Knife.ready", 0}}},
+                  {690, {{"Knife.ready", 0}}},
                   {730, {{"Knife.ready", 1}}},
                   {1200, {{"IX0.0", 1}}}};
   scene.writes = {{300, {{"Line.override", 60}}},
