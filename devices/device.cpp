@@ -7,6 +7,7 @@
 #include <cassert>
 #include <utility>
 
+#include "base/state_archive.hpp"
 #include "base/text.hpp"
 #include "devices/contradictions.hpp"
 #include "devices/controller.hpp"
@@ -40,6 +41,13 @@ std::optional<Symbol> find_exact(const DeviceType& type, std::string_view name) 
 }
 
 std::int32_t reset_value(Retention retention) { return retention == Retention::one ? 1 : 0; }
+
+/// Where each variable's rows begin, and where the last one's end.
+std::vector<int> offsets_of(const DeviceType& type) {
+  std::vector<int> offsets = {0};
+  for (const DeviceVariable& variable : type.variables) offsets.push_back(offsets.back() + variable.rows);
+  return offsets;
+}
 
 }  // namespace
 
@@ -86,15 +94,10 @@ std::int32_t wrap(Size size, std::int64_t value) {
   return static_cast<std::int32_t>(value);
 }
 
-Device::Device(const DeviceType& type) : type_(type) {
+Device::Device(const DeviceType& type)
+    : type_(type), offsets_(offsets_of(type)), contradictions_(contradictions(type)) {
   assert(type.states.size() <= 64 && type.commands.size() <= 64);
-  int total = 0;
-  for (const DeviceVariable& variable : type.variables) {
-    offsets_.push_back(total);
-    total += variable.rows;
-  }
-  values_.assign(static_cast<std::size_t>(total), 0);
-  contradictions_ = contradictions(type);
+  values_.assign(static_cast<std::size_t>(offsets_.back()), 0);
   told_contradictions_.assign(contradictions_.size(), 0);
   reset_values();
 }
@@ -124,7 +127,7 @@ void Device::command(int index, std::string_view giver) {
   const bool known = std::any_of(given_.begin(), given_.end(), [&](const Given& other) {
     return other.command == index && other.giver == giver;
   });
-  if (!known) given_.push_back({index, giver});
+  if (!known) given_.push_back({index, std::string(giver)});
 }
 
 bool Device::settled() const {
@@ -276,5 +279,32 @@ std::string Device::unmet(const Condition& condition) const {
 }
 
 std::optional<CamAxis> Device::cam_axis() { return std::nullopt; }
+
+void Symbol::visit(StateArchive& archive) { STATE(archive, kind, index, row); }
+void Diagnostic::visit(StateArchive& archive) { STATE(archive, kind, subject, text); }
+void Device::PendingWrite::visit(StateArchive& archive) { STATE(archive, symbol, value); }
+void Device::Given::visit(StateArchive& archive) { STATE(archive, command, giver); }
+
+void visit_values(StateArchive& archive, std::string_view name, std::span<std::int32_t> values) {
+  if (values.size() == 1) return archive.named(name, values.front());
+  std::vector<std::int32_t> all(values.begin(), values.end());
+  archive.named(name, all);
+  if (all.size() != values.size()) throw BadState("a list of another length");
+  std::ranges::copy(all, values.begin());
+}
+
+void Device::visit(StateArchive& archive) {
+  for (std::size_t i = 0; i < type_.variables.size(); ++i) {
+    const DeviceVariable& variable = type_.variables[i];
+    visit_values(archive, variable.name,
+                 {values_.begin() + offsets_[i], static_cast<std::size_t>(variable.rows)});
+  }
+  for (std::size_t i = 0; i < type_.states.size(); ++i) {
+    bool on = state(static_cast<int>(i));
+    archive.named(type_.states[i].name, on);
+    set_state(static_cast<int>(i), on);
+  }
+  STATE(archive, pending_writes_, pending_commands_, given_, told_contradictions_, diagnostics_);
+}
 
 }  // namespace drycut::devices

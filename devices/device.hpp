@@ -11,6 +11,10 @@
 
 #include "devices/cards.hpp"
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::devices {
 
 struct CamAxis;  // devices/controller.hpp
@@ -112,6 +116,8 @@ struct Symbol {
   Kind kind = Kind::variable;
   int index = 0;
   int row = 0;
+
+  void visit(StateArchive& archive);
 };
 
 /// Looks `name` up, any case, aliases included: "posit", "codeQm17", "st_sync".
@@ -145,7 +151,12 @@ struct Diagnostic {
   Kind kind = Kind::warning;
   std::string subject;  ///< command or variable name
   std::string text;     ///< "st_still is 0, must be 1"
+
+  void visit(StateArchive& archive);
 };
+
+/// Visits values that stand side by side: they stay where they are, one is listed under the name alone.
+void visit_values(StateArchive& archive, std::string_view name, std::span<std::int32_t> values);
 
 /// A device inside the controller: dual-port RAM on one side (write, command, read), transducers and DAC on
 /// the other, and a periodic step (spec qem.md §2).
@@ -166,7 +177,7 @@ class Device {
 
   // The program's side.
   void write(Symbol symbol, std::int32_t value);
-  /// `giver` is the task's name, "" for anybody else; the text must outlive the device's next sample.
+  /// `giver` is the task's name, "" for anybody else.
   void command(int index, std::string_view giver = {});
   /// False while writes or commands wait for a sample of an initialised device (the mailbox of spec §2).
   [[nodiscard]] bool settled() const;
@@ -191,6 +202,9 @@ class Device {
 
   [[nodiscard]] std::vector<Diagnostic> take_diagnostics();
   [[nodiscard]] bool has_diagnostics() const { return !diagnostics_.empty(); }
+
+  /// What changes while it runs; a device type adds its own.
+  virtual void visit(StateArchive& archive);
 
  protected:
   // What a device type supplies.
@@ -222,7 +236,8 @@ class Device {
  private:
   struct PendingWrite {
     Symbol symbol;
-    std::int32_t value;
+    std::int32_t value = 0;
+    void visit(StateArchive& archive);
   };
   void apply(const PendingWrite& pending);
   void run(int command);
@@ -232,18 +247,19 @@ class Device {
   [[nodiscard]] std::string unmet(const Condition& condition) const;
 
   const DeviceType& type_;
-  std::vector<int> offsets_;
+  const std::vector<int> offsets_;
   std::vector<std::int32_t> values_;
   std::uint64_t states_ = 0;
   std::vector<PendingWrite> pending_writes_;
   std::uint64_t pending_commands_ = 0;
   struct Given {
-    int command;
-    std::string_view giver;
+    int command = 0;
+    std::string giver;
+    void visit(StateArchive& archive);
   };
-  std::vector<Given> given_;                        ///< who gave the pending commands, each once
-  std::vector<std::uint64_t> contradictions_;       ///< by command: those that want the opposite
-  std::vector<std::uint64_t> told_contradictions_;  ///< by command: told when it last ran
+  std::vector<Given> given_;                         ///< who gave the pending commands, each once
+  const std::vector<std::uint64_t> contradictions_;  ///< by command: those that want the opposite
+  std::vector<std::uint64_t> told_contradictions_;   ///< by command: told when it last ran
   std::vector<Diagnostic> diagnostics_;
 };
 

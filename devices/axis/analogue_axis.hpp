@@ -24,6 +24,9 @@ struct AxisSettings {
   int frequency_window_ms = 240;
   double term_limit = dac_full_scale;  ///< of the integral and derivative actions [DAC bits]
   bool simulated = false;              ///< nothing but the profile moves the axis (000 1.5)
+
+  /// What programs can write; the rest is the record's.
+  void visit(StateArchive& archive);
 };
 
 /// Seconds for each bit x4/s of a ramp that takes `hundredths` of a second from rest to `max_speed`.
@@ -118,6 +121,8 @@ class AnalogueAxis {
   /// Something else has taken the axis off that quota.
   void forget_placement() { placed_.reset(); }
 
+  void visit(StateArchive& archive);
+
  private:
   static constexpr int long_rest_ms = 1 << 20;  ///< longer than any pause before a reversal
 
@@ -154,6 +159,8 @@ struct PresetSettings {
   std::int32_t fast = 0;   ///< prsvel [speed]
   std::int32_t slow = 0;   ///< sprsvel [speed]
   bool locked = false;     ///< the count is locked: nothing loads it (CNTLOCK, 002 1.4.2)
+
+  void visit(StateArchive& archive);
 };
 
 /// The search of modes 0 and 1: fast toward the enable input, back slowly, load the quota when the enable is
@@ -179,6 +186,8 @@ class PresetSearch {
     return leg_ == Leg::approach ? settings.fast : settings.slow;
   }
   [[nodiscard]] Leg leg() const { return leg_; }
+
+  void visit(StateArchive& archive);
 
  private:
   void load(const PresetSettings& settings, std::int64_t total, AnalogueAxis& axis);

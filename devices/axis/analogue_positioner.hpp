@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/state_archive.hpp"
 #include "devices/axis/analogue_axis.hpp"
 #include "devices/axis/limits.hpp"
 #include "devices/axis/position.hpp"
@@ -44,6 +45,11 @@ class AnaloguePositioner : public TableDevice<table> {
     if (!dac_) return;
     dac_->word = 0;
     dac_turn_.release(*dac_);
+  }
+
+  void visit(StateArchive& archive) override {
+    Device::visit(archive);
+    STATE(archive, axis_, search_, dac_turn_, search_settings_, zero_, enable_released_);
   }
 
  protected:
@@ -318,8 +324,8 @@ class AnaloguePositioner : public TableDevice<table> {
     search_.start(search_settings_, is_on(enable_), axis_);
   }
 
-  std::string_view dac_name_;
-  int zero_line_;
+  const std::string_view dac_name_;
+  const int zero_line_;
   DacTurn dac_turn_;
   PresetSettings search_settings_;    ///< of the running search
   std::optional<std::int64_t> zero_;  ///< total at a zero pulse since the last sample

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <cstdint>
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::devices::axis {
 
 /// Resolution of an axis: `measure` Um while the transducer gives `pulse` bits x4 (spec qem.md 1.2). EPICPOS
@@ -12,6 +16,7 @@ struct Resolution {
   std::int64_t measure = 1;  ///< [Um]
   std::int64_t pulse = 1;    ///< [bits x4]
   bool operator==(const Resolution&) const = default;
+  void visit(StateArchive& archive);
 };
 
 /// A resolution that can be computed with, whatever was written into the parameters: values outside 1..2^30
@@ -51,6 +56,7 @@ class Transducer {
   [[nodiscard]] std::int64_t total_at(std::int64_t raw, bool locked, bool reversed) const {
     return locked ? total_ : multiply_add(total_, difference(raw, last_), reversed ? -1 : 1);
   }
+  void visit(StateArchive& archive);
 
  private:
   std::int64_t last_ = 0;
@@ -86,6 +92,7 @@ class Quota {
     return static_cast<double>(difference(multiply_add(0, um, r.pulse), numerator_)) /
            static_cast<double>(r.measure);
   }
+  void visit(StateArchive& archive);
 
  private:
   std::int64_t numerator_ = 0;
@@ -110,6 +117,7 @@ struct Theoretical {
   [[nodiscard]] double minus(const Theoretical& other) const {
     return static_cast<double>(difference(whole, other.whole)) + (part - other.part);
   }
+  void visit(StateArchive& archive);
 };
 
 /// Um/s of one unit of a speed parameter: whole units of measure per second or minute (spec 1.5).
@@ -155,6 +163,7 @@ class FrequencyMeter {
   }
   /// Magnitude of the rate over the last whole window [bits x4/s]; one phase has a quarter of it [Hz].
   [[nodiscard]] double bits_per_second() const { return bits_per_second_; }
+  void visit(StateArchive& archive);
 
  private:
   std::int64_t bits_ = 0;

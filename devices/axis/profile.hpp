@@ -2,6 +2,10 @@
 #include <cstdint>
 #include <optional>
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::devices::axis {
 
 enum class RampShape : std::uint8_t { trapezoidal, epicycloidal };
@@ -12,6 +16,8 @@ struct Ramp {
   double from = 0;      ///< [bits x4/s]
   double to = 0;        ///< [bits x4/s]
   double duration = 0;  ///< [s]; 0 = a step of speed
+
+  void visit(StateArchive& archive);
 };
 
 /// Speed at `t` seconds from the ramp's start, 0 <= t <= duration [bits x4/s].
@@ -30,6 +36,7 @@ struct Demand {
   bool keep_gradient =
       true;  ///< a short move: true lowers ramp times too (rtype 1), false keeps them (rtype 0)
   friend bool operator==(const Demand&, const Demand&) = default;
+  void visit(StateArchive& archive);
 };
 
 /// A movement: a ramp to its speed, a stretch of constant speed, a last ramp to rest.
@@ -43,6 +50,7 @@ struct Plan {
   [[nodiscard]] double space() const;
   [[nodiscard]] double space_at(double t) const;
   [[nodiscard]] double speed_at(double t) const;
+  void visit(StateArchive& archive);
 };
 
 /// The movement over `distance` >= 0 [bits x4] that begins at `speed` >= 0; nullopt if the axis cannot stop
@@ -89,6 +97,8 @@ class Profile {
   [[nodiscard]] bool in_last_ramp() const;
   /// Signed speed [bits x4/s].
   [[nodiscard]] double speed() const { return moving_ ? direction_ * plan_.speed_at(time_) : 0; }
+
+  void visit(StateArchive& archive);
 
  private:
   /// A ramp and how far it is.

@@ -11,6 +11,8 @@ namespace drycut::devices::axis {
 struct DacOutput {
   std::int16_t word = 0;
   int saturated = 0;
+
+  void visit(StateArchive& archive);
 };
 
 /// Rounds to the nearest bit and holds at +-32767 (spec 1.8).
@@ -30,6 +32,7 @@ class DacTurn {
   }
   /// Leaves the DAC, as it stands, to the others.
   void release(AnalogueOutput& dac) { turn_.release(dac.held); }
+  void visit(StateArchive& archive);
 
  private:
   OutputTurn turn_;
@@ -58,6 +61,7 @@ class FollowingErrorHold {
     remaining_ms_ = remaining_ms_ > period_ms ? remaining_ms_ - period_ms : 0;
     return remaining_ms_ > 0;
   }
+  void visit(StateArchive& archive);
 
  private:
   int remaining_ms_ = 0;
@@ -69,6 +73,8 @@ struct Gains {
   std::int32_t feedfw = 0;  ///< [1/1000]
   std::int32_t integt = 0;  ///< [ms], smaller is stronger, 0 = off
   std::int32_t derivt = 0;  ///< [ms], larger is stronger, 0 = off
+
+  void visit(StateArchive& archive);
 };
 
 /// The scale that the gains refer to.
@@ -85,6 +91,7 @@ struct Actions {
   double integral = 0;
   double derivative = 0;
   [[nodiscard]] double sum() const { return feed_forward + proportional + integral + derivative; }
+  void visit(StateArchive& archive);
 };
 
 /// The regulator of spec 5.2. Its unit of error is the way at full speed in one period: an error of that
@@ -119,6 +126,7 @@ class Regulator {
     if (scale.max_speed <= 0) return {};
     return {gains.feedfw / 1000.0 * (speed / scale.max_speed) * dac_full_scale, 0, 0, 0};
   }
+  void visit(StateArchive& archive);
 
  private:
   double integral_ = 0;

@@ -18,6 +18,8 @@ struct CamStart {
   std::int64_t master_count = 0;  ///< [bits x4]
   std::int64_t slave_bits = 0;    ///< [bits x4]
   double slave_fraction = 0;      ///< of a bit, 0 <= fraction < 1
+
+  void visit(StateArchive& archive);
 };
 
 /// What the cam needs at every sampling. `grains` of a position: 1 Um = `pulse` grains, 1 bit = `measure`
@@ -36,6 +38,8 @@ struct CamSample {
 struct CamLimits {
   double acceleration = std::numeric_limits<double>::infinity();
   double deceleration = std::numeric_limits<double>::infinity();
+
+  void visit(StateArchive& archive);
 };
 
 /// What one sampling of the cam gives.
@@ -58,9 +62,13 @@ struct CamStep {
   struct ReadOut {
     int row = 0;
     std::int32_t codeQma = 0;
+
+    void visit(StateArchive& archive);
   };
   std::array<ReadOut, 24> read_outs{};  ///< codeQma values that the cam wrote into its table (170-175, 190)
   int read_out_count = 0;
+
+  void visit(StateArchive& archive);
 };
 
 /// The cam generator of CAMMING4 (spec qem.md 8.4-8.8; 000 1.2): a table of sectors run against a master
@@ -94,6 +102,8 @@ class Cam {
   [[nodiscard]] const Sector& sector() const { return sectors_[static_cast<std::size_t>(current_ - 1)]; }
   [[nodiscard]] const Point& master_origin() const { return master_origin_; }
   [[nodiscard]] const Point& slave_origin() const { return slave_origin_; }
+
+  void visit(StateArchive& archive);
 
  private:
   enum class State : std::uint8_t { idle, entering, waiting, moving };

@@ -31,6 +31,7 @@ class Recalculation {
   void sample();
   /// Samples until all is done.
   [[nodiscard]] int left() const { return left_; }
+  void visit(StateArchive& archive);
 
  private:
   std::array<std::uint8_t, table::variables.size() + cam_rows> of_each_{};  ///< samples left, by calculation
@@ -47,6 +48,7 @@ class Camming4 final : public axis::AnaloguePositioner<camming4_type> {
   void interrupt(int line, bool rising) override;
   void power_up() override;
   [[nodiscard]] std::optional<CamAxis> cam_axis() override;
+  void visit(StateArchive& archive) override;
 
  protected:
   void latch() override;
@@ -66,6 +68,8 @@ class Camming4 final : public axis::AnaloguePositioner<camming4_type> {
     std::int64_t start = 0;         ///< master's origin of a cam that it starts
     std::optional<int> delay = {};  ///< samples of recalculation that it waits for, once sampled
     bool late = false;              ///< it waited (warning 8)
+
+    void visit(StateArchive& archive);
   };
   /// The terminals of the record; nullptr or line 0 where the .CNF says X.X or X.
   struct Terminals {

@@ -18,6 +18,8 @@ struct Law {
   double length = 0;      ///< master space
   double mid_speed = 0;   ///< at the middle of the speed change
   double exit_speed = 0;  ///< at the end of the sector; of a softened exit: without the softening
+
+  void visit(StateArchive& archive);
 };
 CamMotion at(const Law& law, double m);
 /// Largest |dv/dm| while the speed's magnitude grows, or falls; 0 if it never does.
@@ -43,6 +45,8 @@ struct Softening {
   double half_width = 0;  ///< [master Um], 0 = none
   double change = 0;      ///< speed after less speed before the boundary
   Shape shape = Shape::straight;
+
+  void visit(StateArchive& archive);
 };
 /// One speed with a softened entry and exit. Position and space are relative to the unsoftened law: the
 /// slave passes the boundaries off it by change*half_width/4 (straight), and is back on it after the ramp.

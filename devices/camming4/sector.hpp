@@ -16,6 +16,7 @@ struct GrainResolution {
   std::int64_t measure = 1;  ///< [Um], and grains a bit
   std::int64_t pulse = 1;    ///< [bits x4], and grains a Um
   bool operator==(const GrainResolution&) const = default;
+  void visit(StateArchive& archive);
 };
 GrainResolution usable(GrainResolution resolution);
 
@@ -25,6 +26,7 @@ struct Space {
   std::int64_t grains = 0;
   double fraction = 0;
   bool operator==(const Space&) const = default;
+  void visit(StateArchive& archive);
 };
 
 /// A position: whole bits x4 and a remainder, 0 <= part < measure, 0 <= fraction < 1 [grains]. Bits and
@@ -34,6 +36,7 @@ struct Point {
   std::int64_t part = 0;
   double fraction = 0;
   bool operator==(const Point&) const = default;
+  void visit(StateArchive& archive);
 };
 
 /// Sums, differences and products that stay at +-2^61 where they would pass it: hostile tables are wrong, not
@@ -124,6 +127,7 @@ struct Row {
   std::int32_t codeQsa = 0;
   std::int32_t codeM = 0;
   bool operator==(const Row&) const = default;
+  void visit(StateArchive& archive);
 };
 
 /// What the laws need besides the table.
@@ -132,6 +136,7 @@ struct CamSettings {
   GrainResolution slave;   ///< measure, pulse
   int decpt = 0;           ///< 0..3: the tangent axis counts 360*10^decpt Um a turn
   bool operator==(const CamSettings&) const = default;
+  void visit(StateArchive& archive);
 };
 
 /// An error or a warning with the row that caused it (000 1.3, 1.4); code 0 = none.
@@ -139,6 +144,7 @@ struct CamEvent {
   int code = 0;
   int row = 0;
   bool operator==(const CamEvent&) const = default;
+  void visit(StateArchive& archive);
 };
 
 /// A movement sector made ready to run: its law and its exact spaces.
@@ -156,6 +162,8 @@ struct Sector {
   double entry_speed = 0;
   double exit_speed = 0;
   Softening exit;  ///< of a softened change into the next row
+
+  void visit(StateArchive& archive);
 };
 
 /// Slave motion of a sector at master position m [Um].

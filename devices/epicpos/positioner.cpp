@@ -28,6 +28,11 @@ void Positioner::power_up() {
   if (axis_.settings.simulated) counter_->count = counter_->latched = 0;
 }
 
+void Positioner::visit(StateArchive& archive) {
+  AnaloguePositioner::visit(archive);
+  STATE(archive, counter_part_, in_tolerance_ms_);
+}
+
 void Positioner::initialise() {
   recompute();
   // A kept position goes on with its remainder, unless memory was restored from elsewhere.

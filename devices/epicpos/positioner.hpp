@@ -17,6 +17,7 @@ class Positioner final : public axis::AnaloguePositioner<epicpos_type> {
   Positioner(const DeviceType& type, const Resources& resources, Cards& cards);
 
   void power_up() override;
+  void visit(StateArchive& archive) override;
 
  protected:
   void initialise() override;

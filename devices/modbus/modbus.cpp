@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::devices::modbus {
 
 namespace {
@@ -20,6 +22,10 @@ class ModbusDevice final : public TableDevice<modbus_type> {
     Device::power_up();
     waited_ms_ = 0;
     command(CommandRow("INIT"));
+  }
+  void visit(StateArchive& archive) override {
+    Device::visit(archive);
+    STATE(archive, waited_ms_);
   }
 
  protected:
@@ -69,7 +75,7 @@ class ModbusDevice final : public TableDevice<modbus_type> {
     value(word, 2 * row + 1) = static_cast<std::int16_t>(both);
   }
 
-  int period_ms_;
+  const int period_ms_;
   int waited_ms_ = 0;
 };
 

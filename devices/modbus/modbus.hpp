@@ -24,7 +24,7 @@ class ExchangeFace final : public ModbusFace {
   [[nodiscard]] std::optional<ModbusPlace> place(ModbusTable table, std::uint16_t address,
                                                  std::string_view word) const;
 
-  std::string name_;
+  const std::string name_;
   const Device& device_;
   const bool& powered_;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::devices::oopos2 {
 
 void Movement::tick(int ms) {
@@ -145,6 +147,13 @@ bool Movement::reached(Parts position, Parts before) const {
 
 bool Movement::ahead(const Leg& leg, Parts position) {
   return leg.backward ? position > *leg.goal : position < *leg.goal;
+}
+
+void Leg::visit(StateArchive& archive) { STATE(archive, backward, slow, slows, goal, inertia); }
+void Times::visit(StateArchive& archive) { STATE(archive, brake, inversion, slowdown, tolerance); }
+void Movement::visit(StateArchive& archive) {
+  STATE(archive, times, phase_, leg_, last_, placing_, driven_, last_backward_, off_ms_, timer_ms_,
+        slowdown_ms_);
 }
 
 Outputs Movement::outputs() const {

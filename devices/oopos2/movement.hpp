@@ -4,6 +4,10 @@
 
 #include "devices/oopos2/laws.hpp"
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::devices::oopos2 {
 
 // What happens in which sample. A sample latches the count and the inputs, lets the timers run by TCamp,
@@ -23,6 +27,8 @@ struct Leg {
   bool slows = false;         ///< goes slow in the slow range before the goal
   std::optional<Parts> goal;  ///< where it ends; nothing: it runs until it is stopped
   Parts inertia = 0;          ///< the outputs go off so far before the goal
+
+  void visit(StateArchive& archive);
 };
 
 /// The timers' lengths [ms], 0 or more.
@@ -31,6 +37,8 @@ struct Times {
   int inversion = 0;  ///< tinvt
   int slowdown = 0;   ///< slowdly
   int tolerance = 0;  ///< toldly
+
+  void visit(StateArchive& archive);
 };
 
 struct Outputs {
@@ -93,6 +101,8 @@ class Movement {
   [[nodiscard]] bool last_backward() const { return last_backward_; }
   /// Left of the running timer [ms], 0 or more.
   [[nodiscard]] int timer_ms() const { return timer_ms_; }
+
+  void visit(StateArchive& archive);
 
  private:
   static constexpr int long_ago_ms = 1 << 20;  ///< longer than any tinvt

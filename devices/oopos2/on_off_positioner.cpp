@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "base/state_archive.hpp"
 #include "devices/axis/position.hpp"
 #include "devices/device.hpp"
 #include "devices/oopos2/oopos2.hpp"
@@ -37,6 +38,14 @@ void OnOffPositioner::power_up() {
     }
     output.level = false;
   }
+}
+
+void OnOffPositioner::Output::visit(StateArchive& archive) { STATE(archive, turn, level); }
+void OnOffPositioner::visit(StateArchive& archive) {
+  Device::visit(archive);
+  STATE(archive, outputs_, transducer_, quota_, resolution_, frequency_, movement_, target_, tool_, wanted_,
+        inertia_noted_, search_, search_backward_, search_slow_, search_zero_, enable_was_, enable_released_,
+        zero_);
 }
 
 void OnOffPositioner::initialise() {

@@ -21,6 +21,7 @@ class OnOffPositioner final : public TableDevice<oopos2_type> {
   [[nodiscard]] int period_ms() const override { return period_ms_; }
   void interrupt(int line, bool rising) override;
   void power_up() override;
+  void visit(StateArchive& archive) override;
 
  protected:
   void latch() override;
@@ -37,6 +38,8 @@ class OnOffPositioner final : public TableDevice<oopos2_type> {
     DigitalOutput* terminal = nullptr;
     OutputTurn turn;
     bool level = false;
+
+    void visit(StateArchive& archive);
   };
   static constexpr int outputs = 6;  ///< OutAva to OutFre
   /// Where the preset search is: toward the enable, out of it, to the zero pulse, at rest, to the quota.
@@ -87,7 +90,7 @@ class OnOffPositioner final : public TableDevice<oopos2_type> {
   const DigitalInput* enable_ = nullptr;
   int zero_line_ = 0;
   std::array<Output, outputs> outputs_;
-  int period_ms_;
+  const int period_ms_;
 
   axis::Transducer transducer_;
   axis::Quota quota_;

@@ -7,6 +7,8 @@
 #include <functional>
 #include <type_traits>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::devices::qmove {
 
 namespace {
@@ -343,6 +345,13 @@ RunTimeError run_turn(const QclProgram& program, Task& task, QclMachine& machine
 RunTimeError run_statements(const QclProgram& program, Task& task, QclMachine& machine,
                             std::int64_t& statements) {
   return run<true>(program, task, machine, statements);
+}
+
+void Task::visit(StateArchive& archive) {
+  std::vector<int> told_cuts(cuts.begin(), cuts.end());
+  STATE(archive, at, ended, calls, wait, reached, last_post, turned, told_cuts, told, in_turn, left, waits_at,
+        waits_since);
+  if (archive.restores()) cuts = {told_cuts.begin(), told_cuts.end()};
 }
 
 }  // namespace drycut::devices::qmove

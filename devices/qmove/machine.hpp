@@ -9,6 +9,10 @@
 #include "devices/device.hpp"
 #include "devices/qmove/program.hpp"
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::devices::qmove {
 
 /// Run-time errors, numbered as QMOS oserr reports them (spec 4.5).
@@ -38,7 +42,7 @@ struct QclMachine {
     std::int32_t value;
     std::int32_t kept;
   };
-  std::optional<Cut> cut = {};  ///< the last one of a turn
+  std::optional<Cut> cut = {};  ///< the last one of a turn; no state: told when the turn ends
 
   /// Writes and commands to devices so far: each has its number, from 1.
   std::uint64_t posts = 0;
@@ -72,6 +76,8 @@ struct Task {
   int left = 0;                          ///< work that is left for this turn then
   int waits_at = -1;             ///< the condition of the WAIT, or the END, at which it stands; -1: at none
   std::int64_t waits_since = 0;  ///< [ns]
+
+  void visit(StateArchive& archive);
 };
 
 /// Work that a task may do in one turn [instructions]; a program that loops without WAIT comes to more.

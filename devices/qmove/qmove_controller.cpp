@@ -245,7 +245,7 @@ void QmoveController::collect_diagnostics(std::size_t device) {
   for (Diagnostic& diagnostic : machine_.devices[device]->take_diagnostics()) {
     // The device itself tells each contradiction once, and anew when it comes anew.
     if (diagnostic.kind != Diagnostic::Kind::contradiction &&
-        !said_.emplace(device, diagnostic.kind, diagnostic.subject, diagnostic.text).second)
+        !said_.insert({device, diagnostic.kind, diagnostic.subject, diagnostic.text}).second)
       continue;
     const std::string separator = diagnostic.subject.empty() || diagnostic.text.empty() ? "" : ": ";
     events_.push_back({configuration_.devices[device].name, std::string(event_of(diagnostic)),

@@ -1,4 +1,5 @@
 #pragma once
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -6,7 +7,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "base/problem.hpp"
@@ -55,6 +55,7 @@ class QmoveController : public Controller {
   void run_tasks(std::int64_t time_ns) override;
   void interrupt(int line, bool rising) override;
   void power(bool on) override;
+  void visit(StateArchive& archive) override;
 
   /// Values by name, any case: variables `slLength`, `arr[3]`, `ddbCodeG[2,1]`, timers (1 = elapsed), inputs
   /// and outputs by symbol or terminal (`2.OUT01`, `2.AN01` in V, `2.CNT01` in counts), devices
@@ -127,9 +128,11 @@ class QmoveController : public Controller {
   [[nodiscard]] ProgramText module_text(const QclProgram& program) const;
   [[nodiscard]] std::string doing(std::size_t number) const;
 
-  Configuration configuration_;
-  std::vector<QclProgram> programs_;
-  SymbolTable names_;
+  void visit_machine(StateArchive& archive);
+
+  const Configuration configuration_;
+  const std::vector<QclProgram> programs_;
+  const SymbolTable names_;
   Cards cards_;
   QclMachine machine_;
   std::vector<Task> tasks_;
@@ -139,17 +142,24 @@ class QmoveController : public Controller {
   RunTimeError error_ = RunTimeError::none;
   std::size_t failed_ = 0;  ///< the task that had it
 
-  Due round_;                     ///< of the tasks
-  std::int64_t statement_ns_;     ///< what a statement takes
-  std::int64_t computed_ns_ = 0;  ///< until when statements have been executed
-  std::size_t place_ = 0;         ///< in the round's order of turns: those held up by others, then all
+  Due round_;                        ///< of the tasks
+  const std::int64_t statement_ns_;  ///< what a statement takes
+  std::int64_t computed_ns_ = 0;     ///< until when statements have been executed
+  std::size_t place_ = 0;            ///< in the round's order of turns: those held up by others, then all
   bool in_round_ = false;
   std::vector<Due> device_due_;      ///< by device
   std::int64_t next_device_ns_ = 0;  ///< the earliest of them
 
   std::vector<ControllerEvent> events_;
-  /// Diagnostics said since power-up: a program that repeats a refused command does not flood.
-  std::set<std::tuple<std::size_t, Diagnostic::Kind, std::string, std::string>> said_;
+  struct Said {
+    std::size_t device = 0;
+    Diagnostic::Kind kind = {};
+    std::string subject;
+    std::string text;
+    auto operator<=>(const Said&) const = default;
+    void visit(StateArchive& archive);
+  };
+  std::set<Said> said_;  ///< since power-up: a program that repeats a refused command does not flood
 };
 
 }  // namespace drycut::devices::qmove
