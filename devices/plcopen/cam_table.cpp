@@ -169,4 +169,9 @@ void CamTables::visit(StateArchive& archive) {
   for (auto& [id, entry] : entries_) archive.named(fmt::format("table{}", id), entry);
 }
 
+void CamCurve::visit(StateArchive& archive) {
+  CamLaw::visit(archive);
+  STATE(archive, turns);
+}
+
 }  // namespace drycut::devices::plcopen

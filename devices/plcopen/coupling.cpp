@@ -326,10 +326,6 @@ void Coupling::rebase_gear(const AxisMotion& master) {
 
 void Position::visit(StateArchive& archive) { STATE(archive, turns, part); }
 void AxisMotion::visit(StateArchive& archive) { STATE(archive, position, velocity, acceleration); }
-void CamCurve::visit(StateArchive& archive) {
-  CamLaw::visit(archive);
-  STATE(archive, turns);
-}
 void CamFollow::visit(StateArchive& archive) {
   STATE(archive, curve, master_scaling, slave_scaling, master_offset, slave_offset, periodic);
 }
