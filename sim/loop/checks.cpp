@@ -536,6 +536,7 @@ void Checks::visit(StateArchive& archive, State& state) {
                [&](Operand& of) { STATE(archive, of.noted, of.failed, of.worst, of.low, of.high); });
   for (auto* slots : {&state.slots, &state.values})
     archive.each("slots", *slots, [&](Slot& slot) { STATE(archive, slot.number); });
+  if (state.expression) STATE(archive, *state.expression);
   archive.each("series", state.series, [&](Series& series) { STATE(archive, series.numbers); });
 }
 

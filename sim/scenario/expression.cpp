@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/state_archive.hpp"
 #include "base/text.hpp"
 #include "sim/scenario/expression_tree.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -325,6 +326,15 @@ void Expression::finish() {
   auto& tree = compiled_->tree;
   for (std::size_t i = 0; i < tree.windows.size(); ++i)
     tree.statistics[i].value = tree.windows[i].running.result();
+}
+
+void Expression::visit(StateArchive& archive) {
+  STATE(archive, compiled_->evaluated, compiled_->values);
+  archive.each("factors", compiled_->factors, [&](Compiled::Factor& factor) { STATE(archive, factor.seen); });
+  auto& tree = compiled_->tree;
+  archive.each("statistics", tree.statistics, [&](ExpressionStatistic& of) { STATE(archive, of.value); });
+  archive.each("windows", tree.windows,
+               [&](ExpressionTree::Window& window) { STATE(archive, window.running); });
 }
 
 }  // namespace drycut::sim::scenario

@@ -12,6 +12,10 @@
 
 #include "base/problem.hpp"
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::sim::scenario {
 
 struct Scenario;
@@ -126,6 +130,8 @@ class Expression {
   void take(std::size_t statistic, double at);
   /// Gives the statistics their values over what was taken.
   void finish();
+  /// What was taken and evaluated so far.
+  void visit(StateArchive& archive);
 
  private:
   struct Compiled;

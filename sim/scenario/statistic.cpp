@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/state_archive.hpp"
+
 namespace drycut::sim::scenario {
 
 const std::vector<std::string>& RunningStatistic::names() {
@@ -123,6 +125,11 @@ double RunningStatistic::percentile() const {
   if (below + 1 == numbers.size()) return *low;
   const double next = *std::min_element(low + 1, numbers.end());
   return std::lerp(*low, next, rank - static_cast<double>(below));
+}
+
+void RunningStatistic::visit(StateArchive& archive) {
+  STATE(archive, start_, count_, unknown_, extreme_, sum_, mean_, squares_, settled_, beyond_, numbers_,
+        stride_);
 }
 
 }  // namespace drycut::sim::scenario

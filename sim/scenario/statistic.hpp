@@ -5,6 +5,10 @@
 #include <string_view>
 #include <vector>
 
+namespace drycut {
+class StateArchive;
+}
+
 namespace drycut::sim::scenario {
 
 /// One number about the numbers of a window, which are taken one after the other: checks, metrics and
@@ -33,6 +37,7 @@ class RunningStatistic {
   void take(double at, double number);
   /// NaN if there is nothing to look at, too little of it, or one of the numbers was NaN.
   [[nodiscard]] double result() const;
+  void visit(StateArchive& archive);
 
  private:
   enum class Function { max, min, mean, rms, sd, count, settling, percentile };
