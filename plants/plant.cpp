@@ -15,7 +15,8 @@ void PulsePort::visit(StateArchive& archive) { STATE(archive, pulses); }
 
 void Plant::visit_all(StateArchive& archive) {
   assert(archive.restores() || !has_events());
-  for (const Parameter& row : live_parameters())
+  if (!live_) live_ = live_parameters();
+  for (const Parameter& row : *live_)
     std::visit([&](auto* value) { archive.named(row.name, *value); }, row.value);
   visit(archive);
   if (!archive.restores()) return;

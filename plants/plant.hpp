@@ -446,6 +446,7 @@ class Plant {
 
  private:
   std::vector<MachineEvent> events_;
+  std::optional<Parameters> live_;  ///< once a state was kept
 };
 
 /// The definition of one plant in a scenario: parameters with defaults, then the machine built from them.

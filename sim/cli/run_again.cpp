@@ -64,7 +64,7 @@ std::optional<loop::KeptMoment> stepped_to(const scenario::Scenario& scenario, b
   Problems problems;
   loop::Simulation was(scenario, problems);
   if (!problems.empty()) return {};
-  if (from != nullptr && !from->head.origin.differs_from(was.origin()).empty()) return {};
+  if (from != nullptr && !from->head.origin.differs_from(loop::StateOrigin(scenario)).empty()) return {};
   was.follow_cams({}, pictures);
   if (from != nullptr) was.restore(from->state, from->journal);
   while (was.time() < until)
@@ -78,6 +78,7 @@ std::optional<scenario::Scenario> scenario_of(const loop::StateOrigin& origin) {
   for (const auto& [path, value] : origin.overrides) overrides.push_back({path, value});
   Problems problems;
   auto scenario = scenario::read_scenario(origin.file, overrides, problems);
+  scenario.scene.seed = origin.seed;
   if (!problems.empty()) return {};
   return scenario;
 }
@@ -190,6 +191,7 @@ void read_again(RunOptions& options, Problems& problems) {
   options.out = folder.parent_path();
   options.scenarios = {origin.file};
   for (const auto& [path, value] : origin.overrides) options.set.push_back(path + "=" + value);
+  options.seed = origin.seed;
   if (!options.every && moment->head.every != never) options.every = moment->head.every;
   if (result_names(options.scenarios).front() != folder.filename())
     problems.push_back({"state.refused"_code, "--resume", 1, 1,

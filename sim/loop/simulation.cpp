@@ -618,33 +618,38 @@ void Simulation::visit(StateArchive& archive) {
   events_seen_ = recording_.events().size();
 }
 
-const StateOrigin& Simulation::origin() const {
-  if (!origin_) origin_ = std::make_unique<StateOrigin>(scenario_);
-  return *origin_;
+const StateArchive::Bytes& Simulation::begun_state() const {
+  if (begun_state_.empty()) begun_state_ = loop::begun_state(StateOrigin(scenario_));
+  return begun_state_;
 }
 
 StateArchive::Bytes Simulation::save(StateArchive::Journal* journal) {
   begin();
-  StateArchive::Bytes members;
-  auto archive = StateArchive::saving(members, nullptr, journal);
+  StateArchive::Bytes state;
+  state.reserve(state_size_ + state_size_ / 2);
+  state = begun_state();
+  auto archive = StateArchive::saving(state, nullptr, journal);
   visit(archive);
-  StateHead head{origin(), time_, keep_every_};
+  state_size_ = state.size();
+  StateHead head{{}, time_, keep_every_};
   if (journal != nullptr) {
     head.journal = journal->end();
     head.journal_sum = journal->sum;
   }
-  return seal(std::move(head), members);
+  seal(state, head);
+  return state;
 }
 
 void Simulation::restore(std::span<const std::byte> state, std::span<const std::byte> journal, bool others) {
-  const auto [head, members] = open_state(state);
-  const auto& own = origin();
-  if (head.origin.version != own.version || head.origin.build != own.build)
-    throw BadState(
-        fmt::format("it was written by drycut {}, build {}; this is {}, build {}: run it from zero",
-                    head.origin.version, head.origin.build, own.version, own.build));
-  if (const auto what = head.origin.differs_from(own); !others && !what.empty())
-    throw BadState(fmt::format("it is of another scenario or program: {} differ", what));
+  const auto [head, members] = open_state(state, begun_state());
+  if (!head.origin.build.empty()) {
+    const StateOrigin own(scenario_);
+    if (head.origin.version != own.version || head.origin.build != own.build)
+      throw BadState(fmt::format("it was written by drycut {}, build {}; this is {}, build {}",
+                                 head.origin.version, head.origin.build, own.version, own.build));
+    if (const auto what = head.origin.differs_from(own); !others && !what.empty())
+      throw BadState(fmt::format("it is of another scenario or program: {} differ", what));
+  }
   if (journal.empty()) {
     auto archive = StateArchive::restoring(members.data(), members.size());
     visit(archive);

@@ -110,8 +110,6 @@ class Simulation {
   /// state; if the scenario is another, it may have changed.
   void restore(std::span<const std::byte> state, std::span<const std::byte> journal = {},
                bool others = false);
-  /// What its states go with.
-  [[nodiscard]] const StateOrigin& origin() const;
 
   /// What came of the run, if it ended now.
   [[nodiscard]] record::Outcome outcome();
@@ -179,6 +177,7 @@ class Simulation {
   [[nodiscard]] std::optional<Finding> line_of_grip() const;
   [[nodiscard]] std::optional<std::pair<double, Finding>> search_that_met_a_stop() const;
 
+  [[nodiscard]] const StateArchive::Bytes& begun_state() const;
   void tell_files();
   void run_to_end(const std::function<void(Time)>& progress);
   void step();
@@ -231,9 +230,10 @@ class Simulation {
   std::unique_ptr<OpenTerminals> open_;
   std::vector<Finding> doubts_of_program_;
   std::vector<Finding> warnings_;
-  std::vector<Finding> contradictions_;          ///< of controller and machine; among those notes too
-  mutable std::unique_ptr<StateOrigin> origin_;  ///< once it was asked for
-  std::string program_error_;                    ///< first run-time error of the controller's program
+  std::vector<Finding> contradictions_;      ///< of controller and machine; among those notes too
+  mutable StateArchive::Bytes begun_state_;  ///< how all its states begin, once that was asked for
+  std::size_t state_size_ = 0;               ///< of the last one
+  std::string program_error_;                ///< first run-time error of the controller's program
 };
 
 }  // namespace drycut::sim::loop

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <string_view>
 
@@ -23,8 +24,14 @@ struct Begin {
   std::uint32_t unused;
   std::uint64_t size;  // of all
   std::uint64_t sum;   // over what follows
+  // Of the head.
+  std::int64_t time;
+  std::int64_t every;
+  std::uint64_t journal;
+  std::uint64_t journal_sum;
 };
-static_assert(sizeof(Begin) == 32 && mark.size() == sizeof Begin::mark);
+constexpr std::size_t unsummed = offsetof(Begin, time);
+static_assert(sizeof(Begin) == 64 && mark.size() == sizeof Begin::mark);
 
 std::string digest(std::string_view text) {
   Fingerprint hash;
@@ -36,9 +43,8 @@ std::string digest(std::string_view text) {
 
 StateOrigin::StateOrigin(const scenario::Scenario& scenario)
     : version(DRYCUT_VERSION), file(std::filesystem::absolute(scenario.file).lexically_normal().string()) {
-  for (const auto& [path, value] : scenario.overrides)
-    if (path != "scene.seed") overrides.emplace_back(path, value);
-  overrides.emplace_back("scene.seed", std::to_string(scenario.scene.seed));
+  for (const auto& [path, value] : scenario.overrides) overrides.emplace_back(path, value);
+  seed = scenario.scene.seed;
   Fingerprint program;
   program.add_program();
   build = fmt::format("{:016x}", program.value());
@@ -58,7 +64,9 @@ StateOrigin::StateOrigin(const scenario::Scenario& scenario)
                        digest(read_file(scenario.file.parent_path() / name.text, ignored).value_or("")));
 }
 
-void StateOrigin::visit(StateArchive& archive) { STATE(archive, version, build, file, overrides, parts); }
+void StateOrigin::visit(StateArchive& archive) {
+  STATE(archive, version, build, file, overrides, seed, parts);
+}
 
 std::string StateOrigin::differs_from(const StateOrigin& other) const {
   std::string names;
@@ -75,19 +83,22 @@ std::string StateOrigin::differs_from(const StateOrigin& other) const {
   return names;
 }
 
-StateArchive::Bytes seal(StateHead head, const StateArchive::Bytes& members) {
+StateArchive::Bytes begun_state(StateOrigin origin) {
   StateArchive::Bytes bytes(sizeof(Begin));
   auto archive = StateArchive::saving(bytes);
-  STATE(archive, head.origin, head.time, head.every, head.journal, head.journal_sum);
-  bytes.insert(bytes.end(), members.begin(), members.end());
-  Begin begin{{}, format, 0, bytes.size(), 0};
-  std::ranges::copy(mark, begin.mark);
-  begin.sum = StateArchive::sum_of(std::span(bytes).subspan(sizeof begin));
-  std::memcpy(bytes.data(), &begin, sizeof begin);
+  STATE(archive, origin);
   return bytes;
 }
 
-OpenedState open_state(std::span<const std::byte> bytes) {
+void seal(StateArchive::Bytes& state, const StateHead& head) {
+  Begin begin{{}, format, 0, state.size(), 0, head.time, head.every, head.journal, head.journal_sum};
+  std::ranges::copy(mark, begin.mark);
+  std::memcpy(state.data(), &begin, sizeof begin);
+  begin.sum = StateArchive::sum_of(std::span(state).subspan(unsummed));
+  std::memcpy(state.data(), &begin, sizeof begin);
+}
+
+OpenedState open_state(std::span<const std::byte> bytes, std::span<const std::byte> own) {
   Begin begin{};
   if (bytes.size() < sizeof begin) throw BadState("it is cut short");
   std::memcpy(&begin, bytes.data(), sizeof begin);
@@ -96,12 +107,16 @@ OpenedState open_state(std::span<const std::byte> bytes) {
     throw BadState(fmt::format("it is a state of format {}, this drycut has {}", begin.format, format));
   if (begin.unused != 0) throw BadState("it was changed");
   if (begin.size != bytes.size()) throw BadState("it is cut short, or something stands behind it");
+  if (begin.sum != StateArchive::sum_of(bytes.subspan(unsummed))) throw BadState("it was changed");
+  OpenedState opened{{{}, begin.time, begin.every, begin.journal, begin.journal_sum}, {}};
+  if (own.size() > sizeof begin && bytes.size() >= own.size() &&
+      std::equal(own.begin() + sizeof begin, own.end(), bytes.begin() + sizeof begin)) {
+    opened.members = bytes.subspan(own.size());
+    return opened;
+  }
   const auto rest = bytes.subspan(sizeof begin);
-  if (begin.sum != StateArchive::sum_of(rest)) throw BadState("it was changed");
-  OpenedState opened;
-  auto& head = opened.head;
   auto archive = StateArchive::restoring(rest.data(), rest.size());
-  STATE(archive, head.origin, head.time, head.every, head.journal, head.journal_sum);
+  STATE(archive, opened.head.origin);
   opened.members = rest.last(archive.left());
   return opened;
 }

@@ -227,8 +227,10 @@ TEST(AnyMoment, OfAnotherBuildIsRefused) {
   const auto kept = line.simulation->save();
   auto [head, members] = open_state(kept);
   head.origin.build = "another";
-  EXPECT_THAT(refusal(*line.simulation, seal(head, Bytes(members.begin(), members.end()))),
-              HasSubstr("another"));
+  auto other = begun_state(head.origin);
+  other.insert(other.end(), members.begin(), members.end());
+  seal(other, head);
+  EXPECT_THAT(refusal(*line.simulation, other), HasSubstr("another"));
 }
 
 TEST(AnyMoment, ForPrograms) {
