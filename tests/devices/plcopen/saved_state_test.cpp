@@ -246,7 +246,7 @@ Further(Axis := Saw, Execute := m > 35 AND m < 45, Distance := -200000.0, Veloci
 Extra(Axis := Saw, Execute := m > 20 AND m < 90, Distance := 50000.0, VelocityDiff := 100000.0);
 On(Axis := Line, Execute := m > 20 AND m < 300, Velocity := 360000.0);
 Halt(Axis := Line, Execute := m > 250 AND m < 280);
-Stop(Axis := Line, Execute := m > 262 AND m < 350);
+Stop(Axis := Line, Execute := m > 262 AND m < 450);
 Slow(Axis := Line, Enable := m > 150 AND m < 200, VelFactor := 0.5);
 Home(Axis := Knife, Execute := m > 20, Position := 123456.0);
 Turn(Axis := Knife, Execute := m > 40 AND m < 400, Velocity := 300000.0);
