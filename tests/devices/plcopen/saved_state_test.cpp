@@ -26,6 +26,7 @@ using testing::IsSupersetOf;
 struct StateScene {
   std::string program;
   std::int64_t statement_ns = 0;
+  std::int64_t task_ns = MotionKernel::default_cycle_ns;
   std::map<int, std::vector<std::pair<std::string, double>>> inputs = {};  ///< terminals
   std::map<int, std::vector<std::pair<std::string, double>>> writes = {};  ///< values
   std::map<int, bool> power = {};
@@ -35,15 +36,16 @@ struct StateScene {
 // A controller whose drive turns as fast as it is told, at 1 ms a step.
 struct StateRig {
   explicit StateRig(const StateScene& in)
-      : scene(in), controller(program(in.program), "line.st", configuration(in.statement_ns)) {
+      : scene(in), controller(program(in.program), "line.st", configuration(in)) {
     for (const auto& name : controller.names()) values.push_back(*controller.find(name));
     for (const char* name : {"table1[2,1]", "table1[5,1]", "table2[3,1]"})
       values.push_back(*controller.find(name));
     input("Knife.ready") = true;
   }
-  static PlcopenConfiguration configuration(std::int64_t statement_ns) {
+  static PlcopenConfiguration configuration(const StateScene& in) {
     PlcopenConfiguration made;
-    made.statement_ns = statement_ns;
+    made.statement_ns = in.statement_ns;
+    made.task_ns = in.task_ns;
     AxisConfiguration web{"Web", {}, Measure::length};
     web.parameters.kind = AxisKind::encoder;
     web.parameters.is_master = true;
@@ -244,7 +246,7 @@ Further(Axis := Saw, Execute := m > 35 AND m < 45, Distance := -200000.0, Veloci
 Extra(Axis := Saw, Execute := m > 20 AND m < 90, Distance := 50000.0, VelocityDiff := 100000.0);
 On(Axis := Line, Execute := m > 20 AND m < 300, Velocity := 360000.0);
 Halt(Axis := Line, Execute := m > 250 AND m < 280);
-Stop(Axis := Line, Execute := m > 320 AND m < 350);
+Stop(Axis := Line, Execute := m > 262 AND m < 450);
 Slow(Axis := Line, Enable := m > 150 AND m < 200, VelFactor := 0.5);
 Home(Axis := Knife, Execute := m > 20, Position := 123456.0);
 Turn(Axis := Knife, Execute := m > 40 AND m < 400, Velocity := 300000.0);
@@ -362,6 +364,22 @@ TEST(PlcopenSavedState, OfTasksWhoseStatementsTakeTimeGoesOn) {
   scene.power = {{450, false}, {500, true}};
   EXPECT_THAT(goes_on_as_before(scene, 11, 600),
               IsSupersetOf({"computing_.task", "late_.0", "runtime_.fault.text"}));
+}
+
+constexpr const char* rare_scans = R"(PROGRAM line
+VAR_EXTERNAL Saw : AXIS_REF; END_VAR
+VAR n : DINT; Power : MC_Power; A : MC_MoveRelative; B : MC_MoveRelative; C : MC_MoveRelative; END_VAR
+n := n + 1;
+Power(Axis := Saw, Enable := TRUE);
+A(Axis := Saw, Execute := n MOD 8 > 3, Distance := 1000.0, Velocity := 500000.0);
+B(Axis := Saw, Execute := n MOD 8 > 3, Distance := 3000.0, Velocity := 500000.0, BufferMode := mcBuffered);
+C(Axis := Saw, Execute := n MOD 8 > 3, Distance := -4000.0, Velocity := 500000.0, BufferMode := mcBuffered);
+END_PROGRAM
+)";
+
+TEST(PlcopenSavedState, OfCommandsThatEndBetweenScansGoesOn) {
+  const StateScene scene{.program = rare_scans, .task_ns = 20'000'000};
+  EXPECT_THAT(goes_on_as_before(scene, 7, 300), Contains("kernel_.Saw.ended_.3.state.progress"));
 }
 
 TEST(PlcopenSavedState, OfAPowerCycleGoesOn) {
