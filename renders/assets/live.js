@@ -43,7 +43,6 @@ function takeNews(told) {
   for (const part of [events, faults, past]) part.news(news);
   if (past.time === null) for (const part of [machine, panel, program, values, verdicts]) part.news(news);
   else program.news({ ...news, programs: undefined, time: past.time });
-  tellTime();
   const failed = news.failure !== undefined;
   const state = failed ? "failed" : news.running ? "running" : "paused";
   if (document.body.dataset.state !== state) {
@@ -51,6 +50,7 @@ function takeNews(told) {
     by("run").replaceChildren(icon(state === "running" ? "pause" : "play"), state === "running" ? "Pause" : "Run");
     for (const id of ["run", "step", "until"]) by(id).disabled = failed;
   }
+  tellTime();
   by("failure").hidden = !failed;
   if (failed) by("failure-text").textContent = news.failure;
   by("record-lost").hidden = news.record_lost === undefined;

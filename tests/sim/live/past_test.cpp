@@ -49,7 +49,8 @@ struct LivePast : CommandTest {
         {77, Look{time, std::move(names), programs, [told](const auto& problems, const auto& what) {
                     told->set_value({problems, what});
                   }}});
-    if (seen.wait_for(std::chrono::seconds(60)) != std::future_status::ready) return {{{}}, {}};
+    if (seen.wait_for(std::chrono::seconds(60)) != std::future_status::ready)
+      return {{{"live.busy"_code, "look", 1, 1, "nothing was told for a minute", ""}}, {}};
     return seen.get();
   }
   /// A trace's header, without units, and its row at that time.
