@@ -4,6 +4,7 @@ import { Link } from "./live_link.js";
 import { Machine } from "./live_machine.js";
 import { Scope } from "./live_scope.js";
 import { Panel } from "./live_panel.js";
+import { Past } from "./live_past.js";
 import { Program } from "./live_program.js";
 import { Values } from "./live_values.js";
 import { Events, Faults, Verdicts } from "./live_lists.js";
@@ -22,6 +23,7 @@ const program = new Program(link, want);
 const events = new Events((names) => by("events-known").replaceChildren(...names.map((name) => make("option", { value: name }))));
 const verdicts = new Verdicts();
 const faults = new Faults(link);
+const past = new Past(link, () => ({ names: watched(), programs: program.open }), takePast, say);
 
 function takeLine(told) {
   const anew = told.run !== line?.run || told.process !== line?.process;
@@ -29,7 +31,7 @@ function takeLine(told) {
   by("title").textContent = line.title || line.scenario;
   by("scenario").textContent = `${line.scenario} · run ${line.run}`;
   document.title = (line.title || line.scenario) + " · Drycut live";
-  for (const part of [panel, program, values, events, verdicts, faults, scope]) part.line(line, anew);
+  for (const part of [past, panel, program, values, events, verdicts, faults, scope]) part.line(line, anew);
   machine.line(line);
   wanted = "";
   want();
@@ -38,16 +40,17 @@ function takeLine(told) {
 function takeNews(told) {
   news = told;
   if (!line || news.run !== line.run) return;
-  for (const part of [machine, panel, program, values, events, verdicts, faults]) part.news(news);
-  by("time").textContent = news.time.toFixed(news.running ? 2 : 4);
+  for (const part of [events, faults, past]) part.news(news);
+  if (past.time === null) for (const part of [machine, panel, program, values, verdicts]) part.news(news);
+  else program.news({ ...news, programs: undefined, time: past.time });
   const failed = news.failure !== undefined;
   const state = failed ? "failed" : news.running ? "running" : "paused";
   if (document.body.dataset.state !== state) {
     document.body.dataset.state = state;
-    by("state").textContent = state;
     by("run").replaceChildren(icon(state === "running" ? "pause" : "play"), state === "running" ? "Pause" : "Run");
     for (const id of ["run", "step", "until"]) by(id).disabled = failed;
   }
+  tellTime();
   by("failure").hidden = !failed;
   if (failed) by("failure-text").textContent = news.failure;
   by("record-lost").hidden = news.record_lost === undefined;
@@ -55,6 +58,23 @@ function takeNews(told) {
   for (const button of by("pace").children)
     button.setAttribute("aria-pressed", String(Number(button.dataset.pace) === news.pace));
   tellLateness(news.late, news.pace);
+}
+
+/// The clock, of what is shown.
+function tellTime() {
+  const state = past.time === null ? document.body.dataset.state ?? "–" : "past";
+  by("time").textContent = past.time === null ? news.time.toFixed(news.running ? 2 : 4) : past.time.toFixed(4);
+  if (by("state").textContent !== state) by("state").textContent = state;
+}
+
+/// What was to be seen at a time that is past; null: the present again.
+function takePast(seen) {
+  scope.past(seen?.time ?? null);
+  if (!news || !line) return;
+  if (seen === null) return takeNews({ ...news, events: undefined });
+  for (const part of [machine, panel, program, values, verdicts]) part.news(seen);
+  for (const part of [program, values]) part.samples(seen);
+  tellTime();
 }
 
 function tellLateness(late, pace) {
@@ -69,9 +89,11 @@ function tellLateness(late, pace) {
 
 function takeSamples(samples) {
   scope.samples(samples);
+  if (past.time !== null) return;
   program.samples(samples);
   values.samples(samples);
 }
+const watched = () => [...new Set([...program.wanted, ...values.wanted])];
 
 // What is sampled for this page: the scope's curves every cycle, of the values in sight the latest. Told to the
 // line once what chose it is done, and before anything that is done next: a step shows what was chosen before it.
@@ -83,11 +105,12 @@ function want() {
     soon = false;
     if (!line) return;
     const sample = scope.wanted;
-    const watch = [...new Set([...program.wanted, ...values.wanted])];
+    const watch = watched();
     const programs = program.open;
     const text = JSON.stringify([sample, watch, programs]);
     if (text === wanted) return;
     wanted = text;
+    past.again();
     say(await link.ask({ sample, watch, programs }));
   });
 }
@@ -97,6 +120,8 @@ function connected(on) {
   by("lost").hidden = on;
   by("work").inert = !on;
   by("transport").inert = !on;
+  by("past").inert = !on;
+  if (!on) past.now();
 }
 
 /// What is wrong with a request that no field asked for.
@@ -198,7 +223,13 @@ const keys = {
   3: () => work.pace(10),
   4: () => work.pace(0),
   R: work.restart,
-  e: () => panel.emergency(),
+  e: () => {
+    past.now();
+    panel.emergency();
+  },
+  b: () => past.step(-1),
+  B: () => past.step(1),
+  Escape: () => past.now(),
   s: () => by("scope-hold").click(),
   c: () => by("scope-cursors").click(),
   t: () => by("trigger-arm").hidden || by("trigger-arm").click(),
@@ -216,10 +247,11 @@ document.addEventListener("keydown", (event) => {
   if (target.closest("input:not([type=range]), select, textarea")) return;
   if (event.key === " " && target.closest("button, summary, input")) return;
   const does = keys[event.key];
+  if (by("transport").inert && " .n1234R".includes(event.key)) return;
   if (!does || event.repeat || document.body.dataset.link !== "on") return;
   event.preventDefault();
   does();
 });
 
 // For those who look at the page from outside.
-window.drycut = { machine, scope, panel, program, values, link, get news() { return news; }, get line() { return line; } };
+window.drycut = { machine, scope, panel, program, values, past, link, get news() { return news; }, get line() { return line; } };

@@ -15,6 +15,7 @@ export class Link {
   constructor(heard, changed) {
     this.heard = heard;
     this.changed = changed;
+    this.past = false;  // what is shown is: nothing can be done to it
     this.open = new Map();  // by number: who waits for an answer
     this.last = 0;
     this.pause = soonest;
@@ -32,7 +33,7 @@ export class Link {
     this.socket.onmessage = (event) => this.take(JSON.parse(event.data));
     this.socket.onclose = () => {
       this.changed(false);
-      for (const answered of this.open.values()) answered([{ what: "the connection is lost", remedy: "" }]);
+      for (const answered of this.open.values()) answered({ problems: [{ what: "the connection is lost", remedy: "" }] });
       this.open.clear();
       setTimeout(() => this.connect(), this.pause);
       this.pause = Math.min(longest, 2 * this.pause);
@@ -41,7 +42,7 @@ export class Link {
 
   take(message) {
     if ("done" in message) {
-      this.open.get(message.done)?.(message.problems);
+      this.open.get(message.done)?.(message);
       this.open.delete(message.done);
       return;
     }
@@ -49,14 +50,20 @@ export class Link {
   }
 
   /// What became of it: a list of problems, empty if it is done.
-  ask(what) {
+  async ask(what) {
+    return (await this.request(what)).problems;
+  }
+  /// The whole answer, with its `problems`.
+  request(what) {
     if (this.socket.readyState !== WebSocket.OPEN)
-      return Promise.resolve([{ what: "there is no connection to the line", remedy: "" }]);
+      return Promise.resolve({ problems: [{ what: "there is no connection to the line", remedy: "" }] });
     const id = ++this.last;
     this.socket.send(JSON.stringify({ id, ...what }));
     return new Promise((answered) => this.open.set(id, answered));
   }
   act(what) {
+    if (this.past)
+      return Promise.resolve([{ what: "what is shown is past", remedy: "go back to now, or go on from here" }]);
     return this.ask({ act: what });
   }
 }

@@ -19,6 +19,7 @@ export class Scope {
     this.cursors = [];
     this.width = memory.get("scope.width", 2);
     this.held = null;    // [from, until] while it is held
+    this.pastTime = null;  // that is shown
     this.listen();
   }
 
@@ -101,6 +102,13 @@ export class Scope {
     if (begin === this.traces.count) return;
     if (this.trigger.look(this.traces, begin, this.width)) this.tellTrigger();
     this.stale = true;
+  }
+
+  /// Shows the curves as they were around that time; null: the present.
+  past(time) {
+    this.pastTime = time;
+    this.hold(false);
+    if (time !== null) this.held = [time - 0.75 * this.width, time + 0.25 * this.width];
   }
 
   hold(on) {
@@ -280,6 +288,7 @@ export class Scope {
     const [from, until] = this.stretch();
     const cursors = [...this.cursors];
     if (cursors.length === 0 && this.hover !== null && this.hover !== undefined) cursors.push({ time: this.chart.timeAt(this.hover), name: "" });
+    if (cursors.length === 0 && this.pastTime !== null) cursors.push({ time: this.pastTime, name: "" });
     this.chart.draw({ traces: this.traces, channels: this.curves, from, until, trigger: this.trigger, cursors });
     this.legend(cursors);
     this.tellTrigger();

@@ -101,6 +101,11 @@ void Line::act_on(const Request& request) {
     problems = run_->values_of(read->names, values);
     read->told(problems, values);
     return;
+  } else if (const auto* look = std::get_if<Look>(&what)) {
+    run_->look(request.asker, *look);
+    return;
+  } else if (const auto* on_from = std::get_if<GoOn>(&what)) {
+    problems = go_on(on_from->from);
   } else if (const auto* visit = std::get_if<Visit>(&what)) {
     visit->visit(*run_);
     return;
@@ -117,14 +122,19 @@ void Line::go(bool on) {
   begin_pace();
 }
 
-Problems Line::restart() {
-  Problems problems;
+Problems Line::keep_retentive(const char* asked) {
   try {
     run_->keep_retentive();
   } catch (const std::runtime_error& not_kept) {
-    return {{"file.not-writable"_code, "restart", 1, 1, not_kept.what(),
+    return {{"file.not-writable"_code, asked, 1, 1, not_kept.what(),
              "make room for it; the line goes on as it is"}};
   }
+  return {};
+}
+
+Problems Line::restart() {
+  auto problems = keep_retentive("restart");
+  if (!problems.empty()) return problems;
   auto fresh = std::make_unique<LineRun>(options_, *run_, problems);
   if (!problems.empty()) return problems;
   end_run();
@@ -132,11 +142,27 @@ Problems Line::restart() {
   run_ = std::move(fresh);
   be_first(false);  // to where a session is gone on from is no matter of the clock
   run_->begin(options_.record, inbox_);
+  begin_again();
+  return {};
+}
+
+Problems Line::go_on(Time from) {
+  auto problems = keep_retentive("go_on");
+  if (problems.empty()) problems = run_->come_back(from);
+  if (!problems.empty()) return problems;
+  end_run();
+  be_first(false);
+  run_->go_on(from, options_.record, inbox_);
+  running_ = running_ && run_->failure().empty();
+  begin_again();
+  return {};
+}
+
+void Line::begin_again() {
   until_.reset();
   until_event_.reset();
   listener_.described(run_->describe());
   begin_pace();
-  return {};
 }
 
 Time Line::cycle_time() const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/live/inbox.hpp"
+#include "sim/live/line_view.hpp"
 #include "sim/live/session.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/loop/simulation.hpp"
@@ -32,7 +33,7 @@ struct Answer {
 };
 
 /// What the line tells, thirty times a second.
-struct News {
+struct News : Sight {
   int run = 0;  ///< number of the run: each restart is another one
   Time time = 0;
   bool running = false;
@@ -40,9 +41,6 @@ struct News {
   std::string failure;      ///< the simulation itself cannot go on
   std::string record_lost;  ///< why the record has ended while the line goes on, "" = it has not
   Punctuality punctuality;
-  std::vector<plants::PartPose> poses;        ///< as LineDescription::parts
-  std::vector<double> values;                 ///< as LineDescription::targets
-  std::vector<double> lamps;                  ///< as LineDescription::lamps
   std::vector<record::RecordedEvent> events;  ///< since the last news
   std::size_t events_left_out = 0;            ///< there were so many more
   struct Samples {
@@ -53,6 +51,15 @@ struct News {
   Samples samples;                                    ///< since the last news
   std::optional<devices::ProgramPositions> programs;  ///< if anybody wants to know
   std::optional<record::Outcome> outcome;             ///< of the checks as if it ended now; twice a second
+};
+
+/// What was to be seen at a time that the run has behind it.
+struct Seen : Sight {
+  int run = 0;
+  Time time = 0;
+  std::vector<double> read;                           ///< the values that were asked for
+  std::optional<devices::ProgramPositions> programs;  ///< if they were asked for
+  record::Outcome outcome;                            ///< of the checks as if it had ended then
 };
 
 /// What there is to see and to set; of one run.
@@ -153,7 +160,11 @@ class Line {
   /// Does what has been asked, as much as there is time for; false if the line is to stop.
   bool take_mail();
   void act_on(const Request& request);
+  Problems keep_retentive(const char* asked);
   Problems restart();
+  Problems go_on(Time from);
+  /// Says which run it is now.
+  void begin_again();
   void go(bool on);
   void cycle();
   /// It runs by the clock.

@@ -11,7 +11,9 @@
 #include "renders/gltf.hpp"
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/known_events.hpp"
+#include "sim/loop/state_bytes.hpp"
 #include "sim/report/film.hpp"
+#include "sim/scenario/format.hpp"
 #include "sim/scenario/units.hpp"
 
 namespace drycut::sim::live {
@@ -46,9 +48,18 @@ std::string machine_of(scenario::Scenario scenario, std::vector<std::string>& pa
   return renders::gltf_of_parts(film);
 }
 
-Replay read(const Line::Options& options, std::vector<Finding>& notes, Problems& problems) {
+/// What was done in the session that it goes on from is not in the scenario: it is done again, when it is
+/// due.
+Replay read(const Line::Options& options, std::vector<scenario::Stimulus>& acts, std::vector<Finding>& notes,
+            Problems& problems) {
   if (!options.from) return {scenario::read_scenario(options.scenario, options.set, problems)};
-  return read_session(options.from->session, options.from->at, notes, problems).value_or(Replay{});
+  auto replay = read_session(options.from->session, options.from->at, notes, problems).value_or(Replay{});
+  auto& timeline = replay.scenario.timeline;
+  const auto first = timeline.end() - static_cast<std::ptrdiff_t>(replay.acts);
+  acts.assign(std::move_iterator(first), std::move_iterator(timeline.end()));
+  timeline.erase(first, timeline.end());
+  std::ranges::stable_sort(acts, {}, [](const auto& act) { return act.at.value_or(0); });
+  return replay;
 }
 
 /// The web that a plant works on, "" = none.
@@ -66,28 +77,24 @@ LineRun::LineRun(const Line::Options& options, const LineRun& before, Problems& 
     : LineRun(options, &before, problems) {}
 
 LineRun::LineRun(const Line::Options& options, const LineRun* before, Problems& problems)
-    : replay_(read(options, notes_, problems)), number_(before == nullptr ? 1 : before->number_ + 1) {
+    : replay_(read(options, acts_, notes_, problems)), number_(before == nullptr ? 1 : before->number_ + 1) {
   if (!problems.empty()) return;
+  if (options.from) session_ = options.from->session.parent_path();
   if (!options.from) replay_.fingerprint = fingerprint_of(scenario_);
   if (before != nullptr && looks_like(*before)) {
     machine_ = before->machine_;
     parts_ = before->parts_;
   } else {
     std::vector<Finding> told;
-    machine_ = machine_of(read(options, told, problems).scenario, parts_, problems);
+    std::vector<scenario::Stimulus> again;
+    machine_ = machine_of(read(options, again, told, problems).scenario, parts_, problems);
     if (!problems.empty()) return;
   }
-  simulation_ = std::make_unique<loop::Simulation>(scenario_, problems);
+  view_ = std::make_unique<LineView>(scenario_, problems);
   if (!problems.empty()) return;
-  simulation_->keep_nothing();
-  simulation_->add(*this);
-  for (const auto& [name, plant] : simulation_->plants())
-    for (auto& part : plant->parts()) shown_.push_back(std::move(part));
-  auto& names = simulation_->names();
-  for (const auto& name : names.setting_names())
-    if (auto target = names.target(name)) targets_.push_back(std::move(*target));
-  for (const auto& name : names.lamp_names())
-    if (auto lamp = names.reading(name)) lamps_.push_back(std::move(*lamp));
+  // With it, not later: its files may be edited while it runs.
+  past_ = std::make_unique<Past>(scenario_, problems);
+  if (problems.empty()) past_->try_acts(acts_, problems);
 }
 
 // The fingerprint knows nothing of what is in the files of meshes.
@@ -96,18 +103,105 @@ bool LineRun::looks_like(const LineRun& other) const {
 }
 
 void LineRun::begin(const fs::path& folder, const Inbox& inbox) {
+  again_until_ = next_reached_ = replay_.reached;
+  auto kept = session_.empty() ? std::vector<Moment>() : read_moments(session_, replay_.reached);
+  if (!kept.empty() && is_of_this(kept.back())) {
+    for (const auto& moment : kept) past_->keep(moment);
+    come_to(kept.back());
+    begin_record(folder, &kept.back());
+  } else {
+    begin_record(folder, nullptr);
+    simulation().begin();
+    keep_moment();
+  }
+  do_again(inbox);
+}
+
+/// It goes with this build and the scenario as it is now.
+bool LineRun::is_of_this(const Moment& moment) {
+  const auto origin = loop::open_state(*moment.state).head.origin;
+  const auto& own = simulation().origin();
+  return origin.version == own.version && origin.build == own.build && origin.differs_from(own).empty() &&
+         moment.acts <= acts_.size();
+}
+
+void LineRun::come_to(const Moment& moment) {
+  for (Problems none; again_ < moment.acts; ++again_) {
+    simulation().act(acts_[again_], none);
+    past_->done(acts_[again_]);
+  }
+  simulation().restore(*moment.state);
+}
+
+/// What the session did, each when it is due.
+void LineRun::do_again(const Inbox& inbox) {
+  while (!inbox.stopped() && now() < again_until_) {
+    for (; again_ < acts_.size() && acts_[again_].at.value_or(0) <= now(); ++again_) act(acts_[again_]);
+    if (!advance()) return;
+  }
+}
+
+/// `from`: where the record in `session_` is gone on from.
+void LineRun::begin_record(const fs::path& folder, const Moment* from) {
+  std::vector<record::Observer*> observers = {this};
   if (!folder.empty()) {
+    const auto& recording = simulation().recording();
     record_ =
-        std::make_unique<SessionRecord>(folder, scenario_, replay_.fingerprint, simulation_->recording());
-    simulation_->add(*record_);
-    const auto& timeline = scenario_.timeline;
-    for (auto act = timeline.end() - static_cast<std::ptrdiff_t>(replay_.acts); act != timeline.end(); ++act)
-      record_->add(*act);
+        from == nullptr
+            ? std::make_unique<SessionRecord>(folder, scenario_, replay_.fingerprint, recording)
+            : std::make_unique<SessionRecord>(folder, SessionRecord::Past{session_, from->reach}, recording);
+    observers.push_back(record_.get());
   }
-  simulation_->begin();
-  next_reached_ = replay_.reached;
-  while (!inbox.stopped() && now() < replay_.reached && advance()) {
+  view_->tell(std::move(observers));
+}
+
+void LineRun::keep_moment() {
+  past_->keep({now(), past_->acts(), record_ ? record_->reach() : std::nullopt,
+               std::make_shared<const StateArchive::Bytes>(simulation().save())});
+}
+
+Problems LineRun::not_there_yet(Time time, const char* asked) const {
+  if (time <= now()) return {};
+  return {{"live.message"_code, asked, 1, 1,
+           fmt::format("the line has not come to {} yet", scenario::format_time(time)),
+           fmt::format("it is at {}", scenario::format_time(now()))}};
+}
+
+void LineRun::look(Asker asker, Look look) {
+  if (const auto problems = not_there_yet(look.time, "look"); !problems.empty())
+    return look.told(problems, {});
+  past_->look(asker, number_, std::move(look));
+}
+
+Problems LineRun::come_back(Time from) {
+  if (auto problems = not_there_yet(from, "go_on"); !problems.empty()) return problems;
+  try {
+    from_ = past_->come_before(from);
+  } catch (const BadState& bad) {
+    return {{"live.other-files"_code, "go_on", 1, 1, fmt::format("that moment cannot be had: {}", bad.what()),
+             "restart the line"}};
   }
+  return {};
+}
+
+void LineRun::go_on(Time from, const fs::path& folder, const Inbox& inbox) {
+  ++number_;
+  done_.clear();
+  events_.clear();
+  events_left_out_ = 0;
+  awaited_.reset();
+  samples_ = {};
+  readings_.clear();
+  chosen_anew_ = true;
+  if (record_) session_ = record_->folder();
+  record_.reset();
+  // From the moment that was kept on, what was done until then is done again.
+  again_until_ = next_reached_ = from / step() * step();
+  again_ = 0;
+  acts_ = past_->swap(view_, from_, again_until_);
+  begin_record(folder, &from_);
+  do_again(inbox);
+  watch_programs();
 }
 
 const fs::path& LineRun::record() const {
@@ -121,17 +215,22 @@ const std::string& LineRun::record_lost() const {
 }
 
 void LineRun::end() {
+  past_->rest();
   if (record_) {
     record_->reached(now());
     record_->finish();
+    if (record_->lost().empty()) write_moments(record_->folder(), past_->moments());
   }
   keep_retentive();
 }
 
-void LineRun::keep_retentive() const { loop::keep_retentive(scenario_, simulation_->retentive_state()); }
+void LineRun::keep_retentive() const {
+  loop::keep_retentive(scenario_, view_->simulation().retentive_state());
+}
 
 bool LineRun::advance() {
-  const bool sound = simulation_->advance();
+  const bool sound = simulation().advance();
+  if (sound && now() >= past_->next_moment()) keep_moment();
   if (record_ && now() >= next_reached_) {
     record_->reached(now());
     next_reached_ = (now() / second + 1) * second;
@@ -150,7 +249,9 @@ Problems LineRun::act(const std::string& text) {
 
 Problems LineRun::act(const scenario::Stimulus& stimulus) {
   Problems problems;
-  if (simulation_->act(stimulus, problems) && record_) record_->add(stimulus);
+  if (!simulation().act(stimulus, problems)) return problems;
+  past_->done(stimulus);
+  if (record_) record_->add(stimulus);
   return problems;
 }
 
@@ -169,23 +270,12 @@ void LineRun::happened(const record::RecordedEvent& event) {
 
 Problems LineRun::await(const std::string& event) {
   Problems problems;
-  if (!event.empty()) loop::find_event(simulation_->all_events(), {event, {1, 1}, {}}, scenario_, problems);
+  if (!event.empty()) loop::find_event(simulation().all_events(), {event, {1, 1}, {}}, scenario_, problems);
   for (auto& problem : problems) problem.file = "event";
   if (!problems.empty()) return problems;
   awaited_ = event;
   seen_ = false;
   return {};
-}
-
-/// Nullptr if there is no such value.
-const std::function<double()>* LineRun::known(const std::string& name) {
-  auto found = known_.find(name);
-  if (found == known_.end()) {
-    const auto reading = simulation_->names().reading(name);
-    if (!reading) return nullptr;
-    found = known_.emplace(name, reading->read).first;
-  }
-  return &found->second;
 }
 
 Problems LineRun::want(Asker asker, const Sample& sample) {
@@ -196,10 +286,10 @@ Problems LineRun::want(Asker asker, const Sample& sample) {
              fmt::format("{} at most", most_channels)}};
   for (const auto& name : names) {
     if (problems.size() >= most_slips) break;
-    if (known(name) == nullptr)
+    if (view_->known(name) == nullptr)
       problems.push_back({"scenario.unknown-name"_code, "sample", 1, 1,
                           fmt::format("there is no channel '{}'", name),
-                          simulation_->names().suggest_reading(name)});
+                          simulation().names().suggest_reading(name)});
   }
   if (!problems.empty()) return problems;
   auto& own = wanted_[asker];
@@ -218,6 +308,7 @@ Problems LineRun::want(Asker asker, const Sample& sample) {
 }
 
 void LineRun::leave(Asker asker) {
+  past_->leave(asker);
   const auto gone = wanted_.extract(asker);
   if (!gone) return;
   count(gone.mapped().names, -1);
@@ -239,38 +330,19 @@ void LineRun::take_samples() {
   for (const auto* read : readings_) samples_.rows.push_back((*read)());
 }
 
-Problems LineRun::values_of(const std::vector<std::string>& names, std::vector<double>& values) {
-  Problems problems;
-  for (const auto& name : names) {
-    if (const auto* read = known(name)) {
-      values.push_back((*read)());
-      continue;
-    }
-    problems.push_back({"scenario.unknown-name"_code, "read", 1, 1,
-                        fmt::format("there is no channel '{}'", name),
-                        simulation_->names().suggest_reading(name)});
-    if (problems.size() >= most_slips) break;
-  }
-  if (!problems.empty()) values.clear();
-  return problems;
-}
-
 void LineRun::tell(News& news) {
   news.run = number_;
   news.time = now();
   news.failure = failure();
   news.record_lost = record_lost();
-  news.poses.reserve(shown_.size());
-  for (const auto& part : shown_) news.poses.push_back(part.now());
-  for (const auto& target : targets_) news.values.push_back(scenario::from_si(target.read(), target.unit));
-  for (const auto& lamp : lamps_) news.lamps.push_back(lamp.read());
+  view_->look(news);
   std::merge(done_.begin(), done_.end(), events_.begin(), events_.end(), std::back_inserter(news.events),
              [](const auto& one, const auto& other) { return one.time < other.time; });
   done_.clear();
   events_.clear();
   news.events_left_out = std::exchange(events_left_out_, 0);
   news.samples = std::exchange(samples_, {sample_names_, {}, {}});
-  if (programs_wanted_) news.programs = simulation_->controller()->positions(now());
+  if (view_->watches_programs()) news.programs = simulation().controller()->positions(now());
 }
 
 std::shared_ptr<const LineDescription> LineRun::describe() {
@@ -282,11 +354,11 @@ std::shared_ptr<const LineDescription> LineRun::describe() {
   told->scenario = scenario_.file.filename().string();
   told->step = scenario_.scene.step;
   told->duration = scenario_.scene.duration;
-  auto& names = simulation_->names();
-  for (const auto& target : targets_)
+  auto& names = simulation().names();
+  for (const auto& target : view_->targets())
     told->targets.push_back({target.name, target.unit, target.range, target.name.starts_with("panel."),
                              is_push_button(target), largest_used(target)});
-  for (const auto& lamp : lamps_) told->lamps.push_back(lamp.name);
+  for (const auto& lamp : view_->lamps()) told->lamps.push_back(lamp.name);
   for (const auto& [component, fault] : names.faults())
     told->faults.push_back(
         {component, fault.name, std::string(fault.unit), fault.meaning, loop::range_of(fault.range)});
@@ -298,7 +370,7 @@ std::shared_ptr<const LineDescription> LineRun::describe() {
         {name, reading->unit, target.has_value(), target ? target->range : std::nullopt});
   }
   const auto cuts = [&](const std::string& plant) {
-    return std::ranges::any_of(simulation_->known_events(), [&](const auto& event) {
+    return std::ranges::any_of(simulation().known_events(), [&](const auto& event) {
       return event.source == plant && event.name == plants::cut_event;
     });
   };
@@ -309,9 +381,9 @@ std::shared_ptr<const LineDescription> LineRun::describe() {
   describe_programs(*told);
   told->parts = parts_;
   told->machine = machine_;
-  for (const auto& check : simulation_->outcome().checks) told->checks.push_back(check.name);
-  told->notes = record::texts_of(simulation_->warnings());
-  for (auto& note : simulation_->notes()) told->notes.push_back(std::move(note.text));
+  for (const auto& check : simulation().outcome().checks) told->checks.push_back(check.name);
+  told->notes = record::texts_of(simulation().warnings());
+  for (auto& note : simulation().notes()) told->notes.push_back(std::move(note.text));
   const auto read = record::texts_of(notes_);
   told->notes.insert(told->notes.begin(), read.begin(), read.end());
   return told;
@@ -320,12 +392,12 @@ std::shared_ptr<const LineDescription> LineRun::describe() {
 // Values that only a program's text names (an element, a register as wide as an instruction takes it) are
 // channels too.
 void LineRun::describe_programs(LineDescription& told) {
-  auto* const controller = simulation_->controller();
+  auto* const controller = simulation().controller();
   if (controller == nullptr) return;
   told.programs = controller->programs();
   std::set<std::string> known;
   for (const auto& channel : told.channels) known.insert(channel.name);
-  auto& names = simulation_->names();
+  auto& names = simulation().names();
   for (const auto& program : told.programs) {
     for (const auto& [line, values] : program.values) {
       for (const auto& name : values) {
@@ -374,20 +446,19 @@ double LineRun::largest_used(const loop::Target& target) const {
       largest = std::max(largest, std::abs(given));
     }
   };
-  for (const auto& stimulus : scenario_.timeline) {
-    look(stimulus.set);
-    look(stimulus.ramp);
+  const std::vector<scenario::Stimulus>* const known[] = {&scenario_.timeline, &acts_};
+  for (const auto* stimuli : known) {
+    for (const auto& stimulus : *stimuli) {
+      look(stimulus.set);
+      look(stimulus.ramp);
+    }
   }
   return largest > 0 ? largest : usual_of(target);
 }
 
 void LineRun::watch_programs() {
-  auto* const controller = simulation_->controller();
-  const bool wanted =
-      controller != nullptr &&
-      std::any_of(wanted_.begin(), wanted_.end(), [](const auto& one) { return one.second.programs; });
-  if (wanted != programs_wanted_) controller->watch_programs(wanted);
-  programs_wanted_ = wanted;
+  view_->watch_programs(
+      std::any_of(wanted_.begin(), wanted_.end(), [](const auto& one) { return one.second.programs; }));
 }
 
 void LineRun::choose_samples() {
@@ -396,7 +467,7 @@ void LineRun::choose_samples() {
   readings_.clear();
   for (const auto& [name, askers] : wanted_names_) {
     names->push_back(name);
-    readings_.push_back(known(name));
+    readings_.push_back(view_->known(name));
   }
   sample_names_ = std::move(names);
   samples_ = {sample_names_, {}, {}};

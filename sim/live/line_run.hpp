@@ -5,10 +5,12 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "sim/live/line.hpp"
+#include "sim/live/line_view.hpp"
+#include "sim/live/past.hpp"
 #include "sim/live/record.hpp"
 
 namespace drycut::sim::live {
@@ -22,28 +24,39 @@ class LineRun : public record::Observer {
   /// to make that takes ten times as long as all the rest.
   LineRun(const Line::Options& options, const LineRun& before, Problems& problems);
 
-  /// Simulates up to where the session ended that it goes on from. Records all of the run in a new folder in
-  /// `folder`, which has the next number, unless that is "". Gives up as soon as the line is to stop.
+  /// Comes to where the session ended that it goes on from, by a moment that it kept or from zero. Records
+  /// all of the run in a new folder in `folder`, which has the next number, unless that is "". Gives up as
+  /// soon as the line is to stop.
   void begin(const std::filesystem::path& folder, const Inbox& inbox);
   /// Retentive values are in their file, for who begins next. Throws std::runtime_error.
   void keep_retentive() const;
-  /// All that was recorded is in its files, and retentive values in theirs. Throws std::runtime_error.
+  /// All that was recorded is in its files, and retentive values in theirs; nobody is told of the past any
+  /// more. Throws std::runtime_error.
   void end();
+
+  /// Has it told what was to be seen at a time before now.
+  void look(Asker asker, Look look);
+  /// Makes ready for go_on(); after a problem there is nothing to go on from.
+  Problems come_back(Time from);
+  /// Once this one has ended: it is the next run, which has come to that time and has a record of its own in
+  /// `folder`, with all that was before.
+  void go_on(Time from, const std::filesystem::path& folder, const Inbox& inbox);
+
   /// The folder of the record, "" = none.
   [[nodiscard]] const std::filesystem::path& record() const;
   /// Why the record has ended before the run, "" = it has not.
   [[nodiscard]] const std::string& record_lost() const;
 
   [[nodiscard]] int number() const { return number_; }
-  [[nodiscard]] Time now() const { return simulation_->time(); }
+  [[nodiscard]] Time now() const { return view_->now(); }
   [[nodiscard]] Time step() const { return scenario_.scene.step; }
-  [[nodiscard]] const std::string& failure() const { return simulation_->failure(); }
+  [[nodiscard]] const std::string& failure() const { return view_->simulation().failure(); }
   /// One step; false if the simulation itself failed.
   bool advance();
   /// Does something to the line, before the next step.
   Problems act(const std::string& text);
   Problems act(const scenario::Stimulus& stimulus);
-  [[nodiscard]] loop::Simulation& simulation() { return *simulation_; }
+  [[nodiscard]] loop::Simulation& simulation() { return view_->simulation(); }
 
   void happened(const record::RecordedEvent& event) override;
   /// From now on seen() tells whether such an event has happened; "" = any. A problem if nothing reports it.
@@ -56,11 +69,13 @@ class LineRun : public record::Observer {
   [[nodiscard]] const std::map<Asker, Sample>& wanted() const { return wanted_; }
   void take_samples();
   /// The values of these channels now, in their units; none after a problem.
-  Problems values_of(const std::vector<std::string>& names, std::vector<double>& values);
+  Problems values_of(const std::vector<std::string>& names, std::vector<double>& values) {
+    return view_->values_of(names, values);
+  }
 
   /// What is to be seen now, and what has come since it was told last.
   void tell(News& news);
-  [[nodiscard]] record::Outcome outcome() { return simulation_->outcome(); }
+  [[nodiscard]] record::Outcome outcome() { return view_->simulation().outcome(); }
   std::shared_ptr<const LineDescription> describe();
 
  private:
@@ -68,7 +83,12 @@ class LineRun : public record::Observer {
   [[nodiscard]] bool looks_like(const LineRun& other) const;
   void choose_samples();
   void count(const std::vector<std::string>& names, int by);
-  [[nodiscard]] const std::function<double()>* known(const std::string& name);
+  [[nodiscard]] bool is_of_this(const Moment& moment);
+  void come_to(const Moment& moment);
+  void do_again(const Inbox& inbox);
+  void begin_record(const std::filesystem::path& folder, const Moment* from);
+  void keep_moment();
+  [[nodiscard]] Problems not_there_yet(Time time, const char* asked) const;
   void watch_programs();
   [[nodiscard]] double largest_used(const loop::Target& target) const;
   [[nodiscard]] std::optional<bool> is_push_button(const loop::Target& target) const;
@@ -76,17 +96,21 @@ class LineRun : public record::Observer {
   void describe_programs(LineDescription& told);
 
   Replay replay_;  ///< of nothing, unless it goes on from a session
+  // What was done before where it is gone on from: those from `again_` on are to be done again.
+  std::vector<scenario::Stimulus> acts_;
+  std::size_t again_ = 0;
+  Time again_until_ = 0;
+  std::filesystem::path session_;  ///< where that is recorded, "" = nowhere
   std::vector<Finding> notes_;
   scenario::Scenario& scenario_ = replay_.scenario;
   int number_;
   std::vector<std::string> parts_;
   std::string machine_;
   std::unique_ptr<SessionRecord> record_;  ///< looks at the simulation
-  std::unique_ptr<loop::Simulation> simulation_;
+  std::unique_ptr<LineView> view_;
+  std::unique_ptr<Past> past_;
+  Moment from_;  ///< that come_back() found
   Time next_reached_ = 0;
-  std::vector<plants::Part> shown_;
-  std::vector<loop::Target> targets_;  ///< what an operator sets: switches of the panel, settings of plants
-  std::vector<loop::Reading> lamps_;
   // What has happened since it was told last, the latest of it.
   std::deque<record::RecordedEvent> done_;    ///< by the timeline
   std::deque<record::RecordedEvent> events_;  ///< the others
@@ -94,11 +118,9 @@ class LineRun : public record::Observer {
   std::optional<std::string> awaited_;
   bool seen_ = false;
   std::map<Asker, Sample> wanted_;
-  bool programs_wanted_ = false;
-  std::map<std::string, int> wanted_names_;                         ///< by how many askers
-  bool chosen_anew_ = false;                                        ///< not sampled so yet
-  std::vector<const std::function<double()>*> readings_;            ///< of `sample_names_`
-  std::unordered_map<std::string, std::function<double()>> known_;  ///< what has been looked up
+  std::map<std::string, int> wanted_names_;               ///< by how many askers
+  bool chosen_anew_ = false;                              ///< not sampled so yet
+  std::vector<const std::function<double()>*> readings_;  ///< of `sample_names_`
   std::shared_ptr<const std::vector<std::string>> sample_names_;
   News::Samples samples_;
 };

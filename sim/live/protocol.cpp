@@ -48,11 +48,13 @@ class RequestParser {
     if (message.contains("until")) return read_until(message["until"]);
     if (message.contains("pace")) return read_pace(message["pace"]);
     if (message.contains("restart")) return Restart{};
+    if (message.contains("look")) return read_look(message);
     if (message.contains("sample") || message.contains("watch") || message.contains("programs"))
       return read_sample(message);
+    if (message.contains("go_on")) return read_go_on(message["go_on"]);
     if (message.contains("read")) return read_values(message);
     refuse("live.message"_code, "the message asks for nothing",
-           "one of act, run, advance, until, pace, restart, sample, watch, programs, read");
+           "one of act, run, advance, until, pace, restart, sample, watch, programs, look, go_on, read");
     return {};
   }
 
@@ -102,13 +104,47 @@ class RequestParser {
     const auto sampled = sample.names.size();
     if (!read_names(message, "watch", sample.names)) return {};
     sample.watched = sample.names.size() - sampled;
-    if (!message.contains("programs")) return sample;
+    if (!read_programs(message, sample.programs)) return {};
+    return sample;
+  }
+  bool read_programs(const ordered_json& message, bool& programs) {
+    if (!message.contains("programs")) return true;
     if (message["programs"].is_boolean()) {
-      sample.programs = message["programs"].get<bool>();
-      return sample;
+      programs = message["programs"].get<bool>();
+      return true;
     }
     refuse("live.message"_code, "programs is true or false", R"({"watch": [], "programs": true})");
+    return false;
+  }
+  std::optional<decltype(Request::what)> read_look(const ordered_json& message) {
+    Look look;
+    if (!read_past(message["look"], "look", look.time) || !read_names(message, "read", look.names) ||
+        !read_programs(message, look.programs))
+      return {};
+    if (look.names.size() <= most_looked_at) return look;
+    refuse("live.message"_code, fmt::format("{} channels", look.names.size()),
+           fmt::format("{} at most", most_looked_at));
     return {};
+  }
+  std::optional<decltype(Request::what)> read_go_on(const ordered_json& from) {
+    GoOn on;
+    if (!read_past(from, "go_on", on.from)) return {};
+    return on;
+  }
+  /// A time that the run has behind it.
+  bool read_past(const ordered_json& text, const char* key, Time& time) {
+    scenario::Findings findings({"message"});
+    if (text.is_string()) {
+      const auto read = scenario::read_time({text.get<std::string>(), {1, 1, 0}, {}}, key,
+                                            scenario::Sign::not_negative, findings);
+      if (read) {
+        time = *read;
+        return true;
+      }
+    }
+    refuse("live.message"_code, fmt::format("{} is a time of the run", key),
+           fmt::format(R"({{"{}": "12.5 s"}})", key));
+    return false;
   }
   std::optional<decltype(Request::what)> read_values(const ordered_json& message) {
     Read read;
@@ -129,6 +165,7 @@ class RequestParser {
     return true;
   }
 
+  static constexpr std::size_t most_looked_at = 1024;
   static constexpr Time most_advance = 3600 * second;
   static constexpr std::size_t most_of_act = 16U << 10U;  ///< [bytes]: it is read between two cycles
   Problems& problems_;
@@ -345,11 +382,32 @@ std::string answer_json(double id, const Problems& problems) {
   return json_text({{"done", id}, {"problems", list_of(problems)}});
 }
 
-std::string values_json(double id, const Problems& problems, const std::vector<double>& values) {
+namespace {
+
+ordered_json numbers_of(const std::vector<double>& values) {
   auto list = ordered_json::array();
   for (const double value : values)
     list.push_back(std::isfinite(value) ? ordered_json(value) : ordered_json());
-  return json_text({{"done", id}, {"problems", list_of(problems)}, {"values", std::move(list)}});
+  return list;
+}
+
+}  // namespace
+
+std::string values_json(double id, const Problems& problems, const std::vector<double>& values) {
+  return json_text({{"done", id}, {"problems", list_of(problems)}, {"values", numbers_of(values)}});
+}
+
+std::string seen_json(double id, const Problems& problems, const Seen& seen) {
+  if (!problems.empty()) return answer_json(id, problems);
+  ordered_json past = {{"run", seen.run},
+                       {"time", seconds(seen.time)},
+                       {"poses", poses_json(seen.poses)},
+                       {"values", numbers_of(seen.values)},
+                       {"lamps", numbers_of(seen.lamps)},
+                       {"read", numbers_of(seen.read)}};
+  if (seen.programs) past["programs"] = positions_json(*seen.programs);
+  past["outcome"] = record::json_of(seen.outcome);
+  return json_text({{"done", id}, {"problems", ordered_json::array()}, {"past", std::move(past)}});
 }
 
 }  // namespace drycut::sim::live

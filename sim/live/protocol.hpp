@@ -12,7 +12,11 @@ namespace drycut::sim::live {
 //   {"run": true}  {"advance": "1 ms"}  {"until": "cut"}  {"pace": 0.1}  {"pace": "max"}  {"restart": true}
 //   {"sample": ["knife.speed", "web.speed"], "watch": ["slLength"]}   every cycle; the latest value
 //   with "programs": true the news tell where the programs stand, too
-//
+//   {"look": "12.5 s", "read": ["slLength"], "programs": true}   as it was then, told at once, while the line
+//   goes on: {"done": id, "problems": [], "past": {...}} with "run", "time", "poses", "values", "lamps",
+//   "programs", "outcome" as the news have them, and in "read" the values of the channels that were named.
+//   Who asks again before that is told of the later one; the earlier one is "live.busy"
+//   {"go_on": "12.5 s"}   the run as it was then is the next one, and goes on
 //   {"read": ["slLength", "knife.angle"]}   as they are now, told at once: {"done": id, "problems": [],
 //   "values": [800, 1.5]}
 // each with "id", a number, if it wants to know what became of it: {"done": id, "problems": [...]}. With
@@ -40,5 +44,7 @@ std::string answer_json(double id, const Problems& problems);
 std::string busy_json(double id);
 /// The same with the values that were read.
 std::string values_json(double id, const Problems& problems, const std::vector<double>& values);
+/// The same with what was to be seen at a time that was looked at.
+std::string seen_json(double id, const Problems& problems, const Seen& seen);
 
 }  // namespace drycut::sim::live

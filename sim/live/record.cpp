@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <fstream>
 #include <stdexcept>
+#include <vector>
 
 #include "sim/report/results.hpp"
 
@@ -29,10 +32,48 @@ fs::path next_in(const fs::path& folder) {
   }
 }
 
+/// The first bytes of a file as another one.
+void copy_begin(const fs::path& from, const fs::path& to, std::uint64_t size) {
+  constexpr std::uint64_t block = 1U << 20U;
+  std::ifstream source(from, std::ios::binary);
+  std::ofstream copy(to, std::ios::binary);
+  std::vector<char> bytes(static_cast<std::size_t>(std::min(size, block)));
+  for (; size > 0 && source && copy; size -= std::min(size, block)) {
+    const auto part = static_cast<std::streamsize>(std::min(size, block));
+    source.read(bytes.data(), part);
+    if (source) copy.write(bytes.data(), part);
+  }
+  copy.close();
+  if (!source) throw std::runtime_error(fmt::format("{} is shorter than it was", from.string()));
+  if (!copy) throw std::runtime_error(fmt::format("cannot write {}", to.string()));
+}
+
 }  // namespace
 
-SessionRecord::SessionRecord(const fs::path& folder, const scenario::Scenario& scenario, std::uint64_t fingerprint,
-                      const record::Recording& recording) {
+SessionRecord::SessionRecord(const fs::path& folder, const Past& past, const record::Recording& recording) {
+  write([&] {
+    if (!past.reach)
+      throw std::runtime_error(
+          fmt::format("the record {} that it would begin with had ended before", past.folder.string()));
+    folder_ = next_in(folder);
+    const auto& [session, trace, events] = *past.reach;
+    copy_begin(past.folder / session_file, folder_ / session_file, session);
+    copy_begin(past.folder / report::trace_file, folder_ / report::trace_file, trace);
+    copy_begin(past.folder / report::events_file, folder_ / report::events_file, events);
+    if (fs::exists(past.folder / retentive_copy)) {
+      std::error_code error;
+      fs::copy_file(past.folder / retentive_copy, folder_ / retentive_copy, error);
+      if (error)
+        throw std::runtime_error(
+            fmt::format("cannot write {}: {}", (folder_ / retentive_copy).string(), error.message()));
+    }
+    session_.emplace(folder_ / session_file);
+    files_.emplace(recording, folder_ / report::trace_file, folder_ / report::events_file, true);
+  });
+}
+
+SessionRecord::SessionRecord(const fs::path& folder, const scenario::Scenario& scenario,
+                             std::uint64_t fingerprint, const record::Recording& recording) {
   write([&] {
     folder_ = next_in(folder);
     session_.emplace(folder_ / session_file, scenario, fingerprint);
@@ -63,6 +104,12 @@ void SessionRecord::finish() {
 
 void SessionRecord::add(const scenario::Stimulus& act) {
   write([&] { session_->add(act); });
+}
+
+std::optional<SessionRecord::Reach> SessionRecord::reach() const {
+  if (!lost_.empty()) return {};
+  const auto [trace, events] = files_->ends();
+  return Reach{session_->end(), trace, events};
 }
 
 void SessionRecord::reached(Time now) {

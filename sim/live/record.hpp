@@ -19,6 +19,20 @@ class SessionRecord final : public record::Observer {
   SessionRecord(const std::filesystem::path& folder, const scenario::Scenario& scenario,
                 std::uint64_t fingerprint, const record::Recording& recording);
 
+  /// So much of a record had been written at a moment [bytes].
+  struct Reach {
+    std::uint64_t session = 0;
+    std::uint64_t trace = 0;
+    std::uint64_t events = 0;
+  };
+  /// What was recorded up to a moment.
+  struct Past {
+    std::filesystem::path folder;
+    std::optional<Reach> reach;  ///< nothing = it was lost before
+  };
+  /// The same, beginning with that much of another record.
+  SessionRecord(const std::filesystem::path& folder, const Past& past, const record::Recording& recording);
+
   void sample(Time time) override;
   void happened(const record::RecordedEvent& event) override;
   /// Everything is in the files.
@@ -28,6 +42,8 @@ class SessionRecord final : public record::Observer {
   /// The run has come so far; to the disk.
   void reached(Time now);
 
+  /// So far it goes now; nothing if it has ended.
+  [[nodiscard]] std::optional<Reach> reach() const;
   /// What could not be written and why, "" = nothing.
   [[nodiscard]] const std::string& lost() const { return lost_; }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }

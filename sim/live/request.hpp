@@ -53,6 +53,20 @@ struct Read {
   std::vector<std::string> names;
   std::function<void(const Problems&, const std::vector<double>&)> told;
 };
+/// What was to be seen of the run at a time that it has behind it.
+struct Seen;
+/// It is told that, from another thread, while the line goes on; whoever asked is not answered otherwise. Who
+/// asks again before that is told of the later one only: the earlier one is a problem then.
+struct Look {
+  Time time = 0;
+  std::vector<std::string> names;  ///< whose values are wanted
+  bool programs = false;           ///< and where the programs stood
+  std::function<void(const Problems&, const Seen&)> told;
+};
+/// The run as it was then goes on as the next one, with all that was done before that.
+struct GoOn {
+  Time from = 0;
+};
 /// Looks at the run and does something to it, in the line's thread; whoever asked is not answered otherwise.
 struct Visit {
   std::function<void(LineRun&)> visit;
@@ -60,7 +74,7 @@ struct Visit {
 
 struct Request {
   Asker asker = 0;
-  std::variant<Act, Go, Advance, UntilEvent, Pace, Restart, Sample, Leave, Read, Visit> what;
+  std::variant<Act, Go, Advance, UntilEvent, Pace, Restart, Sample, Leave, Read, Look, GoOn, Visit> what;
   std::size_t bytes = 0;  ///< of the message that it came as
 };
 

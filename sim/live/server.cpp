@@ -92,7 +92,16 @@ std::shared_ptr<const News> merged(const News& earlier, const News& later) {
 struct Server::Core {
   class Client;
 
+  /// Where others leave what a client is to be sent; it may be here longer than the server.
+  struct Door {
+    std::mutex mutex;
+    asio::io_context* context = nullptr;  ///< nullptr: there is no server any more
+
+    void put(std::weak_ptr<Client> to, std::string text);
+  };
+
   Core(Options given, Line& of) : options(std::move(given)), line(of), acceptor(context) {
+    door->context = &context;
     options.port = listen_at(acceptor, options.address, options.port, "", "--port");
   }
 
@@ -114,6 +123,7 @@ struct Server::Core {
   Asker next_asker = 1;
   Asker served = 0;                                ///< who was sent samples last
   std::map<Asker, std::weak_ptr<Client>> clients;  ///< that talk over a WebSocket
+  std::shared_ptr<Door> door = std::make_shared<Door>();
   asio::io_context context{1};
   tcp::acceptor acceptor;
   std::thread thread;
@@ -233,14 +243,17 @@ class Server::Core::Client : public std::enable_shared_from_this<Client> {
     auto request = parse_request(message, asker_, id, problems);
     if (!request) return send(std::make_shared<const std::string>(answer_json(id, problems)), true);
     request->bytes = message.size();
-    if (auto* read = std::get_if<Read>(&request->what)) {
-      read->told = [&context = core_.context, to = weak_from_this(), id](const auto& wrong,
-                                                                         const auto& values) {
-        asio::post(context, [to, id, wrong, values] {
-          if (const auto client = to.lock())
-            client->send(std::make_shared<const std::string>(values_json(id, wrong, values)), true);
-        });
+    auto* const read = std::get_if<Read>(&request->what);
+    auto* const look = std::get_if<Look>(&request->what);
+    if (read != nullptr)
+      read->told = [door = core_.door, to = weak_from_this(), id](const auto& wrong, const auto& values) {
+        door->put(to, values_json(id, wrong, values));
       };
+    if (look != nullptr)
+      look->told = [door = core_.door, to = weak_from_this(), id](const auto& wrong, const auto& seen) {
+        door->put(to, seen_json(id, wrong, seen));
+      };
+    if (read != nullptr || look != nullptr) {
       if (!core_.line.ask(std::move(*request))) refuse(id);
       return;
     }
@@ -285,6 +298,14 @@ class Server::Core::Client : public std::enable_shared_from_this<Client> {
   /// What the line has been asked and not answered: the message's number, channels to be sampled.
   std::deque<std::pair<double, std::optional<Sample>>> open_;
 };
+
+void Server::Core::Door::put(std::weak_ptr<Client> to, std::string text) {
+  const std::lock_guard lock(mutex);
+  if (context == nullptr) return;
+  asio::post(*context, [to = std::move(to), text = std::make_shared<const std::string>(std::move(text))] {
+    if (const auto client = to.lock()) client->send(text, true);
+  });
+}
 
 void Server::Core::accept() {
   acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
@@ -368,6 +389,10 @@ Server::Server(Options options, Line& line) : core_(std::make_unique<Core>(std::
 }
 
 Server::~Server() {
+  {
+    const std::lock_guard lock(core_->door->mutex);
+    core_->door->context = nullptr;
+  }
   core_->context.stop();
   core_->thread.join();
 }

@@ -49,9 +49,13 @@ class SessionFile {
   /// be written.
   SessionFile(const std::filesystem::path& file, const scenario::Scenario& scenario,
               std::uint64_t fingerprint);
+  /// Goes on behind what is in it.
+  explicit SessionFile(const std::filesystem::path& file) : lines_(file, true) {}
   void add(const scenario::Stimulus& act);
   /// The run has come so far; to the disk.
   void reached(Time now);
+  /// Bytes that it has.
+  [[nodiscard]] std::uint64_t end() const { return lines_.end(); }
 
  private:
   record::GrowingFile lines_;

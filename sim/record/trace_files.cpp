@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cstring>
@@ -26,10 +27,11 @@ constexpr std::size_t enough = 1U << 16U;  // [bytes] held back at most
 
 }  // namespace
 
-GrowingFile::GrowingFile(std::filesystem::path file)
+GrowingFile::GrowingFile(std::filesystem::path file, bool goes_on)
     : file_(std::move(file)),
-      descriptor_(open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+      descriptor_(open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (goes_on ? 0 : O_TRUNC), 0666)) {
   if (descriptor_ < 0) fail(file_, errno);
+  if (goes_on) end_ = static_cast<std::uint64_t>(std::max<off_t>(0, lseek(descriptor_, 0, SEEK_END)));
 }
 
 GrowingFile::~GrowingFile() {
@@ -42,6 +44,7 @@ GrowingFile::~GrowingFile() {
 
 void GrowingFile::write(std::string_view lines) {
   lines_ += lines;
+  end_ += lines.size();
   if (lines_.size() >= enough) flush();
 }
 
@@ -66,8 +69,12 @@ void GrowingFile::flush() {
 }
 
 TraceFiles::TraceFiles(const Recording& recording, const std::filesystem::path& trace,
-                       const std::filesystem::path& events)
-    : recording_(recording), trace_(trace), events_(events), cells_(recording.columns().size()) {
+                       const std::filesystem::path& events, bool goes_on)
+    : recording_(recording),
+      trace_(trace, goes_on),
+      events_(events, goes_on),
+      cells_(recording.columns().size()) {
+  if (goes_on) return;
   row_ = "time [s]";
   for (const auto& column : recording.columns())
     row_ += ',' + csv_cell(fmt::format("{} [{}]", column.name, column.unit.empty() ? "-" : column.unit));

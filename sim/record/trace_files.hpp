@@ -15,18 +15,21 @@ namespace drycut::sim::record {
 /// stays whole lines.
 class GrowingFile {
  public:
-  /// Makes the file anew.
-  explicit GrowingFile(std::filesystem::path file);
+  /// Makes the file anew, or goes on at its end.
+  explicit GrowingFile(std::filesystem::path file, bool goes_on = false);
   ~GrowingFile();
   GrowingFile(const GrowingFile&) = delete;
   GrowingFile& operator=(const GrowingFile&) = delete;
   /// One or more whole lines.
   void write(std::string_view lines);
   void flush();
+  /// Bytes that it has, with those that are not written yet.
+  [[nodiscard]] std::uint64_t end() const { return end_; }
 
  private:
   std::filesystem::path file_;
   int descriptor_;
+  std::uint64_t end_ = 0;
   std::string lines_;  ///< not written yet
 };
 
@@ -34,14 +37,17 @@ class GrowingFile {
 /// latest a row or an event is in its file.
 class TraceFiles : public Observer {
  public:
-  /// `recording` has all its channels and outlives this.
+  /// `recording` has all its channels and outlives this. `goes_on`: behind what is in the files, which are of
+  /// that recording; else they are made anew.
   TraceFiles(const Recording& recording, const std::filesystem::path& trace,
-             const std::filesystem::path& events);
+             const std::filesystem::path& events, bool goes_on = false);
   /// The present values of the recording's channels.
   void sample(Time time) override;
   void happened(const RecordedEvent& event) override;
   /// Everything is in the files.
   void finish() override;
+  /// Bytes that trace and events have.
+  [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> ends() const { return {trace_.end(), events_.end()}; }
 
  private:
   void flush_at(Time time);

@@ -119,6 +119,16 @@ def steers(port, _):
     flood(port, ['{"run":true}', '{"advance":"1 ms"}', '{"pace":1}', '{"run":true}'] * 50, 4)
 
 
+def looks(port, _):
+    """Four clients that look back all over the run, at programs too, and at what it has not come to yet."""
+    flood(port, [json.dumps({"look": f"{(i * 37) % 60 / 10} s", "programs": i % 2 == 0}) for i in range(100)])
+
+
+def returns(port, _):
+    """Goes on from the moments of the first second, again and again."""
+    flood(port, [json.dumps({"go_on": f"{i % 10 / 10} s"}) for i in range(100)], 1)
+
+
 def samples(port, _):
     """Sixty clients that want 250 channels each, and again and again other ones."""
     first = Socket(port)
@@ -194,6 +204,8 @@ ATTACKS = {
     "slips": (slips, KNIFE, [], True),
     "restarts": (restarts, KNIFE, [], False),
     "steers": (steers, KNIFE, [], False),
+    "looks": (looks, KNIFE, [], True),
+    "returns": (returns, KNIFE, [], False),
     "samples": (samples, KNIFE, [], True),
     "half_open": (half_open, KNIFE, [], True),
     "modbus": (modbus, SAW, [], True),

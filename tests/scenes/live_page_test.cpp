@@ -78,6 +78,74 @@ TEST_F(LivePage, IsWorkedAsAnOperatorWould) {
   EXPECT_THAT(stand.browser->complaints(), IsEmpty());
 }
 
+TEST_F(LivePage, GoesBackAndOnFromThere) {
+  Stand stand;
+  stand.open();
+  const auto advance = [&](const char* by, const char* until) {
+    stand.look(fmt::format("drycut.link.ask({{advance: '{}'}})", by));
+    EXPECT_TRUE(stand.becomes(fmt::format(
+        "document.body.dataset.state === 'paused' && document.querySelector('#time').innerText === '{}'",
+        until)));
+  };
+  const std::string poses = "JSON.stringify(drycut.machine.latest && [...drycut.machine.latest.poses])";
+  stand.type("[data-name=\"web.speed\"] input.value", "60");
+  stand.click("[data-name=\"panel.start\"] button");
+  advance("1.5 s", "1.5000");
+  const auto then = stand.look(poses);
+  stand.type("[data-name=\"web.speed\"] input.value", "20");
+  stand.key("e");
+  advance("2 s", "3.5000");
+  EXPECT_NE(stand.look(poses), then);
+
+  // As it was, and marked: the emergency stop is not pressed, the web has its speed, nothing can be set.
+  stand.type("#past-time", "1.5");
+  EXPECT_TRUE(stand.becomes("document.body.dataset.past === 'on'"));
+  EXPECT_TRUE(stand.becomes("document.querySelector('#time').innerText === '1.5000'"));
+  EXPECT_EQ(stand.text("#state"), "past");
+  EXPECT_EQ(stand.text("#past-ago"), "2.00 s ago");
+  EXPECT_EQ(stand.look(poses), then);
+  EXPECT_EQ(stand.look("document.querySelector('.stop').getAttribute('aria-pressed')"), "false");
+  EXPECT_EQ(stand.look("document.querySelector('[data-name=\"web.speed\"] input.value').value"), "60");
+  EXPECT_EQ(stand.look("document.querySelector('#page-panel').inert"), true);
+  stand.look("(async () => { window.refused = await drycut.link.act({set: {'panel.start': 0}}); })()");
+  EXPECT_TRUE(stand.becomes("window.refused?.[0]?.what.includes('past')"));
+  EXPECT_EQ(stand.look("drycut.news.time"), 3.5);
+
+  // Drawn by the bar; the values that are in sight come with it.
+  stand.click("#tab-values");
+  EXPECT_TRUE(stand.becomes("drycut.values.wanted.length > 5"));
+  stand.look(
+      "(() => { const bar = document.querySelector('#past-bar'); for (const time of [3, 2.5, 0.7]) { "
+      "bar.value = time; bar.dispatchEvent(new Event('input', {bubbles: true})); } })()");
+  EXPECT_TRUE(stand.becomes("document.querySelector('#time').innerText === '0.7000'"));
+  EXPECT_TRUE(
+      stand.becomes("document.querySelector('#values li:not([hidden]) .value').textContent !== '\u2013'"));
+
+  // The present again, by a key.
+  stand.key("Escape");
+  EXPECT_TRUE(stand.becomes("document.body.dataset.past === 'off'"));
+  EXPECT_TRUE(stand.becomes("document.querySelector('#time').innerText === '3.5000'"));
+  EXPECT_EQ(stand.look("document.querySelector('.stop').getAttribute('aria-pressed')"), "true");
+  // What is no time of the run is told.
+  stand.type("#past-time", "soon");
+  EXPECT_THAT(stand.text("#say"), HasSubstr("soon"));
+  stand.type("#past-time", "99");
+  EXPECT_TRUE(stand.becomes("document.querySelector('#say').innerText.includes('has not come to')"));
+  EXPECT_EQ(stand.look("document.body.dataset.past"), "off");
+
+  // From there on it is another run.
+  stand.type("#past-time", "1.5");
+  EXPECT_TRUE(stand.becomes("document.body.dataset.past === 'on'"));
+  stand.click("#past-go-on");
+  EXPECT_TRUE(stand.becomes("drycut.line.run === 2 && drycut.news.run === 2"));
+  EXPECT_TRUE(stand.becomes("document.body.dataset.past === 'off'"));
+  EXPECT_TRUE(stand.becomes("document.querySelector('#time').innerText === '1.5000'"));
+  EXPECT_EQ(stand.look(poses), then);
+  EXPECT_EQ(stand.look("document.querySelector('.stop').getAttribute('aria-pressed')"), "false");
+  advance("100 ms", "1.6000");
+  EXPECT_THAT(stand.browser->complaints(), IsEmpty());
+}
+
 TEST_F(LivePage, ShowsAndWritesValuesAndFaults) {
   Stand stand;
   stand.open();
