@@ -57,7 +57,7 @@ bool DcLink::mains_well() const { return !outage_ && !phase_lost_ && dip_ <= 0.1
 
 void DcLink::offer_faults(std::vector<Fault>& faults) {
   faults.push_back(
-      fault_value("mains", "dip", "%", dip_, "so much of the mains' voltage is missing", in_percent));
+      fault_value("mains", "dip", "%", dip_, "so much of the mains' voltage is missing", in_percent, 0.6));
   faults.push_back(fault_state("mains", "phase_lost", phase_lost_, "1: two phases of the mains are left"));
   faults.push_back(fault_state("mains", "outage", outage_, "1: the mains are gone"));
 }

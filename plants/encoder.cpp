@@ -66,8 +66,14 @@ double PulseLine::false_counts(double h) {
 }
 
 void PulseLine::offer_faults(std::vector<Fault>& faults, const std::string& component) {
-  faults.push_back({component, "lose_counts", "", [this](double v) { lose(v); },
-                    "this many counts (x4) are lost at once: the count stays behind the motion", in_counts});
+  faults.push_back({component,
+                    "lose_counts",
+                    "",
+                    [this](double v) { lose(v); },
+                    "this many counts (x4) are lost at once: the count stays behind the motion",
+                    in_counts,
+                    {},
+                    2000});
   faults.push_back({component, "stuck", "",
                     [this](double v) {
                       stuck_ = v != 0;
@@ -88,22 +94,28 @@ void PulseLine::offer_faults(std::vector<Fault>& faults, const std::string& comp
                       listen();
                     },
                     "noise of the edges, rms counts (x4)",
-                    {0, 1e6, false}});
+                    {0, 1e6, false},
+                    {},
+                    200});
   faults.push_back({component,
                     "burst",
                     "",
                     [this](double v) { burst(v, true); },
                     "interference: this many false counts (x4) over burst_time, each forward or backward by "
                     "chance",
-                    {0, most_false_counts, true}});
+                    {0, most_false_counts, true},
+                    {},
+                    100'000});
   faults.push_back({component,
                     "add_counts",
                     "",
                     [this](double v) { burst(v, false); },
                     "this many false counts (x4) over burst_time, all forward or, below 0, all backward",
-                    {-most_false_counts, most_false_counts, true}});
+                    {-most_false_counts, most_false_counts, true},
+                    {},
+                    2000});
   faults.push_back(fault_value(component, "burst_time", "ms", burst_time_,
-                               "how long the next burst lasts; 10 ms at first", {0, 60000, false}));
+                               "how long the next burst lasts; 10 ms at first", {0, 60000, false}, 0));
 }
 
 void PulseLine::FalseCount::visit(StateArchive& archive) { STATE(archive, time, count); }

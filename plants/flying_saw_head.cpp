@@ -88,7 +88,7 @@ void SawHead::offer_channels(std::vector<Channel>& channels) const {
 
 void SawHead::offer_faults(std::vector<Fault>& faults) {
   faults.push_back(fault_value("head", "pressure_loss", "%", pressure_loss_,
-                               "share of the cylinder's force that is missing, both ways", in_percent));
+                               "share of the cylinder's force that is missing, both ways", in_percent, 0.7));
   up_.offer_faults(faults, "head.up");
   down_.offer_faults(faults, "head.down");
 }

@@ -132,7 +132,9 @@ void Inverter::offer_faults(std::vector<Fault>& faults) {
                           winding_.slip(v != 0 ? std::min(v, data_.torque_limit) : data_.torque_limit);
                     },
                     "the torque is limited to this; 0 takes the limit away",
-                    {0, 1e5, false}});
+                    {0, 1e5, false},
+                    {},
+                    0.2});
   faults.push_back(fault_state("drive", "phase_lost", phase_lost_,
                                "1: a phase of the motor is interrupted: the drive trips when it runs"));
   power_.offer_faults(faults);

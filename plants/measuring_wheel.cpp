@@ -67,7 +67,8 @@ void MeasuringWheel::offer_faults(std::vector<Fault>& faults, const std::string&
        "share of the travel that the wheel does not follow, instead of the parameter's; below 0 it runs "
        "ahead",
        {-100, 100, false},
-       [this] { return data_.slip; }});
+       [this] { return data_.slip; },
+       0.05});
   pulses.offer_faults(faults, component);
 }
 

@@ -71,7 +71,7 @@ void PrintMarks::offer_faults(std::vector<Fault>& faults, const std::string& mar
   if (!printed()) return;
   faults.push_back(fault_value(marks, "shift", "mm", shift_,
                                "the marks after the next one lie this much further back: a splice",
-                               {-1e5, 1e5, false}));
+                               {-1e5, 1e5, false}, 0.02));
   photocell_.offer_faults(faults, photocell);
 }
 

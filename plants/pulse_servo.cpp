@@ -79,13 +79,18 @@ void PulseServo::sense(const Shaft& rotor) {
 }
 
 void PulseServo::offer_faults(std::vector<Fault>& faults, const std::string& component) {
-  faults.push_back({component, "lose_pulses", "",
+  faults.push_back({component,
+                    "lose_pulses",
+                    "",
                     [this](double v) {
                       const auto lost = std::llround(v);
                       reference_ -= static_cast<double>(lost);
                       gear_.add(-lost);
                     },
-                    "so many pulses are lost at once, negative: too many are counted", in_counts});
+                    "so many pulses are lost at once, negative: too many are counted",
+                    in_counts,
+                    {},
+                    500});
   faults.push_back(fault_state(component, "broken_cable", cable_broken_, "1: no pulse arrives"));
 }
 

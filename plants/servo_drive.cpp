@@ -183,7 +183,9 @@ void ServoDrive::offer_faults(std::vector<Fault>& faults, const std::string& com
                       if (v == 0) f.drifted = 0;
                     },
                     "the analogue input drifts at this rate; 0 takes the drift away",
-                    {-1e3, 1e3, false}});
+                    {-1e3, 1e3, false},
+                    {},
+                    1});
   faults.push_back(fault_value(component, "noise", "V", f.noise, "white noise on the analogue input, rms",
                                {0, 20, false}));
   faults.push_back({component, "stuck", "",
@@ -200,7 +202,8 @@ void ServoDrive::offer_power_faults(std::vector<Fault>& faults, const std::strin
   faults.push_back(
       fault_state(component, "disabled", f.disabled, "1: the amplifier trips, the motor coasts"));
   faults.push_back(fault_value(component, "torque_limit", "N m", f.torque_limit,
-                               "the torque is limited to this; 0 takes the limit away", {0, 1e5, false}));
+                               "the torque is limited to this; 0 takes the limit away", {0, 1e5, false},
+                               0.2));
   power_.offer_faults(faults);
 }
 

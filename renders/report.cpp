@@ -354,6 +354,10 @@ void write_report(const Report& report, const std::filesystem::path& file) {
   for (const ReportTable& table : report.summary) write_table(page, table);
   for (const ReportText& text : report.texts) write_text(page, text);
   for (std::size_t i = 0; i < report.maps.size(); ++i) page += map_figure(report.maps[i], i);
+  for (std::size_t i = 0; i < report.matrices.size(); ++i) {
+    page.heading(report.matrices[i].title);
+    page += matrix_figure(report.matrices[i], i);
+  }
   write_frames(page, report);
   write_plots(page, report);
   write_sections(page, report);
@@ -371,6 +375,7 @@ void write_report(const Report& report, const std::filesystem::path& file) {
   if (report.view) page += live_view(*report.view);  // takes its room before the plots do
   page += live_plots(report.live);
   page += live_maps(report.maps);
+  page += live_matrices(report.matrices);
   page += "</body>\n</html>\n";
   page.text.insert(top, contents_of(page));
   write_file(file, page.text);

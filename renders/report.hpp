@@ -9,6 +9,7 @@
 #include "renders/machine_view.hpp"
 #include "renders/plots.hpp"
 #include "renders/report_data.hpp"
+#include "renders/report_matrix.hpp"
 
 namespace drycut::renders {
 
@@ -78,6 +79,7 @@ struct Report {
   std::vector<ReportTable> summary;      ///< what is read before the pictures: a comparison
   std::vector<ReportText> texts = {};    ///< to copy
   std::vector<ReportMap> maps = {};      ///< before the frames
+  std::vector<ReportMatrix> matrices = {};
   std::vector<ReportFigure> frames;      ///< chosen frames, shown as a strip
   std::filesystem::path video;           ///< MP4 of all frames, "" = none
   std::filesystem::path poster = {};     ///< PNG that stands for it until it plays, as large

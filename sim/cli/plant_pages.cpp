@@ -10,6 +10,7 @@
 #include "sim/cli/pages.hpp"
 #include "sim/loop/specimens.hpp"
 #include "sim/scenario/parameter_text.hpp"
+#include "sim/scenario/units.hpp"
 
 namespace drycut::sim::cli {
 
@@ -82,6 +83,12 @@ std::string range_text(const plants::Parameter& parameter) {
   if (std::holds_alternative<bool*>(parameter.value)) return "true | false";
   if (std::holds_alternative<std::string*>(parameter.value)) return "";
   return fmt::format("{:g}..{:g}", parameter.min, parameter.max);
+}
+
+/// The value that `drycut faults` tries, in its unit; "" = it alone does nothing.
+std::string strong_text(const plants::Fault& fault) {
+  if (fault.strong == 0) return "";
+  return fmt::format("{:.12g}", scenario::from_si(fault.strong, fault.unit));
 }
 
 /// In text "length [mm], force [N]".
@@ -174,11 +181,11 @@ Page plant_page(const plants::PlantType& type) {
   for (const auto& o : specimens.offered(&plants::Plant::settings, name_and_unit))
     settings.add({o.item.name, o.item.unit, range_text(o.item.range), meaning_cell(o), drives_cell(o)});
   Sheet faults("faults", "Faults, for the timeline",
-               {"component", "name=fault", "unit", "range", "meaning", "drives="});
+               {"component", "name=fault", "unit", "range", "strong", "meaning", "drives="});
   for (const auto& o : specimens.offered(
            &plants::Plant::faults, [](const auto& f) { return std::tuple(f.component, f.name, f.unit); }))
-    faults.add({o.item.component, o.item.name, o.item.unit, range_text(o.item.range), meaning_cell(o),
-                drives_cell(o)});
+    faults.add({o.item.component, o.item.name, o.item.unit, range_text(o.item.range), strong_text(o.item),
+                meaning_cell(o), drives_cell(o)});
   Sheet events("events", "Events, for checks", {"name=event", "values", "severity", "meaning", "drives="});
   for (const auto& o : specimens.offered(&plants::Plant::event_types, name))
     events.add({o.item.name, values_cell(o.item), name_of(o.item.severity), meaning_cell(o), drives_cell(o)});

@@ -12,6 +12,7 @@
 #include "sim/cli/commands.hpp"
 #include "sim/cli/verb.hpp"
 #include "sim/studies/cluster/bundle.hpp"
+#include "sim/studies/faults/study.hpp"
 #include "sim/studies/sweep/store.hpp"
 #include "sim/studies/tune/trials.hpp"
 
@@ -46,8 +47,9 @@ int work(const std::filesystem::path& file) {
     say({{"refused", bundle.refused}});
     return bad_input;
   }
-  const auto answer = bundle.kind == "trial" ? studies::trial_answerer(bundle.question)
-                                             : studies::point_answerer(bundle.question);
+  const auto answer = bundle.kind == "trial"   ? studies::trial_answerer(bundle.question)
+                      : bundle.kind == "fault" ? studies::fault_answerer(bundle.question)
+                                               : studies::point_answerer(bundle.question);
   for (std::string line; std::getline(std::cin, line);) {
     const auto item = json::parse(line);
     say({{"item", item.at("item")}});

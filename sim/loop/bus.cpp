@@ -76,23 +76,14 @@ class Connector {
   }
 
   void connect(const scenario::Wire& wire) {
-    const auto address = terminal(wire.terminal);
-    if (!address) return;
-    if (!bus_.wired_.insert(*address).second) {
-      problem("wiring.twice"_code, wire.terminal.place,
-              fmt::format("{} is wired already", controller_.terminal_name(*address)),
-              "a terminal takes one wire; remove this one");
-      return;
-    }
-    const auto looped = address->kind == Kind::counter ? own_terminal(wire.plug) : std::nullopt;
-    if (looped) {
-      connect_loop(*address, wire, *looped);
-    } else if (wire.plug.text.starts_with("panel.")) {
-      connect_panel(*address, wire);
-    } else if (const auto* port = plug(wire.plug)) {
-      connect_plant(*address, wire, *port);
-    }
+    const auto before = wires();
+    make(wire);
+    const auto after = wires();
+    for (std::size_t list = 0; list < after.size(); ++list)
+      if (after[list] > before[list]) made_[list].push_back(wire.terminal.text);
   }
+  /// The terminals of the bus' wires, by its lists.
+  [[nodiscard]] const std::array<std::vector<std::string>, 7>& made() const { return made_; }
 
   /// Keeps a filter for the wire of its terminal.
   void take(const scenario::InputFilter& filter) {
@@ -125,6 +116,30 @@ class Connector {
   }
 
  private:
+  [[nodiscard]] std::array<std::size_t, 7> wires() const {
+    return {bus_.counters_.size(), bus_.inputs_.size(), bus_.interrupts_.size(),      bus_.outputs_.size(),
+            bus_.pulses_.size(),   bus_.loops_.size(),  bus_.analogue_outputs_.size()};
+  }
+
+  void make(const scenario::Wire& wire) {
+    const auto address = terminal(wire.terminal);
+    if (!address) return;
+    if (!bus_.wired_.insert(*address).second) {
+      problem("wiring.twice"_code, wire.terminal.place,
+              fmt::format("{} is wired already", controller_.terminal_name(*address)),
+              "a terminal takes one wire; remove this one");
+      return;
+    }
+    const auto looped = address->kind == Kind::counter ? own_terminal(wire.plug) : std::nullopt;
+    if (looped) {
+      connect_loop(*address, wire, *looped);
+    } else if (wire.plug.text.starts_with("panel.")) {
+      connect_panel(*address, wire);
+    } else if (const auto* port = plug(wire.plug)) {
+      connect_plant(*address, wire, *port);
+    }
+  }
+
   const scenario::InputFilter* filter_of(const Address& address) {
     const auto found = filters_.find(address);
     if (found == filters_.end()) return nullptr;
@@ -335,6 +350,7 @@ class Connector {
   std::map<std::string, Address> drivers_;
   std::map<Address, const scenario::InputFilter*> filters_;
   std::set<Address> used_;  // of them
+  std::array<std::vector<std::string>, 7> made_;
 };
 
 void Bus::connect(const scenario::Scenario& scenario, devices::Controller& controller,
@@ -346,6 +362,21 @@ void Bus::connect(const scenario::Scenario& scenario, devices::Controller& contr
   for (const auto& filter : scenario.filters) connector.take(filter);
   for (const auto& wire : scenario.wiring) connector.connect(wire);
   connector.refuse_idle_filters();
+  offer_cuts(connector.made());
+}
+
+// From here on the wires stay where they are.
+void Bus::offer_cuts(const std::array<std::vector<std::string>, 7>& made) {
+  const auto offer = [&](std::size_t list, auto& wires, auto end) {
+    for (std::size_t i = 0; i < wires.size(); ++i) cuts_.add(made[list][i], wires[i].*end);
+  };
+  offer(0, counters_, &CounterWire::from);
+  offer(1, inputs_, &InputWire::from);
+  offer(2, interrupts_, &InterruptWire::from);
+  offer(3, outputs_, &OutputWire::to);
+  offer(4, pulses_, &PulseWire::to);
+  offer(5, loops_, &LoopWire::from);
+  offer(6, analogue_outputs_, &AnalogueWire::to);
 }
 
 std::vector<std::string> Bus::unwired() const {
@@ -391,10 +422,12 @@ void Bus::outputs_to_plants() {
       wire.to->volts = wire.total();
   }
   for (const auto& wire : pulses_) wire.to->pulses = wire.from->count;
+  if (cuts_.any()) cuts_.count();
 }
 
 void Bus::plants_to_inputs() {
   if (filters_) filters_->pass(h_);
+  if (cuts_.any()) cuts_.count();
   for (const auto& wire : counters_) wire.to->count = wire.from->count;
   // A pulse is one period, four edges.
   for (const auto& wire : loops_) wire.to->count = 4 * wire.from->count;
@@ -407,6 +440,7 @@ void Bus::plants_to_inputs() {
   }
   for (const auto& wire : interrupts_) wire.level->level = wire.from->level;
   for (auto& [name, port] : panel_.switches) port.edges.clear();
+  if (cuts_.any()) cuts_.clear_edges();
 }
 
 void Bus::deliver_interrupts() {
@@ -434,6 +468,7 @@ void Bus::visit(StateArchive& archive) {
   archive.each("analogue_outputs_", analogue_outputs_,
                [&](AnalogueWire& wire) { STATE(archive, wire.added, wire.computed, wire.until); });
   if (filters_) STATE(archive, *filters_);
+  STATE(archive, cuts_);
 }
 
 }  // namespace drycut::sim::loop

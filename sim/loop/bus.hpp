@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -11,6 +12,7 @@
 #include "base/problem.hpp"
 #include "devices/controller.hpp"
 #include "plants/plant.hpp"
+#include "sim/loop/wire_cuts.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
@@ -145,6 +147,9 @@ class Bus {
   /// What is on its way: levels of switches and lamps, filters, outputs that are computed.
   void visit(StateArchive& archive);
 
+  /// Of its wires, each under the component "wire.2.INP01".
+  [[nodiscard]] std::vector<std::pair<std::string, plants::Fault>> faults() { return cuts_.faults(); }
+
   [[nodiscard]] OperatorPanel& panel() { return panel_; }
   [[nodiscard]] const OperatorPanel& panel() const { return panel_; }
 
@@ -177,6 +182,8 @@ class Bus {
   };
 
   void deliver_interrupts();
+  /// Every wire can be cut; `made`: which terminal each has, by list.
+  void offer_cuts(const std::array<std::vector<std::string>, 7>& made);
 
   devices::Controller* controller_ = nullptr;
   double h_ = 0;                           ///< [s]
@@ -189,6 +196,7 @@ class Bus {
   std::vector<PulseWire> pulses_;
   std::vector<LoopWire> loops_;
   std::vector<AnalogueWire> analogue_outputs_;
+  WireCuts cuts_;
   std::int64_t compute_steps_ = 0;
   std::set<devices::Address> wired_;
   std::set<devices::Address> looped_;  ///< pulse outputs that a counter of the controller counts

@@ -16,6 +16,7 @@ namespace drycut::sim::loop {
 namespace {
 
 constexpr std::string_view panel_prefix = "panel.";
+constexpr std::string_view wire_prefix = "wire.";
 
 // A live parameter as what the timeline sets.
 plants::Setting setting_of(plants::Plant* plant, const plants::Parameter& row) {
@@ -132,8 +133,12 @@ std::optional<Target> Names::target(const std::string& name) {
 
 std::optional<plants::Fault> Names::fault(const std::string& component, const std::string& fault) {
   const auto found = fault_index_.find({component, fault});
-  if (found == fault_index_.end()) return {};
-  return faults_[found->second].second;
+  if (found != fault_index_.end()) return faults_[found->second].second;
+  for (const auto& [name, of_wire] : of_wires_)
+    if (name == component && of_wire.name == fault) return of_wire;
+  if (assumed_ && component.starts_with(wire_prefix) && fault == "cut")
+    return plants::Fault{component, fault, "", [](double) {}, ""};
+  return {};
 }
 
 plants::Fault* Names::fault_called(const std::string& name) {
@@ -232,6 +237,13 @@ std::string Names::suggest_fault(const std::string& component) const {
   std::vector<std::string> components;
   std::set<std::string> seen;
   std::string offered;
+  if (component.starts_with(wire_prefix)) {
+    for (const auto& [name, fault] : of_wires_) {
+      if (name == component) return fmt::format("{} offers: {}", component, fault.name);
+      components.push_back(name);
+    }
+    return did_you_mean(component, components, "a wire is called by its terminal: wire.2.INP01");
+  }
   for (const auto& [name, candidate] : faults_) {
     if (seen.insert(name).second) components.push_back(name);
     if (name == component) offered += (offered.empty() ? "" : ", ") + candidate.name;

@@ -47,6 +47,8 @@ inline constexpr std::size_t most_suggestions = 100;
 class Names {
  public:
   Names(const std::vector<NamedPlant>& plants, devices::Controller* controller, OperatorPanel& panel);
+  /// More faults, of what is no plant: wires.
+  void offer(std::vector<std::pair<std::string, plants::Fault>> faults) { of_wires_ = std::move(faults); }
   /// For a scenario whose controller has problems of its own: every name that no plant and no panel could
   /// have is taken for one of the controller's, and the panel has what `wiring` names, so that only what is
   /// wrong is told.
@@ -86,6 +88,10 @@ class Names {
   [[nodiscard]] std::vector<std::string> lamp_names() const;
   /// All of the plants, each under its component's full name.
   [[nodiscard]] const std::vector<std::pair<std::string, plants::Fault>>& faults() const { return faults_; }
+  /// Likewise of the wires: "wire.2.INP01", cut.
+  [[nodiscard]] const std::vector<std::pair<std::string, plants::Fault>>& faults_of_wires() const {
+    return of_wires_;
+  }
 
  private:
   // "knife.encoder.jitter"
@@ -100,6 +106,7 @@ class Names {
   std::map<std::string, plants::Setting> settings_;                         ///< and live parameters
   std::vector<std::pair<std::string, plants::Fault>> faults_;               ///< full component name, fault
   std::map<std::pair<std::string, std::string>, std::size_t> fault_index_;  ///< component and fault
+  std::vector<std::pair<std::string, plants::Fault>> of_wires_;
   std::set<std::string> plant_names_;
   mutable std::size_t suggestions_ = 0;  ///< made so far
 };

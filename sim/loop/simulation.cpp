@@ -60,6 +60,7 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
     delay_outputs(problems);
   }
   names_ = std::make_unique<Names>(named_, controller_.get(), bus_.panel());
+  names_->offer(bus_.faults());
   if (!controller_ && scenario.controller) names_->assume_controller(scenario.wiring);
   check_panel(problems);
   watch_ = std::make_unique<Watch>(*names_);
@@ -77,6 +78,12 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
   all_events_ = known_events_;
   for (auto& event : events_of_every_run()) all_events_.push_back(std::move(event));
   checks_ = std::make_unique<Checks>(scenario, *watch_, *names_, all_events_, problems);
+  if (scenario.faults.told) {
+    Watch only_named(*names_);  // who tries faults looks at it, no run does
+    scenario::Expression::compile(
+        *scenario.faults.told, scenario, [&](const std::string& name) { return only_named.operand(name); },
+        names_->reading_names(), problems);
+  }
   captions_ = std::make_unique<Captions>(
       bind_recording({scenario, named_, *names_, *watch_, known_events_, all_events_}, recording_, problems));
   drives_ = std::make_unique<DriveJudge>(scenario, named_);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <unordered_set>
 
+#include "base/text.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
 
@@ -255,6 +256,31 @@ void visit_drives(Archive& archive, DrivesSection& drives) {
   archive.value({"judge", "the check \"drive within its ratings\" is among the checks"}, form(drives.judge));
 }
 
+void visit_faults(Archive& archive, FaultsSection& faults) {
+  archive.value({"told",
+                 "an expression that becomes true when somebody is told of a fault; absent: an error of the "
+                 "controller, or a drive that it switches off",
+                 faults.told.has_value()},
+                expression_form(faults.told));
+  archive.value({"within", "so long after the fault"}, form(faults.within, Sign::positive));
+  archive.value({"product", "checks that say what good product is; none: all that look at each cut",
+                 !faults.product.empty()},
+                form(faults.product));
+}
+
+/// Checks of which a moment says that they failed then.
+void judge_product(MapReader& reader, const Scenario& scenario) {
+  std::vector<std::string> known;
+  for (const auto& check : scenario.checks)
+    if (check.kind != CheckRequest::Kind::all && check.kind != CheckRequest::Kind::eventually)
+      known.push_back(check.name.text);
+  for (const auto& name : scenario.faults.product)
+    if (std::ranges::find(known, name.text) == known.end())
+      reader.findings().add("scenario.unknown-name"_code, name.place,
+                            fmt::format("there is no check '{}' of each, always or never", name.text),
+                            did_you_mean(name.text, known, "name one of checks"));
+}
+
 }  // namespace
 
 void visit(Archive& archive, Wire& wire) {
@@ -366,6 +392,10 @@ void visit(Archive& archive, Scenario& scenario) {
   archive.section({"drives", "how the drives are judged by their ratings"},
                   [&](Archive& inner) { visit_drives(inner, scenario.drives); });
   archive.list({"checks", "what must hold for the run to pass", !scenario.checks.empty()}, scenario.checks);
+  archive.section({"faults", "what `drycut faults` holds a fault to",
+                   scenario.faults.told || !scenario.faults.product.empty() ||
+                       scenario.faults.within != FaultsSection().within},
+                  [&](Archive& inner) { visit_faults(inner, scenario.faults); });
   archive.section({"pictures", "frames, film and plots of the run"},
                   [&](Archive& inner) { visit(inner, scenario.pictures); });
   archive.section({"opcua", "what OPC UA clients of the live line are told of the machine as a whole",
@@ -376,6 +406,7 @@ void visit(Archive& archive, Scenario& scenario) {
       reader.refuse("scenario.needs-another"_code, "filters",
                     "filters are of a controller's cards, and there is no controller",
                     "add one, or leave the filters out");
+    judge_product(reader, scenario);
     refuse_same_name(scenario.checks, "checks", "rename one; the first is at line {}", reader.findings());
     for (const auto& check : scenario.checks)
       if (check.every && *check.every < scenario.record.every)
@@ -387,9 +418,9 @@ void visit(Archive& archive, Scenario& scenario) {
 }
 
 const std::vector<std::string>& section_names() {
-  static const std::vector<std::string> names = {"extends", "variables", "scene",  "plants",   "controller",
-                                                 "wiring",  "filters",   "panel",  "timeline", "disturbances",
-                                                 "record",  "drives",    "checks", "pictures", "opcua"};
+  static const std::vector<std::string> names = {
+      "extends",  "variables",    "scene",  "plants", "controller", "wiring", "filters",  "panel",
+      "timeline", "disturbances", "record", "drives", "checks",     "faults", "pictures", "opcua"};
   return names;
 }
 

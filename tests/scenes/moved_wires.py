@@ -18,12 +18,6 @@ import sys
 import tempfile
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-# Not too little to be seen: what a fault does that is no switch. burst_time is no fault but how long one lasts.
-STRONG = {
-    "lose_counts": "2000", "lose_pulses": "500", "jitter": "200", "burst": "100000", "add_counts": "2000", "slip": "5 %",
-    "offset": "1 V", "drift": "1 V/s", "noise": "1 V", "torque_limit": "0.2 N m", "dip": "60 %", "force_loss": "100 %",
-    "pressure_loss": "70 %", "worn": "1", "shift": "20 mm", "burst_time": None,
-}
 REFUSED, FAILED, WARNED, SILENT = "refused", "failed", "warned", "silent"
 
 
@@ -100,7 +94,7 @@ def variations(drycut, text):
         plugs = [plug["name"] for plug in machine.get("ports", [])]
         for fault in machine.get("faults", []):
             where, what = f"{name}.{fault['component']}", fault["name"]
-            value = STRONG.get(what, "1")
+            value = f"{fault['strong']} {fault['unit']}".strip() if fault["strong"] else None  # alone it does nothing
             # What nothing is wired to may do what it likes.
             is_open = fault["component"] in plugs and not any(plug == where or plug.startswith(where + ".") for plug in wired)
             if value is not None and not is_open:

@@ -22,7 +22,7 @@ struct WorkerAnswer {
 
 /// A round of runs: what they have in common and what each is.
 struct Round {
-  std::string kind;      ///< who can answer: "point", "trial" (sim/cli/work_command.cpp)
+  std::string kind;      ///< who can answer: "point", "trial", "fault" (sim/cli/work_command.cpp)
   std::string question;  ///< JSON
   std::size_t count = 0;
   /// Reads run `i`, on several threads at once; nothing if its answer is known.
