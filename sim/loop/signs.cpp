@@ -24,7 +24,8 @@ const record::CheckResult* failed_first(const record::Outcome& outcome) {
   const record::CheckResult* first = nullptr;
   for (const auto& check : outcome.checks) {
     if (check.passed) continue;
-    const bool sooner = first != nullptr && check.failed_at && (!first->failed_at || *check.failed_at < *first->failed_at);
+    const bool sooner =
+        first != nullptr && check.failed_at && (!first->failed_at || *check.failed_at < *first->failed_at);
     if (first == nullptr || sooner) first = &check;
   }
   return first;
@@ -41,7 +42,8 @@ std::string text_of(const Sign& sign) {
 void Signs::take(const record::RecordedEvent& event) {
   if (!is_sign(event)) return;
   const auto known = std::ranges::find_if(all_, [&](const Sign& sign) {
-    return sign.source == event.source && sign.event == event.event && (event.text.empty() || sign.text == event.text);
+    return sign.source == event.source && sign.event == event.event &&
+           (event.text.empty() || sign.text == event.text);
   });
   if (known != all_.end()) {
     ++known->times;
@@ -74,16 +76,15 @@ std::optional<Finding> Signs::sentence(const record::Outcome& outcome) const {
   const auto* sign = first(failed_at);
   if (sign == nullptr) return Finding{"why.sign"_code, fmt::format("nothing announced that {}", failed)};
   const auto before = check->failed_at ? fmt::format(", {:.4g} s before", failed_at - sign->at) : ", before";
-  return Finding{"why.sign"_code,
-                 fmt::format("the first sign came at {:.6g} s{} {}: {}", sign->at, before, failed, text_of(*sign))};
+  return Finding{"why.sign"_code, fmt::format("the first sign came at {:.6g} s{} {}: {}", sign->at, before,
+                                              failed, text_of(*sign))};
 }
 
 void Signs::visit(StateArchive& archive) { STATE(archive, all_); }
 
 std::string sign_told(const record::Outcome& outcome) {
-  const auto found = std::ranges::find_if(outcome.findings, [](const Finding& finding) {
-    return finding.code == "why.sign"_code.text();
-  });
+  const auto found = std::ranges::find_if(
+      outcome.findings, [](const Finding& finding) { return finding.code == "why.sign"_code.text(); });
   return found == outcome.findings.end() ? "" : std::string(found->text);
 }
 

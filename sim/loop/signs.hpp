@@ -14,8 +14,8 @@ class StateArchive;
 
 namespace drycut::sim::loop {
 
-/// Something that may announce a failure: a fault, an alarm, a command that was refused, counts that were lost, a
-/// drive at its limit.
+/// Something that may announce a failure: a fault, an alarm, a command that was refused, counts that were
+/// lost, a drive at its limit.
 struct Sign {
   double at = 0;  ///< [s] the first time
   std::string source;
@@ -43,7 +43,8 @@ class Signs {
   void take(const record::RecordedEvent& event);
   void visit(StateArchive& archive);
   [[nodiscard]] const std::vector<Sign>& all() const { return all_; }
-  /// The first of them that stands for itself before a check failed: no notes, and a drive's limit only just before.
+  /// The first of them that stands for itself before a check failed: no notes, and a drive's limit only just
+  /// before.
   [[nodiscard]] const Sign* first(double failed_at) const;
   /// The sentence of a run that failed: the first sign, and how long before; nothing if no check failed.
   [[nodiscard]] std::optional<Finding> sentence(const record::Outcome& outcome) const;

@@ -71,13 +71,13 @@ std::string suite_of(const RunResult& result) {
   const auto sign = loop::sign_told(outcome);
   for (std::size_t i = 0; i < outcome.checks.size(); ++i) {
     const auto& check = outcome.checks[i];
-    text += case_of(
-        result, i, check.name, each,
-        check.passed ? ""
-                     : fmt::format("<failure message=\"{}{}{}\">{}; {}{}{}</failure>", escaped(check.expectation),
-                                   outcome.cause().empty() ? "" : ": failed ", escaped(outcome.cause()),
-                                   escaped(check.detail), escaped(margin_text(check)), sign.empty() ? "" : "; ",
-                                   escaped(sign)));
+    text += case_of(result, i, check.name, each,
+                    check.passed
+                        ? ""
+                        : fmt::format("<failure message=\"{}{}{}\">{}; {}{}{}</failure>",
+                                      escaped(check.expectation), outcome.cause().empty() ? "" : ": failed ",
+                                      escaped(outcome.cause()), escaped(check.detail),
+                                      escaped(margin_text(check)), sign.empty() ? "" : "; ", escaped(sign)));
   }
   if (stopped)
     text += case_of(result, outcome.checks.size(), "runs to its end", each,

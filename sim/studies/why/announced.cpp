@@ -87,7 +87,8 @@ class RoomReader {
 
 RoomOverTime room_over_time(const scenario::Scenario& scenario, const std::string& name,
                             const record::Recording& recording) {
-  const auto check = std::ranges::find_if(scenario.checks, [&](const auto& one) { return one.name.text == name; });
+  const auto check =
+      std::ranges::find_if(scenario.checks, [&](const auto& one) { return one.name.text == name; });
   if (check == scenario.checks.end()) return {};
   RoomReader reader(*check, scenario, recording);
   if (check->kind == scenario::CheckRequest::Kind::always) return reader.over_instants();

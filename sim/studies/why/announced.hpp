@@ -12,7 +12,8 @@ namespace drycut::sim::studies {
 
 /// What a check leaves of its limit, over time [s]; negative beyond it.
 using RoomOverTime = std::vector<std::pair<double, double>>;
-/// Of a check that looks at record instants or single events, as far as what it names was recorded; else nothing.
+/// Of a check that looks at record instants or single events, as far as what it names was recorded; else
+/// nothing.
 RoomOverTime room_over_time(const scenario::Scenario& scenario, const std::string& check,
                             const record::Recording& recording);
 

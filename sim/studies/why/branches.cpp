@@ -57,20 +57,25 @@ BranchCame branch_off(const Mixture& mixture, const Subset& cause, const KeptBra
 
 }  // namespace
 
-PointOfReturn point_of_return(const Mixture& mixture, const Subset& cause, const std::vector<KeptBranch>& moments,
-                              double failed_at, const FailedCheck& check, MixedTrials& trials) {
+PointOfReturn point_of_return(const Mixture& mixture, const Subset& cause,
+                              const std::vector<KeptBranch>& moments, double failed_at,
+                              const FailedCheck& check, MixedTrials& trials) {
   const auto unknown = [](std::string why) { return PointOfReturn{{}, {}, std::move(why)}; };
-  if (!mixture.states_fit(cause)) return unknown("the programs differ, and what one has come to does not fit the other");
+  if (!mixture.states_fit(cause))
+    return unknown("the programs differ, and what one has come to does not fit the other");
   const auto late = std::ranges::find_if(moments, [&](const auto& moment) { return moment.at >= failed_at; });
   const auto count = static_cast<std::size_t>(late - moments.begin());
   if (count == 0) return unknown("no moment before it was kept");
   std::string why;
-  const auto try_from = [&](std::size_t number) { return branch_off(mixture, cause, moments[number], check, why); };
+  const auto try_from = [&](std::size_t number) {
+    return branch_off(mixture, cause, moments[number], check, why);
+  };
   // From the very beginning it must pass: else what differs is part of what was kept.
   if (!trials.take()) return unknown("the budget ended before");
   const auto begun = try_from(0);
   if (begun == BranchCame::unfit) return unknown("a moment of the one does not fit the other: " + why);
-  if (begun == BranchCame::lost) return unknown("what differs is part of what the run has come to from its beginning on");
+  if (begun == BranchCame::lost)
+    return unknown("what differs is part of what the run has come to from its beginning on");
   std::size_t saved = 0;
   std::size_t lost = count;
   while (lost - saved > 1) {

@@ -30,10 +30,11 @@ struct PointOfReturn {
   }
 };
 
-/// Branches off from moments of the good run with `cause`: from there on without it. Halves the stretch between a
-/// moment from which the run passes and one from which it fails; each branch is a run of the budget. `failed_at` [s]:
-/// later moments are lost.
-PointOfReturn point_of_return(const Mixture& mixture, const Subset& cause, const std::vector<KeptBranch>& moments,
-                              double failed_at, const FailedCheck& check, MixedTrials& trials);
+/// Branches off from moments of the good run with `cause`: from there on without it. Halves the stretch
+/// between a moment from which the run passes and one from which it fails; each branch is a run of the
+/// budget. `failed_at` [s]: later moments are lost.
+PointOfReturn point_of_return(const Mixture& mixture, const Subset& cause,
+                              const std::vector<KeptBranch>& moments, double failed_at,
+                              const FailedCheck& check, MixedTrials& trials);
 
 }  // namespace drycut::sim::studies

@@ -18,8 +18,8 @@ namespace {
 
 using scenario::YamlNode;
 
-/// Two sequences beside each other: what is the same has both places, what is not has one, and where as many of one
-/// stand for as many of the other both, with `same` false.
+/// Two sequences beside each other: what is the same has both places, what is not has one, and where as many
+/// of one stand for as many of the other both, with `same` false.
 struct Beside {
   std::optional<std::size_t> good;
   std::optional<std::size_t> failed;
@@ -28,7 +28,8 @@ struct Beside {
 
 /// A longest common subsequence; of sequences too long for that what they begin and end with alike.
 template <typename Same>
-std::vector<std::pair<std::size_t, std::size_t>> common(std::size_t good, std::size_t failed, const Same& same) {
+std::vector<std::pair<std::size_t, std::size_t>> common(std::size_t good, std::size_t failed,
+                                                        const Same& same) {
   constexpr std::size_t most_pairs = 25'000'000;
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   std::size_t begin = 0;
@@ -42,7 +43,9 @@ std::vector<std::pair<std::size_t, std::size_t>> common(std::size_t good, std::s
   const auto columns = failed - begin - end;
   if (rows > 0 && columns > 0 && rows <= most_pairs / columns) {
     std::vector<std::uint32_t> longest((rows + 1) * (columns + 1), 0);  // of what is left from there on
-    const auto at = [&](std::size_t i, std::size_t j) -> std::uint32_t& { return longest[i * (columns + 1) + j]; };
+    const auto at = [&](std::size_t i, std::size_t j) -> std::uint32_t& {
+      return longest[i * (columns + 1) + j];
+    };
     for (auto i = rows; i-- > 0;)
       for (auto j = columns; j-- > 0;)
         at(i, j) = same(begin + i, begin + j) ? at(i + 1, j + 1) + 1 : std::max(at(i + 1, j), at(i, j + 1));
@@ -121,7 +124,8 @@ bool same_tree(const YamlNode& a, const YamlNode& b) { return text_of(a) == text
 
 bool is_list_of_maps(const YamlNode& node) {
   return node.kind == YamlNode::Kind::sequence && !node.items.empty() &&
-         std::ranges::all_of(node.items, [](const YamlNode& item) { return item.kind == YamlNode::Kind::map; });
+         std::ranges::all_of(node.items,
+                             [](const YamlNode& item) { return item.kind == YamlNode::Kind::map; });
 }
 
 YamlNode scalar(std::string text) { return YamlNode(YamlNode::Kind::scalar, {std::move(text), {}, {}}); }
@@ -131,7 +135,8 @@ class Mixer {
   explicit Mixer(const Take& take) : take_(take) {}
 
   YamlNode mix(const YamlNode& good, const YamlNode& failed, const std::string& path) {
-    if (good.kind == YamlNode::Kind::map && failed.kind == YamlNode::Kind::map) return maps(good, failed, path);
+    if (good.kind == YamlNode::Kind::map && failed.kind == YamlNode::Kind::map)
+      return maps(good, failed, path);
     const bool lists = (is_list_of_maps(good) || is_list_of_maps(failed)) &&
                        good.kind == YamlNode::Kind::sequence && failed.kind == YamlNode::Kind::sequence;
     if (lists) return sequences(good, failed, path);
@@ -270,7 +275,8 @@ std::string mixed_lines(const std::string& name, const std::string& good, const 
     const auto one = joined(a, i, to_i);
     const auto other = joined(b, j, to_j);
     const auto last = std::max(to_j, j + 1);
-    const auto where = last - j == 1 ? fmt::format("{}:{}", name, j + 1) : fmt::format("{}:{}-{}", name, j + 1, last);
+    const auto where =
+        last - j == 1 ? fmt::format("{}:{}", name, j + 1) : fmt::format("{}:{}-{}", name, j + 1, last);
     text += take({Difference::Kind::line, where, one, other}) == TakenSide::failed ? other : one;
   };
   each_stretch(

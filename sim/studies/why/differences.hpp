@@ -26,8 +26,8 @@ struct Difference {
   [[nodiscard]] std::string preset() const;
 };
 
-/// Which of two sides a mixture has where they differ. Late: an entry that only what fails has stays, so that all
-/// others keep their places, but is never due.
+/// Which of two sides a mixture has where they differ. Late: an entry that only what fails has stays, so that
+/// all others keep their places, but is never due.
 enum class TakenSide { good, failed, late };
 /// Is asked once of each difference, always in the same order.
 using Take = std::function<TakenSide(const Difference&)>;
@@ -35,15 +35,16 @@ using Take = std::function<TakenSide(const Difference&)>;
 /// A scenario's tree, without what changes no run: pictures, titles, channels that are recorded.
 scenario::YamlNode without_looks(scenario::YamlNode root);
 /// The tree between two.
-scenario::YamlNode mixed_tree(const scenario::YamlNode& good, const scenario::YamlNode& failed, const Take& take);
+scenario::YamlNode mixed_tree(const scenario::YamlNode& good, const scenario::YamlNode& failed,
+                              const Take& take);
 /// A text between two, line by line; `name`: what its lines are called.
 std::string mixed_lines(const std::string& name, const std::string& good, const std::string& failed,
                         const Take& take);
 /// The tree as a text that is read back as the same tree.
 std::string text_of(const scenario::YamlNode& node);
 
-/// True if two programs have the same statements and only other numbers in them: what one has come to fits the
-/// other.
+/// True if two programs have the same statements and only other numbers in them: what one has come to fits
+/// the other.
 bool same_but_numbers(std::string_view one, std::string_view other);
 
 }  // namespace drycut::sim::studies

@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "sim/interrupt.hpp"
+#include "sim/loop/names.hpp"
 #include "sim/parallel.hpp"
 
 namespace drycut::sim::studies {
@@ -36,18 +37,26 @@ const record::CheckResult* find_check(const record::Outcome& outcome, const std:
   return found == outcome.checks.end() ? nullptr : &*found;
 }
 
-MixedRun::MixedRun(const Mixture::Made& made, const std::vector<std::string>& channels) : use_(files_) {
+MixedRun::MixedRun(const Mixture::Made& made, const std::vector<std::string>* channels) : use_(files_) {
   for (const auto& [name, text] : made.files) files_.files[name] = {FileSet::State::present, text};
   scenario_ = scenario::read_scenario_text(made.text, made.file, {}, problems_);
   scenario_.pictures = {};
-  for (const auto& name : channels) {
-    const bool known = std::ranges::any_of(scenario_.record.channels,
-                                           [&](const auto& channel) { return channel.text == name; });
-    if (!known) scenario_.record.channels.push_back({name, {1, 1, 0}, {}});
-  }
   if (!problems_.empty()) return;
   simulation_ = std::make_unique<loop::Simulation>(scenario_, problems_);
-  if (channels.empty()) simulation_->keep_nothing();
+  if (channels == nullptr) {
+    simulation_->keep_nothing();
+    return;
+  }
+  std::vector<scenario::Text> more;
+  for (const auto& name : *channels) {
+    const bool known = std::ranges::any_of(scenario_.record.channels,
+                                           [&](const auto& channel) { return channel.text == name; });
+    if (!known && simulation_->names().reading(name)) more.push_back({name, {1, 1, 0}, {}});
+  }
+  if (more.empty()) return;
+  auto& recorded = scenario_.record.channels;
+  recorded.insert(recorded.end(), more.begin(), more.end());
+  simulation_ = std::make_unique<loop::Simulation>(scenario_, problems_);
 }
 
 record::Outcome MixedRun::run() {
@@ -55,7 +64,11 @@ record::Outcome MixedRun::run() {
 }
 
 MixedTrials::MixedTrials(const Mixture& mixture, FailedCheck check, int budget, int jobs, Progress progress)
-    : mixture_(mixture), check_(std::move(check)), budget_(budget), jobs_(jobs), progress_(std::move(progress)) {}
+    : mixture_(mixture),
+      check_(std::move(check)),
+      budget_(budget),
+      jobs_(jobs),
+      progress_(std::move(progress)) {}
 
 MixedTrials::Trial MixedTrials::one(const Subset& set) const {
   MixedRun mixed(mixture_.with(set));

@@ -24,8 +24,9 @@ const record::CheckResult* find_check(const record::Outcome& outcome, const std:
 /// A mixture put together on this thread, where its files are read in place of those on the disk.
 class MixedRun {
  public:
-  /// `channels` are recorded besides those that the scenario names.
-  explicit MixedRun(const Mixture::Made& made, const std::vector<std::string>& channels = {});
+  /// What it records is kept with `channels`, which are recorded besides those that the scenario names; those
+  /// that it has not are left out.
+  explicit MixedRun(const Mixture::Made& made, const std::vector<std::string>* channels = nullptr);
   /// Why there is no simulation; none = there is one.
   [[nodiscard]] const Problems& problems() const { return problems_; }
   [[nodiscard]] loop::Simulation& simulation() { return *simulation_; }

@@ -77,7 +77,8 @@ Mixture::Mixture(RunSide good, RunSide failed) : good_(std::move(good)), failed_
   std::vector<bool> used(failed_.programs.size(), false);
   const auto pair_up = [&](const auto& fits) {
     for (const auto& [name, text] : good_.programs) {
-      if (std::ranges::any_of(programs_, [&, &name = name](const auto& one) { return one.name == name; })) continue;
+      if (std::ranges::any_of(programs_, [&, &name = name](const auto& one) { return one.name == name; }))
+        continue;
       for (std::size_t k = 0; k < failed_.programs.size(); ++k) {
         if (used[k] || !fits(name, failed_.programs[k].first)) continue;
         used[k] = true;
@@ -96,7 +97,9 @@ Mixture::Mixture(RunSide good, RunSide failed) : good_(std::move(good)), failed_
     if (std::ranges::none_of(programs_, [&, &name = name](const auto& one) { return one.name == name; }))
       programs_.push_back({name, text, text});
   for (std::size_t k = 0; k < failed_.programs.size(); ++k)
-    if (!used[k]) programs_.push_back({failed_.programs[k].first, failed_.programs[k].second, failed_.programs[k].second});
+    if (!used[k])
+      programs_.push_back(
+          {failed_.programs[k].first, failed_.programs[k].second, failed_.programs[k].second});
   walk([&](const Difference& difference) {
     differences_.push_back(difference);
     return TakenSide::good;

@@ -20,11 +20,12 @@ struct RunSide {
   std::filesystem::path file;   ///< the scenario's own, from which its paths lead on
   std::string text;             ///< the scenario with every value in force
   scenario::YamlNode tree;      ///< of it, without what changes no run
-  std::vector<std::pair<std::string, std::string>> programs;  ///< files of the controller by their names, texts
+  std::vector<std::pair<std::string, std::string>>
+      programs;  ///< files of the controller by their names, texts
   [[nodiscard]] bool is_folder() const;
 };
-/// Reads a folder that `drycut run` made of a scenario, or a scenario's file. What is wrong is told in `problems`;
-/// then there is nothing.
+/// Reads a folder that `drycut run` made of a scenario, or a scenario's file. What is wrong is told in
+/// `problems`; then there is nothing.
 std::optional<RunSide> read_side(const std::filesystem::path& given, Problems& problems);
 
 /// Anything between a run that is good and one that fails.
@@ -39,7 +40,8 @@ class Mixture {
     std::string text;
     std::map<std::string, std::string> files = {};
   };
-  /// The good side with these differences. `late`: entries that only the failing side has are there, but never due.
+  /// The good side with these differences. `late`: entries that only the failing side has are there, but
+  /// never due.
   [[nodiscard]] Made with(const Subset& taken, bool late = false) const;
   /// True if what the line of a program has come to on one side fits the other.
   [[nodiscard]] bool states_fit(const Subset& differences) const;
