@@ -46,7 +46,7 @@ struct Parting {
   }
 };
 /// How far a channel may be from the good run's before it has parted, as a share of that one's range.
-inline constexpr double parted = 0.01;
+inline constexpr double parted = 0.001;
 std::optional<Parting> first_parting(const record::Recording& good, const record::Recording& failed);
 
 }  // namespace drycut::sim::studies

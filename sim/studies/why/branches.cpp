@@ -5,25 +5,38 @@
 #include <algorithm>
 
 #include "sim/loop/names.hpp"
+#include "sim/scenario/units.hpp"
 
 namespace drycut::sim::studies {
 
 namespace {
 
-/// What the controller was given before it was switched on is part of what it has come to: it is given anew.
-struct PresetAgain {
+/// What the controller was given before it was switched on, and what of a machine can be changed while it
+/// runs, is part of what they have come to: it is given anew.
+struct GivenAgain {
   std::string name;
   double number;
+  std::string unit;
 };
 
-std::vector<PresetAgain> presets_of(const Mixture& mixture, const Subset& cause, loop::Simulation& good) {
-  std::vector<PresetAgain> presets;
+std::string name_while_it_runs(const Difference& difference) {
+  constexpr std::string_view plants = "plants.";
+  return difference.where.starts_with(plants) ? difference.where.substr(plants.size()) : difference.preset();
+}
+
+std::vector<GivenAgain> given_again(const Mixture& mixture, const Subset& cause, loop::Simulation& good) {
+  std::vector<GivenAgain> given;
   for (const auto number : cause) {
-    const auto name = mixture.differences()[number].preset();
-    const auto reading = name.empty() ? std::nullopt : good.names().reading(name);
-    if (reading) presets.push_back({name, reading->read()});
+    const auto& difference = mixture.differences()[number];
+    const auto name = name_while_it_runs(difference);
+    if (name.empty() || !good.names().target(name)) continue;
+    if (const auto reading = good.names().reading(name)) {
+      given.push_back({name, reading->read(), reading->unit});
+    } else if (const auto quantity = scenario::parse_quantity(difference.good)) {
+      given.push_back({name, quantity->number, quantity->unit});
+    }
   }
-  return presets;
+  return given;
 }
 
 enum class BranchCame { saved, lost, unfit };
@@ -36,17 +49,17 @@ BranchCame branch_off(const Mixture& mixture, const Subset& cause, const KeptBra
     return BranchCame::unfit;
   }
   auto& simulation = without.simulation();
-  const auto presets = presets_of(mixture, cause, simulation);
+  const auto given = given_again(mixture, cause, simulation);
   try {
     simulation.restore(moment.state, {}, true);
   } catch (const BadState& bad) {
     why = bad.what();
     return BranchCame::unfit;
   }
-  for (const auto& [name, number] : presets) {
+  for (const auto& [name, number, unit] : given) {
     scenario::Stimulus again;
     again.at = simulation.time();
-    again.set.push_back({{name, {1, 1, 0}, {}}, {number, "", {1, 1, 0}}});
+    again.set.push_back({{name, {1, 1, 0}, {}}, {number, unit, {1, 1, 0}}});
     Problems problems;
     if (simulation.act(again, problems)) continue;
     why = fmt::format("{} cannot be set while it runs", name);

@@ -49,8 +49,9 @@ MixedRun::MixedRun(const Mixture::Made& made, const std::vector<std::string>* ch
   }
   std::vector<scenario::Text> more;
   for (const auto& name : *channels) {
-    const bool known = std::ranges::any_of(scenario_.record.channels,
-                                           [&](const auto& channel) { return channel.text == name; });
+    const auto is_it = [&](const auto& channel) { return channel.text == name; };
+    const bool known =
+        std::ranges::any_of(scenario_.record.channels, is_it) || std::ranges::any_of(more, is_it);
     if (!known && simulation_->names().reading(name)) more.push_back({name, {1, 1, 0}, {}});
   }
   if (more.empty()) return;

@@ -49,7 +49,7 @@ void rename(scenario::YamlNode& node, const std::string& name, const std::string
 bool RunSide::is_folder() const { return folder_exists(given); }
 
 std::optional<RunSide> read_side(const fs::path& given, Problems& problems) {
-  RunSide side{given, given, "", {}, {}};
+  RunSide side{given, given, "", {}, {}, {}};
   const auto before = problems.size();
   std::optional<scenario::Scenario> scenario;
   if (side.is_folder()) {
@@ -63,6 +63,7 @@ std::optional<RunSide> read_side(const fs::path& given, Problems& problems) {
   scenario::Findings findings({given.string()});
   side.tree = without_looks(scenario::parse_scenario(side.text, 0, findings));
   for (auto& problem : findings.sorted()) problems.push_back(std::move(problem));
+  for (const auto& channel : scenario->record.channels) side.channels.push_back(channel.text);
   if (scenario->controller)
     for (const auto& name : scenario->controller->files()) {
       auto text = read_file(side.file.parent_path() / name.text, problems, named_at(*scenario, name.place));
@@ -119,6 +120,12 @@ Mixture::Made Mixture::with(const Subset& taken, bool late) const {
     const bool is_taken = std::ranges::binary_search(taken, number++);
     return !is_taken ? TakenSide::good : late ? TakenSide::late : TakenSide::failed;
   });
+}
+
+std::vector<std::string> Mixture::channels() const {
+  auto all = good_.channels;
+  all.insert(all.end(), failed_.channels.begin(), failed_.channels.end());
+  return all;
 }
 
 bool Mixture::states_fit(const Subset& differences) const {

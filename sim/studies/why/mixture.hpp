@@ -16,10 +16,11 @@ namespace drycut::sim::studies {
 
 /// A run, or a scenario, with all that it is made of.
 struct RunSide {
-  std::filesystem::path given;  ///< as the user named it
-  std::filesystem::path file;   ///< the scenario's own, from which its paths lead on
-  std::string text;             ///< the scenario with every value in force
-  scenario::YamlNode tree;      ///< of it, without what changes no run
+  std::filesystem::path given;        ///< as the user named it
+  std::filesystem::path file;         ///< the scenario's own, from which its paths lead on
+  std::string text;                   ///< the scenario with every value in force
+  scenario::YamlNode tree;            ///< of it, without what changes no run
+  std::vector<std::string> channels;  ///< that it records
   std::vector<std::pair<std::string, std::string>>
       programs;  ///< files of the controller by their names, texts
   [[nodiscard]] bool is_folder() const;
@@ -34,6 +35,8 @@ class Mixture {
   Mixture(RunSide good, RunSide failed);
 
   [[nodiscard]] const std::vector<Difference>& differences() const { return differences_; }
+  /// What one of the sides records.
+  [[nodiscard]] std::vector<std::string> channels() const;
   /// A scenario and the files that it reads in place of those on the disk.
   struct Made {
     std::filesystem::path file;

@@ -158,8 +158,10 @@ void compare_with_good(const WhyRequest& request, const Mixture& mixture, const 
     found.other_causes = !came.empty() && came.front() == TrialCame::failed;
   }
   weigh(mixture, least.set, trials, found);
-  std::vector<std::string> channels;
-  if (const auto* result = find_check(run.outcome, check.name)) channels = result->names;
+  std::vector<std::string> looked_at;
+  if (const auto* result = find_check(run.outcome, check.name)) looked_at = result->names;
+  auto channels = mixture.channels();
+  channels.insert(channels.end(), looked_at.begin(), looked_at.end());
   auto& curves = found.curves.emplace();
   progress("comparing", static_cast<double>(trials.runs()) / request.budget);
   const auto with = run_cause(mixture, least.set, check, channels, curves);
@@ -172,7 +174,7 @@ void compare_with_good(const WhyRequest& request, const Mixture& mixture, const 
     found.sign = fmt::format("{} left that of the good run: {:.6g} instead of {:.6g}{}{}", part->channel,
                              part->failed, part->good, part->unit.empty() ? "" : " ", part->unit);
   }
-  for (const auto& name : channels)
+  for (const auto& name : looked_at)
     if (curves.good.column(name) != nullptr) curves.channels.push_back(name);
   if (found.parting && std::ranges::find(curves.channels, found.parting->channel) == curves.channels.end())
     curves.channels.push_back(found.parting->channel);
@@ -254,8 +256,8 @@ std::optional<WhyFound> find_why(const WhyRequest& request, Problems& problems, 
   }
   progress("running what failed", 0);
   {
-    const std::vector<std::string> none;
-    MixedRun again(mixture.with(all_of(mixture)), &none);
+    const auto channels = mixture.channels();
+    MixedRun again(mixture.with(all_of(mixture)), &channels);
     if (!again.problems().empty()) {
       problems.insert(problems.end(), again.problems().begin(), again.problems().end());
       return {};
