@@ -42,8 +42,8 @@ std::vector<GivenAgain> given_again(const Mixture& mixture, const Subset& cause,
 enum class BranchCame { saved, lost, unfit };
 
 BranchCame branch_off(const Mixture& mixture, const Subset& cause, const KeptBranch& moment,
-                      const FailedCheck& check, std::string& why) {
-  MixedRun without(mixture.with(cause, true));
+                      const std::vector<std::string>& channels, const FailedCheck& check, std::string& why) {
+  MixedRun without(mixture.with(cause, true), &channels);  // what is looked at is part of a state
   if (!without.problems().empty()) {
     why = to_string(without.problems().front());
     return BranchCame::unfit;
@@ -71,7 +71,8 @@ BranchCame branch_off(const Mixture& mixture, const Subset& cause, const KeptBra
 }  // namespace
 
 PointOfReturn point_of_return(const Mixture& mixture, const Subset& cause,
-                              const std::vector<KeptBranch>& moments, double failed_at,
+                              const std::vector<KeptBranch>& moments,
+                              const std::vector<std::string>& channels, double failed_at,
                               const FailedCheck& check, MixedTrials& trials) {
   const auto unknown = [](std::string why) { return PointOfReturn{{}, {}, std::move(why)}; };
   if (!mixture.states_fit(cause))
@@ -81,7 +82,7 @@ PointOfReturn point_of_return(const Mixture& mixture, const Subset& cause,
   if (count == 0) return unknown("no moment before it was kept");
   std::string why;
   const auto try_from = [&](std::size_t number) {
-    return branch_off(mixture, cause, moments[number], check, why);
+    return branch_off(mixture, cause, moments[number], channels, check, why);
   };
   // From the very beginning it must pass: else what differs is part of what was kept.
   if (!trials.take()) return unknown("the budget ended before");

@@ -32,9 +32,10 @@ struct PointOfReturn {
 
 /// Branches off from moments of the good run with `cause`: from there on without it. Halves the stretch
 /// between a moment from which the run passes and one from which it fails; each branch is a run of the
-/// budget. `failed_at` [s]: later moments are lost.
+/// budget. `channels` are those of the run that was kept. `failed_at` [s]: later moments are lost.
 PointOfReturn point_of_return(const Mixture& mixture, const Subset& cause,
-                              const std::vector<KeptBranch>& moments, double failed_at,
+                              const std::vector<KeptBranch>& moments,
+                              const std::vector<std::string>& channels, double failed_at,
                               const FailedCheck& check, MixedTrials& trials);
 
 }  // namespace drycut::sim::studies

@@ -180,7 +180,7 @@ void compare_with_good(const WhyRequest& request, const Mixture& mixture, const 
     curves.channels.push_back(found.parting->channel);
   if (with && least.minimal)
     found.point_of_return =
-        point_of_return(mixture, least.set, with->moments, with->failed_at, check, trials);
+        point_of_return(mixture, least.set, with->moments, channels, with->failed_at, check, trials);
 }
 
 void add_findings(WhyFound& found) {
