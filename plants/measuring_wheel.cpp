@@ -20,7 +20,8 @@ MeasuringWheel::MeasuringWheel(const MeasuringWheelData& data, Random noise, dou
 void MeasuringWheel::set_slip(double share) {
   base_ += turns_per_metre_ * (travel_ - anchor_);
   anchor_ = travel_;
-  turns_per_metre_ = (1 - share) / (data_.circumference * (1 + data_.circumference_error));
+  slip_ = share;
+  turns_per_metre_ = (1 - slip_) / (data_.circumference * (1 + data_.circumference_error));
 }
 
 // The axis turns at w, the web runs at w times its distance from the axis, r + e cos(angle): r angle + e
@@ -73,7 +74,9 @@ void MeasuringWheel::offer_faults(std::vector<Fault>& faults, const std::string&
 }
 
 void MeasuringWheel::visit(StateArchive& archive) {
-  STATE(archive, pulses, index, turns_per_metre_, anchor_, base_, travel_, revolutions_);
+  STATE(archive, pulses, index, slip_, anchor_, base_, travel_, revolutions_);
+  if (archive.restores())
+    turns_per_metre_ = (1 - slip_) / (data_.circumference * (1 + data_.circumference_error));
 }
 
 Parameters wheel_parameters(MeasuringWheelData& data) {

@@ -62,7 +62,8 @@ class MeasuringWheel {
 
   const MeasuringWheelData data_;
   const double start_speed_;    // [m/s]
-  double turns_per_metre_ = 0;  // with the slip of now
+  double slip_ = 0;             // of now
+  double turns_per_metre_ = 0;  // with it
   double anchor_ = 0;           // travel where the slip changed last [m]
   double base_ = 0;             // turns there
   double travel_ = 0;

@@ -11,6 +11,7 @@ namespace drycut::sim::loop {
 
 void Remarks::happened(const record::RecordedEvent& event) {
   constexpr std::size_t shown = 5;
+  signs_.take(event);
   if (event.text.empty() || event.source == "timeline") return;
   ++count_;
   const bool urgent = is_of_program(event.event);  // stands before remarks on values
@@ -31,6 +32,6 @@ std::vector<Finding> Remarks::notes() const {
   return notes;
 }
 
-void Remarks::visit(StateArchive& archive) { STATE(archive, remarks_, urgent_, count_); }
+void Remarks::visit(StateArchive& archive) { STATE(archive, remarks_, urgent_, count_, signs_); }
 
 }  // namespace drycut::sim::loop

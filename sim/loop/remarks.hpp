@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/problem.hpp"
+#include "sim/loop/signs.hpp"
 #include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
@@ -15,11 +16,14 @@ class Remarks : public record::Observer {
   void visit(StateArchive& archive) override;
   /// The remarks, and how many more there were.
   [[nodiscard]] std::vector<Finding> notes() const;
+  /// What of all events may announce a failure.
+  [[nodiscard]] const Signs& signs() const { return signs_; }
 
  private:
   std::vector<Finding> remarks_;
   std::size_t urgent_ = 0;  ///< that stand at their beginning
   std::size_t count_ = 0;
+  Signs signs_;
 };
 
 }  // namespace drycut::sim::loop

@@ -604,6 +604,7 @@ record::Outcome Simulation::outcome() {
                                   std::find_if(checks.begin(), checks.end(), failed)->name),
                       Finding::Role::cause);
     if (cause) outcome.findings.push_back(std::move(*cause));
+    if (auto sign = remarks_->signs().sentence(outcome)) outcome.findings.push_back(std::move(*sign));
   }
   return outcome;
 }

@@ -22,6 +22,7 @@
 #include "sim/controllers/kinds.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/shutter.hpp"
+#include "sim/loop/signs.hpp"
 #include "sim/report/chosen_frames.hpp"
 #include "sim/report/drives.hpp"
 #include "sim/report/gallery_plots.hpp"
@@ -226,6 +227,7 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
         fmt::format("{} samples of each channel: what the plots show is thinned, to the lowest and "
                     "highest of {} stretches of equal length; all are in the record of the run",
                     samples, renders::kStretches));
+  if (auto sign = loop::sign_told(outcome); !sign.empty()) report.notes.push_back(std::move(sign));
   for (const auto& warning : outcome.warnings()) report.notes.push_back("warning: " + to_string(warning));
   for (const auto& note : simulation.notes()) report.notes.push_back(to_string(note));
   add_checks(outcome.checks, report);

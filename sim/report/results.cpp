@@ -10,6 +10,7 @@
 #include "base/plain_text.hpp"
 #include "base/text.hpp"
 #include "sim/file.hpp"
+#include "sim/loop/signs.hpp"
 #include "sim/studies/half_step.hpp"
 
 namespace drycut::sim::report {
@@ -67,14 +68,16 @@ std::string suite_of(const RunResult& result) {
       escaped(result.name), cases, failed, stopped ? 1 : 0, seconds(outcome.end),
       escaped(path_from_here(result.scenario)));
   text += properties_of(result);
+  const auto sign = loop::sign_told(outcome);
   for (std::size_t i = 0; i < outcome.checks.size(); ++i) {
     const auto& check = outcome.checks[i];
-    text += case_of(
-        result, i, check.name, each,
-        check.passed ? ""
-                     : fmt::format("<failure message=\"{}{}{}\">{}; {}</failure>", escaped(check.expectation),
-                                   outcome.cause().empty() ? "" : ": failed ", escaped(outcome.cause()),
-                                   escaped(check.detail), escaped(margin_text(check))));
+    text += case_of(result, i, check.name, each,
+                    check.passed
+                        ? ""
+                        : fmt::format("<failure message=\"{}{}{}\">{}; {}{}{}</failure>",
+                                      escaped(check.expectation), outcome.cause().empty() ? "" : ": failed ",
+                                      escaped(outcome.cause()), escaped(check.detail),
+                                      escaped(margin_text(check)), sign.empty() ? "" : "; ", escaped(sign)));
   }
   if (stopped)
     text += case_of(result, outcome.checks.size(), "runs to its end", each,
