@@ -80,7 +80,7 @@ def main():
     parser.add_argument("--pictures", action="store_true")
     parser.add_argument("--format", default="csv")
     parser.add_argument("--jobs", type=int, default=2)
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     drycut = pathlib.Path(options.drycut).resolve()
     scenes = options.scenes or sorted(
         file.stem for file in SCENES.glob("*.yaml")
