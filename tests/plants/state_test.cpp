@@ -303,7 +303,7 @@ std::vector<Case> cases() {
       all.push_back({drive + (place > 0 ? " saw on pieces" : " saw"),
                      [drive, place](Site& site) {
                        WebDefinition web;
-                       web.data.section = "tube";
+                       web.data.section = place > 0 ? "strip" : "tube";
                        web.data.width = 0.04;
                        web.data.thickness = 2e-3;
                        web.data.drive.speed = 0.2;
@@ -313,7 +313,12 @@ std::vector<Case> cases() {
                        saw.data.drive.pulses.following_limit = 0.05;
                        saw.data.station.place = place;
                        saw.data.start = 0.2;
-                       site.add("web", web).add("saw", saw).built();
+                       site.add("web", web);
+                       // The saw is in the strip when the knife before it cuts that off.
+                       RotaryKnifeDefinition knife;
+                       knife.data.initial_angle = 2 * pi - 0.35;
+                       if (place > 0) site.add("knife", knife);
+                       site.add("saw", saw).built();
                        site.volts = [](double t) { return std::fmod(t, 0.6) < 0.45 ? 0.8 : -2.0; };
                        site.level = [](const std::string& plug, int step) {
                          const int part = step % 3000;
