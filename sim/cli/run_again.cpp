@@ -3,6 +3,7 @@
 
 #include "sim/cli/run_work.hpp"
 #include "sim/live/session.hpp"
+#include "sim/loop/names.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
 
