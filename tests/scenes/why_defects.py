@@ -59,7 +59,7 @@ DEFECTS = [
     Defect("preset", KNIFE, [(KNIFE, 'set: {slLength: "${length} / 0.1 mm"}', "set: {slLength: 8010}")],
            ["controller.qmove.set.slLength"], None),
     Defect("line of QCL", KNIFE, [(MODULE, "AxisX:codeQm3 = cCutZone", "AxisX:codeQm3 = cCutZone - 100")],
-           ["programs/rotary_knife.mod:"]),
+           ["programs/rotary_knife.mod:"], False),
     Defect("line of IL", "rotary_knife_lx3vp.yaml",
            [("programs/rotary_knife.il", "DEMOV   E1.6666666 D506", "DEMOV   E1.6 D506")], ["programs/rotary_knife.il:"]),
     Defect("line of ST", "flying_saw_mc_camin.yaml",
@@ -73,7 +73,7 @@ DEFECTS = [
            [(KNIFE, "timeline:\n", "timeline:\n  - {at: 8 s, fault: {knife.mains: {dip: 60 %}}}\n")], ["timeline["], True),
     Defect("swapped tasks", "tasks.yaml",
            [("tasks.yaml", "programs/first.mod, programs/second.mod", "programs/second.mod, programs/first.mod")],
-           ["controller.qmove.tasks"], files=TASKS),
+           ["controller.qmove.tasks"], False, files=TASKS),
     Defect("missing wire", KNIFE, [(KNIFE, "  INT1: knife.encoder.index\n", "")], ["wiring.INT1"]),
     Defect("two only together", KNIFE,
            [(KNIFE, "slip: 0.03 %", "slip: 0.045 %"), (KNIFE, "circumference_error: -0.027 %", "circumference_error: -0.012 %")],
@@ -116,6 +116,8 @@ def check(drycut, defect, jobs):
     point = found["point_of_return"]
     if defect.known_return and (point is None or point["saved"] is None):
         wrong.append(f"{defect.name}: no point of return: {point}")
+    if defect.known_return is False and (point is None or point["saved"] is not None):
+        wrong.append(f"{defect.name}: a point of return where none can be told: {point}")
     if defect.more and len(found["differences"]) <= 20:
         wrong.append(f"{defect.name}: only {len(found['differences'])} differences")
     return wrong, "\n".join(f"  {line}" for line in done.stdout.splitlines())
