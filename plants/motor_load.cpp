@@ -4,22 +4,35 @@
 
 namespace drycut::plants {
 
-void TellsMotorLoad::keep(const MotorLoad& load) {
+void TellsMotorLoad::Kept::take(const Sample& sample) {
   constexpr std::size_t most_kept = 100'000;
-  auto& samples = kept_->samples;
   if (samples.size() == 2 * most_kept) {
     samples.erase(samples.begin(), samples.begin() + most_kept);
-    kept_->left_out += most_kept;
+    left_out += most_kept;
   }
-  samples.push_back({static_cast<float>(load.torque), static_cast<float>(load.acceleration),
-                     static_cast<float>(load.friction), static_cast<float>(load.load),
-                     static_cast<float>(load.gravity), static_cast<float>(load.speed)});
+  samples.push_back(sample);
 }
 
-void TellsMotorLoad::Sample::visit(StateArchive& archive) {
-  STATE(archive, torque, acceleration, friction, load, gravity, speed);
+void TellsMotorLoad::keep(const MotorLoad& load) {
+  kept_->take({static_cast<float>(load.torque), static_cast<float>(load.acceleration),
+               static_cast<float>(load.friction), static_cast<float>(load.load),
+               static_cast<float>(load.gravity), static_cast<float>(load.speed)});
 }
-void TellsMotorLoad::Kept::visit(StateArchive& archive) { STATE(archive, samples, left_out); }
-void TellsMotorLoad::visit_motor_loads(StateArchive& archive) { STATE(archive, kept_); }
+
+// Samples that are left out are gone for good.
+void TellsMotorLoad::Kept::shorten(std::size_t size) {
+  if (size == 0) left_out = 0;
+  samples.resize(size > left_out ? size - left_out : 0);
+}
+
+void TellsMotorLoad::Kept::entries(StateArchive& archive, std::size_t from, std::size_t to) {
+  for (std::size_t i = from; i < to; ++i) {
+    Sample sample{};
+    if (!archive.restores() && i >= left_out) sample = samples[i - left_out];
+    STATE(archive, sample.torque, sample.acceleration, sample.friction, sample.load, sample.gravity,
+          sample.speed);
+    if (archive.restores()) take(sample);
+  }
+}
 
 }  // namespace drycut::plants

@@ -80,12 +80,15 @@ class TellsMotorLoad {
     float load;
     float gravity;
     float speed;
-    void visit(StateArchive& archive);
   };
   struct Kept {
     std::vector<Sample> samples;
     std::size_t left_out = 0;  ///< earlier ones
-    void visit(StateArchive& archive);
+    void take(const Sample& sample);
+    // A log of them.
+    [[nodiscard]] std::size_t grown() const { return left_out + samples.size(); }
+    void shorten(std::size_t size);
+    void entries(StateArchive& archive, std::size_t from, std::size_t to);
   };
 
   virtual ~TellsMotorLoad() = default;
@@ -96,8 +99,8 @@ class TellsMotorLoad {
   void keep_motor_loads() { kept_ = std::make_unique<Kept>(); }
   /// A sample a step since the start; nullptr where nobody asked.
   [[nodiscard]] const Kept* motor_loads() const { return kept_.get(); }
-  /// What was kept: no part of the machine's state, megabytes for whoever writes a report after it.
-  void visit_motor_loads(StateArchive& archive);
+  /// The same: no part of the machine's state, megabytes for whoever writes a report after it.
+  [[nodiscard]] Kept* motor_loads() { return kept_.get(); }
 
  protected:
   TellsMotorLoad() = default;

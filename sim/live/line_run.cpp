@@ -118,9 +118,9 @@ void LineRun::begin(const fs::path& folder, const Inbox& inbox) {
 }
 
 /// It goes with this build and the scenario as it is now.
-bool LineRun::is_of_this(const Moment& moment) {
+bool LineRun::is_of_this(const Moment& moment) const {
   const auto origin = loop::open_state(*moment.state).head.origin;
-  const auto& own = simulation().origin();
+  const loop::StateOrigin own(scenario_);
   return origin.version == own.version && origin.build == own.build && origin.differs_from(own).empty() &&
          moment.acts <= acts_.size();
 }

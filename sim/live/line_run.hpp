@@ -83,7 +83,7 @@ class LineRun : public record::Observer {
   [[nodiscard]] bool looks_like(const LineRun& other) const;
   void choose_samples();
   void count(const std::vector<std::string>& names, int by);
-  [[nodiscard]] bool is_of_this(const Moment& moment);
+  [[nodiscard]] bool is_of_this(const Moment& moment) const;
   void come_to(const Moment& moment);
   void do_again(const Inbox& inbox);
   void begin_record(const std::filesystem::path& folder, const Moment* from);

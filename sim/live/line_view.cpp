@@ -11,8 +11,6 @@ LineView::LineView(const scenario::Scenario& scenario, Problems& problems)
   if (!problems.empty()) return;
   simulation_->keep_nothing();
   simulation_->add(*this);
-  // The files of the scenario as they are now: they may be edited while it runs.
-  static_cast<void>(simulation_->origin());
   for (const auto& [name, plant] : simulation_->plants())
     for (auto& part : plant->parts()) shown_.push_back(std::move(part));
   auto& names = simulation_->names();

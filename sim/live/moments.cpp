@@ -58,7 +58,7 @@ constexpr std::string_view mark = "drycut\x1aM";  // a terminal shows no more of
 constexpr std::uint32_t format = 1;
 
 /// Stands before each state in the file.
-struct Head {
+struct ImageHead {
   char mark[8];
   std::uint32_t format;
   std::uint32_t unused;
@@ -70,7 +70,7 @@ struct Head {
   std::uint64_t session_sum;  // over so much of it
   std::uint64_t size;         // of the state
 };
-static_assert(sizeof(Head) == 72 && mark.size() == sizeof Head::mark);
+static_assert(sizeof(ImageHead) == 72 && mark.size() == sizeof ImageHead::mark);
 
 /// Sums over the beginning of a session, each longer than the one before.
 class SessionSum {
@@ -102,7 +102,8 @@ void write_moments(const fs::path& folder, const Moments& moments) {
     if (!reach) continue;
     const auto sum = session.until(reach->session);
     if (!sum) break;
-    Head head{{}, format, 0, time, acts, reach->session, reach->trace, reach->events, *sum, state->size()};
+    ImageHead head{{},           format,        0,    time,         acts, reach->session,
+                   reach->trace, reach->events, *sum, state->size()};
     std::ranges::copy(mark, head.mark);
     file.write(reinterpret_cast<const char*>(&head), sizeof head);
     file.write(reinterpret_cast<const char*>(state->data()), static_cast<std::streamsize>(state->size()));
@@ -116,7 +117,7 @@ std::vector<Moment> read_moments(const fs::path& folder, Time until) {
   std::vector<Moment> moments;
   std::ifstream file(folder / moments_file, std::ios::binary);
   SessionSum session(folder);
-  Head head{};
+  ImageHead head{};
   while (file.read(reinterpret_cast<char*>(&head), sizeof head) && head.time <= until) {
     if (std::string_view(head.mark, sizeof head.mark) != mark || head.format != format) break;
     if (head.size > Moments::most_bytes || session.until(head.session) != head.session_sum) break;

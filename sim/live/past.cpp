@@ -18,7 +18,10 @@ constexpr Time for_scans = 200 * millisecond;
 }  // namespace
 
 Past::Past(const scenario::Scenario& scenario, Problems& problems)
-    : view_(std::make_unique<LineView>(scenario, problems)), step_(scenario.scene.step) {}
+    : view_(std::make_unique<LineView>(scenario, problems)), step_(scenario.scene.step) {
+  // The first state says which files the scenario has: they may be edited while it runs.
+  if (problems.empty()) static_cast<void>(view_->simulation().save());
+}
 
 Past::~Past() {
   rest();

@@ -10,6 +10,7 @@
 
 #include "base/state_archive.hpp"
 #include "base/text.hpp"
+#include "plants/motor_load.hpp"
 #include "sim/loop/bindings.hpp"
 #include "sim/loop/checks.hpp"
 #include "sim/loop/controller_loader.hpp"
@@ -609,6 +610,17 @@ record::Outcome Simulation::outcome() {
   return outcome;
 }
 
+namespace {
+
+/// What a plant keeps of its motor for the report.
+struct Loads {
+  std::string name;
+  plants::TellsMotorLoad::Kept* kept;
+  void visit(StateArchive& archive) const { archive.log(name, *kept); }
+};
+
+}  // namespace
+
 void Simulation::visit(StateArchive& archive) {
   STATE(archive, time_, next_record_, failure_, program_error_);
   for (const auto& [name, plant] : named_)
@@ -623,6 +635,11 @@ void Simulation::visit(StateArchive& archive) {
   // Who only draws: a run without pictures may go on from one with them, and the other way round.
   archive.part("pictures", shutter_->next() == never && shutter_->kept().empty() ? nullptr : shutter_.get());
   archive.part("cams", cams_.get());
+  for (const auto& [name, plant] : named_) {
+    auto* const tells = dynamic_cast<plants::TellsMotorLoad*>(plant);
+    Loads loads{name + ".loads", tells != nullptr ? tells->motor_loads() : nullptr};
+    archive.part(loads.name, loads.kept != nullptr ? &loads : nullptr);
+  }
   events_seen_ = recording_.events().size();
 }
 

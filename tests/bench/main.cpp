@@ -34,8 +34,8 @@ double seconds_of(const std::function<void()>& run) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// The frozen line, its closed loop with devices, program, checks and recording, without pictures.
-void run_line() {
+/// `use` of the frozen line, its closed loop with devices, program, checks and recording, without pictures.
+void with_line(const std::function<void(sim::loop::Simulation&)>& use) {
   Problems problems;
   const std::vector<sim::scenario::Override> overrides = {{"scene.duration", fmt::format("{} s", simulated)},
                                                           {"pictures", "{}"}};
@@ -44,7 +44,30 @@ void run_line() {
   sim::loop::Simulation simulation(scenario, problems);
   for (const auto& problem : problems) fmt::print(stderr, "{}\n", to_string(problem));
   if (!problems.empty()) std::exit(2);
-  simulation.run();
+  use(simulation);
+}
+
+void run_line() {
+  with_line([](auto& simulation) { simulation.run(); });
+}
+
+void run_line_with_states() {
+  with_line([](auto& simulation) {
+    StateArchive::Bytes state;
+    simulation.keep_states(sim::second, [&] { state = simulation.save(); });
+    simulation.run();
+  });
+}
+
+/// To keep its state and to come back to it [s].
+double state_there_and_back() {
+  double best = 1e9;
+  with_line([&](auto& simulation) {
+    simulation.run();
+    for (int round = 0; round < 1000; ++round)
+      best = std::min(best, seconds_of([&] { simulation.restore(simulation.save()); }));
+  });
+  return best;
 }
 
 }  // namespace
@@ -54,6 +77,7 @@ int main() {
   const auto steps = static_cast<std::int64_t>(simulated / mechanism.step);
   double bullet_speed = 0;
   std::vector<Row> rows = {{"drycut, the whole closed loop with recording and checks", run_line, steps},
+                           {"the same, a state of it kept every second", run_line_with_states, steps},
                            {"stock Bullet, bare mechanism, hinges and slider",
                             [&] { bullet_speed = bench::run_bullet(mechanism, steps); }, steps}};
 #ifdef DRYCUT_WITH_MUJOCO
@@ -77,6 +101,8 @@ int main() {
   fmt::print(", MuJoCo {:.6f} rad/s", mujoco_speed);
 #endif
   fmt::print("\n");
+  fmt::print("a state of the line in memory, kept and come back to: {:.0f} us, the bar is 50 us\n",
+             state_there_and_back() * 1e6);
   double recorded = 1e9;
   for (int round = 0; round < rounds; ++round) recorded = std::min(recorded, bench::write_hdf5());
   fmt::print("trace.h5, 10^6 rows of 30 channels: {:.2f} s of the processor, the bar is 1 s\n", recorded);

@@ -488,7 +488,7 @@ TEST(State, IsThatOfBulletsPosesToo) {
   EXPECT_EQ(its.part, shaft.part);
 }
 
-// What was kept of a motor's load is for a report, and only there with the state.
+// What was kept of a motor's load is for a report: a log beside the state.
 TEST(State, OfTheLoadsOfAMotorIsApart) {
   RotaryKnifeDefinition definition;
   WebDefinition web;
@@ -498,19 +498,20 @@ TEST(State, OfTheLoadsOfAMotorIsApart) {
   line.reference(1);
   line.run(0.01);
   Bytes state;
-  Bytes loads;
+  Bytes number;
   auto saving = StateArchive::saving(state);
   knife.visit_all(saving);
-  auto saving_loads = StateArchive::saving(loads);
-  knife.visit_motor_loads(saving_loads);
+  StateArchive::Journal journal;
+  auto saving_loads = StateArchive::saving(number, nullptr, &journal);
+  saving_loads.log("loads", *knife.motor_loads());
 
   Machine other(definition, &web);
   auto& its = static_cast<RotaryKnife&>(*other.plant);
   auto restoring = StateArchive::restoring(state.data(), state.size());
   its.visit_all(restoring);  // of one that keeps none
   its.keep_motor_loads();
-  auto restoring_loads = StateArchive::restoring(loads.data(), loads.size());
-  its.visit_motor_loads(restoring_loads);
+  auto restoring_loads = StateArchive::restoring(number, journal.bytes);
+  restoring_loads.log("loads", *its.motor_loads());
   ASSERT_EQ(its.motor_loads()->samples.size(), 100U);
   EXPECT_EQ(its.motor_loads()->samples.back().torque, knife.motor_loads()->samples.back().torque);
 }

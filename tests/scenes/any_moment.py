@@ -3,7 +3,7 @@ piece, whatever it was doing at that moment.
 
 any_moment.py DRYCUT [--moments N] [--pictures] [--format csv|hdf5] [SCENE...]: all of scenes/ unless some are named. Of
 each, moments drawn by its name; a moment every 37 ms is kept, so that they lie anywhere in the cycles of machines and
-tasks. Scenes that compare are run member by member, by nobody here."""
+tasks. Scenes that compare have no folder of their own to resume."""
 
 import argparse
 import concurrent.futures
@@ -80,7 +80,7 @@ def main():
     parser.add_argument("--pictures", action="store_true")
     parser.add_argument("--format", default="csv")
     parser.add_argument("--jobs", type=int, default=2)
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     drycut = pathlib.Path(options.drycut).resolve()
     scenes = options.scenes or sorted(
         file.stem for file in SCENES.glob("*.yaml")

@@ -254,6 +254,7 @@ class TurnedByHand : public plants::Plant {
   }
   void drive(double) override {}
   void sense(double) override {}
+  void visit(StateArchive& /*archive*/) override {}
   std::vector<plants::DriveOfPlant> drives() override { return {{"servo", &stage, 0.01, 1}}; }
   plants::Shaft rotor;
   plants::PowerStage stage;

@@ -18,6 +18,7 @@ class FakeController : public devices::Controller {
     for (int line = 1; line <= 8; ++line) cards_.interrupt_lines[line];
   }
   devices::Cards& cards() override { return cards_; }
+  void visit(StateArchive& archive) override { cards_.visit(archive); }
   std::variant<devices::Address, devices::TerminalFault> terminal(const std::string& text) override {
     return devices::find_slot_terminal(cards_, text);
   }
@@ -65,6 +66,7 @@ class FakePlant : public plants::Plant {
  public:
   void drive(double) override {}
   void sense(double) override {}
+  void visit(StateArchive& /*archive*/) override {}
   std::vector<plants::Port> ports() override {
     return {{"encoder", &encoder, ""},
             {"index", &index, ""},

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 
+#include "base/state_archive.hpp"
 #include "plants/plant.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -24,6 +25,7 @@ class Flywheel : public plants::Plant {
   Flywheel(double speed, double decay) : speed_(speed), decay_(decay) {}
   void drive(double h) override { speed_ -= speed_ * h / decay_ * (brake_ ? 10 : 1); }
   void sense(double) override {}
+  void visit(StateArchive& archive) override { STATE(archive, speed_, brake_); }
   std::vector<plants::Channel> channels() override {
     return {{"speed", "rad/s", [this] { return speed_; }, "how fast it turns"}};
   }

@@ -113,6 +113,18 @@ TEST_F(Disks, ARunThatFillsTheDiskNamesTheFileThatDid) {
       << "a check of a run that stopped has not passed";
 }
 
+// The run alone fits, its moments do not.
+TEST_F(Disks, WhereMomentsFillTheDiskTheyMakeRoomForTheRun) {
+  const auto status = Mounts::in_child([&](const auto& ready) {
+    ready(Mounts::disk(disk, "600k"));
+    return drycut(
+        "run web.yaml --no-pictures --out disk --states '10 ms' --keep 1000 --set 'scene.duration=3 s'");
+  });
+  if (!status) GTEST_SKIP() << "nothing can be mounted here";
+  EXPECT_EQ(*status, 0) << told("told.out");
+  EXPECT_THAT(told("told.out"), AllOf(HasSubstr("passed"), HasSubstr("[state.lost]")));
+}
+
 TEST_F(Disks, ASweepThatFillsTheDiskLeavesTheEarlierResults) {
   const auto sweep = [&](const char* speeds) {
     return drycut("sweep web.yaml --out disk/sweep --over 'plants.web.speed=" + std::string(speeds) +

@@ -94,7 +94,9 @@ TEST(Ddmin, EndsWithItsBudgetAndSaysSo) {
     const auto least = machine.least(20);
     EXPECT_TRUE(has(least.set, {3, 11, 17}));
     EXPECT_LE(machine.tried, budget);
-    if (!least.minimal) EXPECT_GT(least.set.size(), 3U);
+    if (!least.minimal) {
+      EXPECT_GT(least.set.size(), 3U);
+    }
   }
 }
 
