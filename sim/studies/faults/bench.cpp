@@ -150,8 +150,8 @@ FaultCell FaultBench::cell(const FaultQuestion& question, const TriedFault& faul
       cell.harm_after = *check.failed_at - begin;
     }
   if (cell.harm.empty() && moment.cuts && !cell.goes_on) {
-    cell.harm = "nothing is cut";
-    cell.harm_after = last_cut - begin;
+    cell.harm = "no more cuts";
+    cell.harm_after = last_cut + seconds(question.cycle) - begin;  // when the next was due
   }
   const bool in_time = told_by_ && told_by_->first - moment.at <= scenario_.faults.within;
   if (in_time || (told_by_ && cell.harm.empty()))

@@ -26,7 +26,7 @@ struct FaultCell {
   Kind kind = Kind::unharmed;
   std::string told_by = {};               ///< "Knife errorstop: following error"
   std::optional<double> told_after = {};  ///< [s] after the fault
-  std::string harm = {};                  ///< the check that failed first, "nothing is cut", "saw.crash"
+  std::string harm = {};                  ///< the check that failed first, "no more cuts", "saw.crash"
   std::string detail = {};                ///< of the check
   std::optional<double> harm_after = {};  ///< [s]
   int cuts = 0;                           ///< after the fault

@@ -20,7 +20,7 @@ record::Verdict write_faults_report(const FaultQuestion& question, const std::ve
                                     const FaultMatrix& matrix, const std::vector<Finding>& findings,
                                     OutputFolder& folder);
 
-/// A line a fault that fails: "knife.encoder.stuck: wrong product, nobody told, at 0..99 %: nothing is cut".
+/// A line a fault that fails: "knife.encoder.stuck: wrong product, nobody told, at 0..99 %: no more cuts".
 std::vector<std::string> failing_lines(const FaultQuestion& question, const FaultMatrix& matrix);
 
 }  // namespace drycut::sim::studies

@@ -246,14 +246,13 @@ Prose text_of(FaultCell::Kind kind) {
 
 std::string text_of(const FaultCell& cell) {
   std::string text;
-  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
-  if (cell.harm_after) add(fmt::format("{} {} later", cell.harm, seconds_word(*cell.harm_after)));
-  if (cell.told_after)
-    add(fmt::format("told by {} {} later", cell.told_by, seconds_word(*cell.told_after)));
-  else if (!cell.harm.empty())
-    add("nobody told");
-  if (!cell.told_by.empty() && cell.kind == FaultCell::Kind::told)
-    add(cell.goes_on ? "it goes on" : "it stopped");
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  if (cell.harm_after)
+    add(fmt::format("{}{} {} later", cell.harm, cell.detail.empty() ? "" : " fails",
+                    seconds_word(*cell.harm_after)));
+  if (cell.told_after) add(fmt::format("told by {} {} later", cell.told_by, seconds_word(*cell.told_after)));
+  if (cell.kind == FaultCell::Kind::damage && !cell.told_after) add("nobody told");
+  if (cell.kind == FaultCell::Kind::told) add(cell.goes_on ? "it goes on" : "it stops");
   return text;
 }
 
