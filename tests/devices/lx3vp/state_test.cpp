@@ -348,6 +348,10 @@ MC N1 M101
 LD M8000
 INC D5
 MCR N1
+LD M8000
+OUT Y6
+LD M8000
+INC D23
 MCR N0
 FOR K3
 LD M8000
@@ -368,8 +372,8 @@ LD X0
 SET S20
 STL S20
 OUT Y4
-OUT T1 K2
-LD T1
+OUT T202 K1
+LD T202
 SET S21
 STL S21
 OUT Y5
@@ -407,7 +411,7 @@ END
                   23'000,
                   [](Registers& registers) { registers.d[20] = 250; },
                   {{13, "X0", 1},      {150, "X1", 1},  {222, "X2", 1},  {300, "X0", 0},    {391, "X0", 1},
-                   {402, "D6", 4},     {455, "M50", 1}, {500, "X2", 0},  {571, "X1", 0},    {600, "X1", 1},
+                   {402, "D6", 4},     {485, "M50", 1}, {500, "X2", 0},  {530, "X1", 0},    {600, "X1", 1},
                    {666, "X3", 1},     {700, "X0", 0},  {720, "X0", 1},  {760, "X2", 1},    {800, "D21", 3},
                    {840, "Z2", 10},    {850, "X3", 0},  {903, "X1", 0},  {950, "power", 0}, {960, "X1", 1},
                    {977, "power", 1},  {1000, "X0", 0}, {1040, "X0", 1}, {1100, "X2", 0},   {1210, "X2", 1},
@@ -438,7 +442,7 @@ std::set<int> moments(const Story& story, std::initializer_list<int> behind) {
   for (const Act& act : story.acts)
     for (const int later : behind) ticks.insert(act.tick + later);
   for (int tick = 0; tick < story.ticks; tick += 211) ticks.insert(tick);
-  for (int tick = 450; story.step_ns > 0 && tick < 540; ++tick) ticks.insert(tick);
+  for (int tick = 450; story.step_ns > 0 && tick < 570; ++tick) ticks.insert(tick);
   ticks.erase(ticks.upper_bound(story.ticks), ticks.end());
   return ticks;
 }
