@@ -42,9 +42,9 @@ class Teller {
       : story_(story), controller_(compiled(story.program), 1'000'000, story.step_ns) {
     for (const Act& act : story.acts)
       if (act.name.front() == 'X') controller_.terminal(act.name);
-    controller_.offer({Kind::counter, 0, 235});
-    controller_.offer({Kind::output, 0, 1});
-    controller_.offer({Kind::output, 0, 7});
+    controller_.offer({devices::Kind::counter, 0, 235});
+    controller_.offer({devices::Kind::output, 0, 1});
+    controller_.offer({devices::Kind::output, 0, 7});
     axes_ = controller_.cam_axes();
     for (const auto kind : {RegisterName::Kind::x, RegisterName::Kind::y})
       for (int n = 0; n < 16; ++n)
@@ -61,7 +61,8 @@ class Teller {
       controller_.run_tasks(now);
       ++tick_;
       auto& cards = controller_.cards();
-      cards.counters[{Kind::counter, 0, 235}].count = 4 * cards.pulse_outputs[{Kind::output, 0, 1}].count;
+      cards.counters[{devices::Kind::counter, 0, 235}].count =
+          4 * cards.pulse_outputs[{devices::Kind::output, 0, 1}].count;
       // Behind it, so that there are moments between an act and what the PLC makes of it.
       for (const Act& act : story_.acts)
         if (act.tick == tick_) happen(act);
