@@ -186,7 +186,8 @@ std::set<std::string> goes_on_as_before(const StateScene& scene, int every, int 
     for (const auto& member : list) met.insert(member.name.substr(member.name.find('.') + 1));
     for (const std::string axis : {"Knife", "Cut", "Saw", "Line"})
       for (const std::string value : {"coupling_phase", "state"})
-        met.insert(fmt::format("{} {} {}", axis, value, whole.controller.find(axis + "." + value)->read()));
+        met.insert(fmt::format("{} {} {}", axis, value,
+                               whole.controller.find(fmt::format("{}.{}", axis, value))->read()));
     const auto told = whole.run(rest);
     const auto end = whole.saved();
 
