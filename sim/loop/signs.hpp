@@ -5,11 +5,13 @@
 
 #include "base/problem.hpp"
 #include "base/severity.hpp"
-#include "sim/record/outcome.hpp"
 #include "sim/record/recording.hpp"
 
 namespace drycut {
 class StateArchive;
+}
+namespace drycut::sim::record {
+struct Outcome;
 }
 
 namespace drycut::sim::loop {
