@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/state_archive.hpp"
+#include "sim/record/outcome.hpp"
 #include "sim/time.hpp"
 
 namespace drycut::sim::loop {

@@ -4,11 +4,13 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "sim/record/outcome.hpp"
 #include "sim/record/recording.hpp"
 
 namespace drycut {
 class StateArchive;
+}
+namespace drycut::sim::record {
+struct Outcome;
 }
 
 namespace drycut::sim::loop {

@@ -194,7 +194,9 @@ TEST_F(ProgramTest, CommandLinesThatCannotBeRead) {
   };
   const std::vector<Case> cases = {
       {"", {"drycut: no command is given; known: run, live, replay, check, cam, "}},
-      {"run", {"drycut run: scenarios are missing; give it: Scenario files (.yaml) [option.missing]\n"}},
+      {"run",
+       {"drycut run:1:1: no scenario is named; drycut run SCENARIO.yaml, or drycut run --resume DIR "
+        "[option.missing]\n"}},
       {"run x.yaml --out",
        {"drycut run: --out has no value; give one: Directory for the results [option.missing]\n"}},
       {"run x.yaml --jobs 0",
