@@ -15,8 +15,6 @@
 #include <variant>
 #include <vector>
 
-#include "base/severity.hpp"
-
 namespace drycut {
 class StateArchive;
 }

@@ -226,7 +226,8 @@ export class Panel {
       if (ends === null) stretch(value);
       if (range && (value < ends[0] || value > ends[1])) stretch(value);
       last = value;
-      if (this.time === sentAt && problem.hidden) return;  // it acts in the next step
+      const past = document.body.dataset.past === "on";
+      if (this.time === sentAt && problem.hidden && !past) return;  // it acts in the next step
       if (this.touched !== slider && performance.now() - sent > 250) slider.value = value;
       if (document.activeElement !== number && this.touched !== slider) {
         const text = typed(value);

@@ -8,7 +8,7 @@ export class Past {
   /// `wanted`: gives what is in sight, { names, programs }. `shown` is told what was to be seen, null: it is now again.
   /// `say`: told what is wrong.
   constructor(link, wanted, shown, say) {
-    Object.assign(this, { link, wanted, shown, say, seen: null, asked: null, under_way: false, end: 0 });
+    Object.assign(this, { link, wanted, shown, say, seen: null, asked: null, under_way: false, stale: false, end: 0 });
     const bar = by("past-bar");
     bar.oninput = () => (Number(bar.value) > Number(bar.max) - 1e-9 ? this.now() : this.look(Number(bar.value)));
     const field = by("past-time");
@@ -60,8 +60,9 @@ export class Past {
     if (this.under_way) return;
     this.under_way = true;
     let told = null;
-    while (this.asked !== null && this.asked !== told) {
+    while (this.asked !== null && (this.asked !== told || this.stale)) {
       told = this.asked;
+      this.stale = false;
       const { names, programs } = this.wanted();
       const { problems, past } = await this.link.request({ look: text(told), read: names, programs });
       if (this.asked === null) break;
@@ -82,10 +83,9 @@ export class Past {
   }
   /// Something else is in sight.
   again() {
-    if (this.seen === null || this.under_way) return;
-    const time = this.seen.time;
-    this.asked = null;
-    this.look(time);
+    if (this.asked === null) return;
+    this.stale = true;
+    this.look(this.asked);
   }
 
   now() {

@@ -334,16 +334,16 @@ void run_options(CLI::App& run, int& status) {
 }  // namespace
 
 Verb run_verb() {
-  return {
-      "run",
-      "Run scenarios: traces, events, checks, pictures and a report for each",
-      {"drycut run scenes/rotary_knife.yaml", "drycut run scenes/*.yaml --jobs 2 --out results",
-       "drycut run my_line.yaml --set variables.length=\"1 m\" --no-pictures",
-       "drycut run my_line.yaml --states \"1 s\"", "drycut run --resume out/my_line",
-       "drycut run my_line.yaml --from \"out/my_line@4 s\" --set plants.web.speed=\"80 m/min\" --out branch",
-       "drycut run scenes/*.yaml --cache .drycut-cache --annotate github", "  --summary out/summary.md"},
-      {"scenarios", {FileKind::scenario, FileKind::comparison, FileKind::session}},
-      run_options};
+  return {"run",
+          "Run scenarios: traces, events, checks, pictures and a report for each",
+          {"drycut run scenes/rotary_knife.yaml", "drycut run scenes/*.yaml --jobs 2 --out results",
+           "drycut run my_line.yaml --set variables.length=\"1 m\" --no-pictures",
+           "drycut run my_line.yaml --states \"1 s\"", "drycut run --resume out/my_line",
+           "drycut run my_line.yaml --from \"out/my_line@4 s\" --out branch",
+           "  --set plants.web.speed=\"80 m/min\"",
+           "drycut run scenes/*.yaml --cache .drycut-cache --annotate github", "  --summary out/summary.md"},
+          {"scenarios", {FileKind::scenario, FileKind::comparison, FileKind::session}},
+          run_options};
 }
 
 }  // namespace drycut::sim::cli

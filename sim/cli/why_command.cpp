@@ -71,7 +71,7 @@ void why_options(CLI::App& why, int& status) {
   why.add_option("--check", options.request.check,
                  "The check that is asked about; else the one that failed first");
   why.add_option("--budget", options.request.budget, "Simulated runs, all together")
-      ->check(CLI::Range(1, 100000))
+      ->check(CLI::Range(2, 100000))
       ->capture_default_str();
   why.add_option("--jobs", options.request.jobs, "Runs at the same time; the result is the same")
       ->check(CLI::Range(1, 256))

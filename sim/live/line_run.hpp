@@ -95,13 +95,13 @@ class LineRun : public record::Observer {
   [[nodiscard]] double usual_of(const loop::Target& target) const;
   void describe_programs(LineDescription& told);
 
-  Replay replay_;  ///< of nothing, unless it goes on from a session
   // What was done before where it is gone on from: those from `again_` on are to be done again.
   std::vector<scenario::Stimulus> acts_;
+  std::vector<Finding> notes_;  ///< of how it was read
+  Replay replay_;               ///< of nothing, unless it goes on from a session; reading it fills those
   std::size_t again_ = 0;
   Time again_until_ = 0;
   std::filesystem::path session_;  ///< where that is recorded, "" = nowhere
-  std::vector<Finding> notes_;
   scenario::Scenario& scenario_ = replay_.scenario;
   int number_;
   std::vector<std::string> parts_;

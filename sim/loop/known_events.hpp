@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "base/severity.hpp"
 
 namespace drycut::sim::scenario {
 struct Scenario;

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 
 #include "base/text.hpp"
 #include "sim/loop/known_events.hpp"
@@ -46,10 +47,19 @@ sim::scenario::Scenario sim::read_for_program(const std::filesystem::path& file,
   return scenario;
 }
 
-struct Simulation::Run {
+/// Events are kept here until they are taken, and nothing else of what is recorded.
+struct Simulation::Run : sim::record::Observer {
   Run(const std::filesystem::path& file, const std::map<std::string, std::string>& set)
       : scenario(without_records(sim::read_for_program(file, set))), simulation(scenario, problems) {
     if (!problems.empty()) throw BadInput(problems);
+    simulation.keep_nothing();
+    simulation.add(*this);
+  }
+
+  void happened(const sim::record::RecordedEvent& recorded) override {
+    Event event{recorded.at_seconds(), recorded.source, recorded.event, {}, recorded.text};
+    for (const auto& value : recorded.values) event.values.emplace(value.name, value.number);
+    events.push_back(std::move(event));
   }
 
   /// nullptr if there is none of that name.
@@ -85,7 +95,7 @@ struct Simulation::Run {
   sim::loop::Simulation simulation;
   std::unordered_map<std::string, sim::loop::Reading> readings;
   std::unordered_map<std::string, sim::loop::Target> targets;
-  std::size_t events_taken = 0;
+  std::vector<Event> events;  ///< since they were taken last
 };
 
 Simulation::Simulation(const std::filesystem::path& scenario, const std::map<std::string, std::string>& set)
@@ -138,20 +148,10 @@ void Simulation::restore(const std::vector<std::byte>& moment) {
   } catch (const BadState& bad) {
     throw BadInput(std::string("this moment cannot be come back to: ") + bad.what());
   }
-  run_->events_taken = run_->simulation.recording().events().size();
+  run_->events.clear();
 }
 
-std::vector<Event> Simulation::take_events() {
-  const auto& log = run_->simulation.recording().events();
-  std::vector<Event> events;
-  for (; run_->events_taken < log.size(); ++run_->events_taken) {
-    const auto recorded = log[run_->events_taken];
-    Event event{recorded.at_seconds(), recorded.source, recorded.event, {}, recorded.text};
-    for (const auto& value : recorded.values) event.values.emplace(value.name, value.number);
-    events.push_back(std::move(event));
-  }
-  return events;
-}
+std::vector<Event> Simulation::take_events() { return std::exchange(run_->events, {}); }
 
 std::vector<Check> Simulation::checks() { return run_->simulation.outcome().checks; }
 

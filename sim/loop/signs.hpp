@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "base/severity.hpp"
 #include "sim/record/outcome.hpp"
 #include "sim/record/recording.hpp"
 

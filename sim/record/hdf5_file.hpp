@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "base/severity.hpp"
 #include "sim/record/deflate.hpp"
 #include "sim/record/record.hpp"
 #include "sim/record/recording.hpp"

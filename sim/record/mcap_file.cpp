@@ -12,7 +12,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "base/text.hpp"
 
 namespace drycut::sim::record {
 

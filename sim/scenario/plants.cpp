@@ -12,7 +12,6 @@
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/motor_catalogue.hpp"
 #include "sim/scenario/parameter_text.hpp"
-#include "sim/scenario/sections.hpp"
 
 namespace drycut::sim::scenario {
 

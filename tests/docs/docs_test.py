@@ -204,7 +204,7 @@ def runs(page):
                                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
                 output = done.stdout
                 told = told_behind(found, number)
-                if done.returncode not in ((0, 1) if "FAILED" in told else (0,)):
+                if done.returncode not in ((0, 1) if "FAILED" in told or "RED" in told else (0,)):
                     wrong.append(f"{page.name}:{block.line}: status {done.returncode}\n{output[-1500:]}")
                     break
                 here = Path((Path(folder) / ".here").read_text().strip())

@@ -33,13 +33,25 @@ HARMLESS_LINES = [
 class Defect:
     """Edits of files below scenes/ (old text, new text); `cause`: what stands in the places that are to be named."""
 
-    def __init__(self, name, scene, edits, cause, known_return=None, more=()):
+    def __init__(self, name, scene, edits, cause, known_return=None, more=(), files=()):
         self.name, self.scene, self.edits, self.cause = name, scene, edits, cause
         self.known_return, self.more = known_return, more
+        self.files = dict(files)  # that both sides have besides
 
 
 KNIFE = "rotary_knife.yaml"
 MODULE = "programs/rotary_knife.mod"
+TASKS = {
+    "tasks.yaml": """scene: {duration: 2 s}
+plants: {axis: {type: backlash_axis}}
+controller: {qmove: {configuration: programs/commissioning.cnf, tasks: [programs/first.mod, programs/second.mod]}}
+wiring: {2.CNT01: axis.encoder, 2.AN01: axis.servo.reference, INT1: axis.encoder.index, 2.INP01: axis.home}
+record: {channels: [gbStep]}
+checks: [{name: the second has the last word, always: gbStep == 2, from: 1 s}]
+""",
+    "programs/first.mod": "gbStep = 1\nEND\n",
+    "programs/second.mod": "gbStep = 2\nEND\n",
+}
 DEFECTS = [
     Defect("parameter", KNIFE, [(KNIFE, "circumference_error: -0.027 %", "circumference_error: 0.1 %")],
            ["plants.web.wheel.circumference_error"], True,
@@ -47,18 +59,21 @@ DEFECTS = [
     Defect("preset", KNIFE, [(KNIFE, 'set: {slLength: "${length} / 0.1 mm"}', "set: {slLength: 8010}")],
            ["controller.qmove.set.slLength"], None),
     Defect("line of QCL", KNIFE, [(MODULE, "AxisX:codeQm3 = cCutZone", "AxisX:codeQm3 = cCutZone - 100")],
-           ["programs/rotary_knife.mod:"]),
+           ["programs/rotary_knife.mod:"], False),
     Defect("line of IL", "rotary_knife_lx3vp.yaml",
            [("programs/rotary_knife.il", "DEMOV   E1.6666666 D506", "DEMOV   E1.6 D506")], ["programs/rotary_knife.il:"]),
     Defect("line of ST", "flying_saw_mc_camin.yaml",
            [("programs/flying_saw.st", "zoneBegins : LREAL := 800000.0", "zoneBegins : LREAL := 300000.0")], ["programs/flying_saw.st:"]),
     Defect("shortened zone of a cam", "rotary_knife_mc_camin.yaml",
-           [("cams/mc_rotary_knife.tab", "  1200000  720000", "   300000  180000")], ["cams/mc_rotary_knife.tab:"]),
+           [("cams/mc_rotary_knife.tab", "  1200000  720000", "    60000   36000")], ["cams/mc_rotary_knife.tab:"]),
     Defect("lost counts", KNIFE,
            [(KNIFE, "timeline:\n", "timeline:\n  - {at: 7 s, fault: {knife.encoder: {lose_counts: 200}}}\n")],
            ["timeline["], True),
     Defect("mains dip", KNIFE,
            [(KNIFE, "timeline:\n", "timeline:\n  - {at: 8 s, fault: {knife.mains: {dip: 60 %}}}\n")], ["timeline["], True),
+    Defect("swapped tasks", "tasks.yaml",
+           [("tasks.yaml", "programs/first.mod, programs/second.mod", "programs/second.mod, programs/first.mod")],
+           ["controller.qmove.tasks"], False, files=TASKS),
     Defect("missing wire", KNIFE, [(KNIFE, "  INT1: knife.encoder.index\n", "")], ["wiring.INT1"]),
     Defect("two only together", KNIFE,
            [(KNIFE, "slip: 0.03 %", "slip: 0.045 %"), (KNIFE, "circumference_error: -0.027 %", "circumference_error: -0.012 %")],
@@ -66,8 +81,10 @@ DEFECTS = [
 ]
 
 
-def edited(folder, edits):
+def edited(folder, files, edits):
     shutil.copytree(SCENES, folder, ignore=shutil.ignore_patterns("meshes", "catalogue"))
+    for file, text in files.items():
+        (folder / file).write_text(text)
     for file, old, new in edits:
         place = folder / file
         text = place.read_text()
@@ -80,8 +97,8 @@ def check(drycut, defect, jobs):
     """What is wrong, and what it came to."""
     with tempfile.TemporaryDirectory() as place:
         place = pathlib.Path(place)
-        edited(place / "good", [])
-        edited(place / "bad", [*defect.edits, *defect.more])
+        edited(place / "good", defect.files, [])
+        edited(place / "bad", defect.files, [*defect.edits, *defect.more])
         out = place / "why"
         done = subprocess.run([drycut, "why", place / "bad" / defect.scene, "--good", place / "good" / defect.scene,
                                "--jobs", str(jobs), "--no-pictures", "--out", out],
@@ -99,6 +116,8 @@ def check(drycut, defect, jobs):
     point = found["point_of_return"]
     if defect.known_return and (point is None or point["saved"] is None):
         wrong.append(f"{defect.name}: no point of return: {point}")
+    if defect.known_return is False and (point is None or point["saved"] is not None):
+        wrong.append(f"{defect.name}: a point of return where none can be told: {point}")
     if defect.more and len(found["differences"]) <= 20:
         wrong.append(f"{defect.name}: only {len(found['differences'])} differences")
     return wrong, "\n".join(f"  {line}" for line in done.stdout.splitlines())

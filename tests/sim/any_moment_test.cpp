@@ -5,6 +5,7 @@
 #include <drycut/simulation.hpp>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct Line {
     scenario.pictures = {};
     simulation = std::make_unique<Simulation>(scenario, problems);
     EXPECT_TRUE(problems.empty()) << to_string(problems.front());
+    simulation->keep_nothing();
   }
   void run_to(Time time) const {
     while (simulation->time() < time && simulation->advance()) continue;
@@ -55,11 +57,13 @@ std::string first_difference(const Line& a, const Line& b) {
   auto first = StateArchive::saving(one, &list);
   a.simulation->visit(first);
   const auto other = b.members();
-  for (const auto& [name, offset, size] : list)
-    if (offset + size > other.size() || !std::equal(one.begin() + static_cast<std::ptrdiff_t>(offset),
-                                                    one.begin() + static_cast<std::ptrdiff_t>(offset + size),
+  for (const auto& [name, offset, size] : list) {
+    if (name.starts_with("recording_.")) continue;  // without a journal it stays as it is
+    const auto begin = one.begin() + static_cast<std::ptrdiff_t>(offset);
+    if (offset + size > other.size() || !std::equal(begin, begin + static_cast<std::ptrdiff_t>(size),
                                                     other.begin() + static_cast<std::ptrdiff_t>(offset)))
       return name;
+  }
   return one.size() == other.size() ? "" : "the end";
 }
 
@@ -89,7 +93,7 @@ TEST_P(AnyMoment, GoesOnAsIfNothingHadBeenBetween) {
 
 INSTANTIATE_TEST_SUITE_P(Lines, AnyMoment,
                          testing::Values("rotary_knife", "rotary_knife_lx3vp", "rotary_knife_mc_camin",
-                                         "flying_saw", "flying_saw_mc_camin", "press_learning", "three_way",
+                                         "flying_saw", "flying_saw_mc_camin", "press_learning", "wire_guide",
                                          "onoff_backlash", "shared_drive", "rotary_knife_fault"),
                          [](const auto& line) { return std::string(line.param); });
 
@@ -99,8 +103,57 @@ struct Unread {
   const char* part;  ///< of the member's name
   const char* why;
 };
+constexpr auto* in_step = "the next step makes it anew before anything reads it";
+constexpr auto* in_sample = "the next sample of the device makes it anew before anything reads it";
+constexpr auto* at_instant = "the next record instant makes it anew before anything reads it";
 constexpr Unread unread[] = {
-    {"UNFILLED", "to be filled"},
+    {"_before", in_step},
+    {"pulses.port.", in_step},
+    {"pulses.last_", in_step},
+    {"pulses.forward_", in_step},
+    {"wheel_.travel_", in_step},
+    {"wheel_.revolutions_", in_step},
+    {"web.drive_.force_", in_step},
+    {"cutter_.theta_", in_step},
+    {"gear_.rate_", in_step},
+    {"gear_.torque_", in_step},
+    {"home_.distance_", in_step},
+    {"amplifier_.converted_", in_step},
+    {"amplifier_.reference.volts", in_step},
+    {"power_.loss_", in_step},
+    {"power_.speed_", in_step},
+    {"power_.torque_", in_step},
+    {"link_.mains_power_", in_step},
+    {"controller_.now", in_step},
+    {"bus_.cutting.level", in_step},
+    {"bus_.in_sync.level", in_step},
+    {"cards_.analogue_outputs", in_sample},
+    {"cards_.outputs", in_sample},
+    {"AxisX.axis_.actions_", in_sample},
+    {"AxisX.axis_.counted_", in_sample},
+    {"bits_per_second_", in_sample},
+    {"AxisX.axis_.output_.word", in_sample},
+    {"regulator_.last_error_", in_sample},
+    {"AxisX.axis_.speed_", in_sample},
+    {"AxisX.encoder", in_sample},
+    {"AxisX.ffwdreg", in_sample},
+    {"AxisX.propreg", in_sample},
+    {"AxisX.follerr", in_sample},
+    {"AxisX.frq", in_sample},
+    {"AxisX.posit", in_sample},
+    {"AxisX.st_sync", in_sample},
+    {"AxisX.st_vconst", in_sample},
+    {"AxisX.vel", in_sample},
+    {"AxisX.vout", in_sample},
+    {"rotary_knife.reached", "the next cycle of the task begins at its first line"},
+    {"rotary_knife.turned", "the next cycle of the task begins at its first line"},
+    {"state.last_at", at_instant},
+    {"compiled_->values", at_instant},
+    {"watch_.numbers", at_instant},
+    {"cycles.seen_.", at_instant},
+    {"cycles.turned_", at_instant},
+    {"extreme.", "an axis that runs on: every instant is its extreme"},
+    {"totals_.from_mains", "of cycles alone the difference counts, and of these none ends between"},
 };
 
 bool may_be_skipped(const std::string& name) {
@@ -132,7 +185,8 @@ struct Restored {
     restore(before);
     try {
       restore(target, skip);
-    } catch (const BadState&) {
+    } catch (const BadState& bad) {
+      EXPECT_TRUE(skip) << bad.what();
       return {};  // noticed: lengths do not fit
     }
     line.run_to(line.simulation->time() + 300 * millisecond);
@@ -147,22 +201,28 @@ struct Restored {
 
 class EveryMember : public testing::TestWithParam<const char*> {};
 
-TEST_P(EveryMember, IsNeededOrListed) {
-  Restored of(GetParam(), 2900 * millisecond, 100 * millisecond);
+/// Members without which it goes on the same, though they had another value.
+std::set<std::string> unneeded(const std::string& scene, Time moment, Time other) {
+  Restored of(scene, moment, other);
   const auto whole = of.gone_on({});
-  ASSERT_EQ(of.gone_on({}), whole);
-  std::string unneeded;
+  EXPECT_EQ(of.gone_on({}), whole);
+  std::set<std::string> names;
   for (std::size_t n = 0; n < of.list.size(); ++n) {
-    const auto& [name, offset, size] = of.list[n];
-    if (may_be_skipped(name)) continue;
-    if (of.gone_on(n) == whole) {
-      // It had the same value in both moments: then nothing can be said of it here.
-      of.restore(of.before);
-      of.restore(of.target, n);
-      if (of.line.members() != of.target) unneeded += name + '\n';
-    }
+    if (of.gone_on(n) != whole) continue;
+    of.restore(of.before);
+    of.restore(of.target, n);
+    if (of.line.members() != of.target) names.insert(of.list[n].name);
   }
-  EXPECT_EQ(unneeded, "");
+  return names;
+}
+
+// From a later and from an earlier moment: what is due by time alone is late in one of them.
+TEST_P(EveryMember, IsNeededOrListed) {
+  const auto later = unneeded(GetParam(), 400 * millisecond, 2900 * millisecond);
+  std::string lines;
+  for (const auto& name : unneeded(GetParam(), 2900 * millisecond, 400 * millisecond))
+    if (later.contains(name) && !may_be_skipped(name)) lines += name + '\n';
+  EXPECT_EQ(lines, "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Lines, EveryMember, testing::Values("rotary_knife"),
@@ -175,9 +235,11 @@ TEST(AnyMoment, IsItself) {
   EXPECT_LT(kept.size(), std::size_t{64} << 10U);
   line.simulation->restore(kept);
   EXPECT_EQ(line.simulation->save(), kept);
-  const Line other("rotary_knife");
-  other.simulation->restore(kept);
-  EXPECT_EQ(other.simulation->save(), kept);
+  drycut::Simulation program(scenes / "rotary_knife.yaml");
+  program.advance(3);
+  drycut::Simulation other(scenes / "rotary_knife.yaml");
+  other.restore(program.save());
+  EXPECT_EQ(other.save(), program.save());
 }
 
 std::string refusal(Simulation& simulation, const Bytes& state) {
@@ -258,7 +320,7 @@ TEST(AnyMoment, ForPrograms) {
   EXPECT_THROW(line.restore(bad), BadInput);
 }
 
-struct KeptRuns : CommandTest {
+struct KeptMoments : CommandTest {
   static constexpr auto* web = R"(scene: {step: 1 ms, duration: 2 s}
 plants: {web: {type: web, speed: 60 m/min}}
 timeline: [{at: 1.5 s, ramp: {web.speed: 80 m/min}, over: 0.2 s}]
@@ -267,7 +329,7 @@ checks:
   - {name: slow enough, always: "web.speed <= 100"}
   - {name: mean, always: "mean(web.speed) >= 59"}
 )";
-  KeptRuns() { folder.file("web.yaml", web); }
+  KeptMoments() { folder.file("web.yaml", web); }
   int run(const cli::RunOptions& asked) {
     auto options = asked;
     options.pictures = false;
@@ -285,7 +347,7 @@ checks:
   TestFolder folder;
 };
 
-TEST_F(KeptRuns, LieEvenlyOverTheRunAndTheLastTwoAlways) {
+TEST_F(KeptMoments, LieEvenlyOverTheRunAndTheLastTwoAlways) {
   ASSERT_EQ(run({.states = "50 ms", .most_states = 8}), 0) << err;
   const auto kept = states();
   ASSERT_LE(kept.size(), 8U);
@@ -294,19 +356,19 @@ TEST_F(KeptRuns, LieEvenlyOverTheRunAndTheLastTwoAlways) {
   EXPECT_EQ(kept[kept.size() - 2], "0000001.950000000");
 }
 
-TEST_F(KeptRuns, GoOnToTheSameBytes) {
+TEST_F(KeptMoments, GoOnToTheSameBytes) {
   ASSERT_EQ(run({.out = folder / "whole"}), 0);
   ASSERT_EQ(run({.states = "50 ms"}), 0);
   const auto kept = states();
   for (auto later = kept.begin() + 20; later != kept.end(); ++later)
     std::filesystem::remove(folder / "out/web/states" / (*later + ".state"));
   ASSERT_EQ(run({.resume = folder / "out/web"}), 0) << err;
-  for (const auto* file : {"web/trace.csv", "web/events.csv", "web/checks.json", "web/verdict.json"})
+  for (const auto* file : {"web/trace.csv", "web/events.csv", "web/checks.json"})
     EXPECT_EQ(content(folder / "out" / file), content(folder / "whole" / file)) << file;
   EXPECT_EQ(states(), kept);
 }
 
-TEST_F(KeptRuns, TakeTheNewestThatIsWhole) {
+TEST_F(KeptMoments, TakeTheNewestThatIsWhole) {
   ASSERT_EQ(run({.states = "0.5 s"}), 0);
   const auto last = folder / "out/web/states/0000002.000000000.state";
   std::filesystem::resize_file(last, std::filesystem::file_size(last) / 2);
@@ -314,7 +376,7 @@ TEST_F(KeptRuns, TakeTheNewestThatIsWhole) {
   EXPECT_THAT(out + err, AllOf(HasSubstr("[state.damaged]"), HasSubstr("1.5 s")));
 }
 
-TEST_F(KeptRuns, BranchWhereOneLikes) {
+TEST_F(KeptMoments, BranchWhereOneLikes) {
   ASSERT_EQ(run({.states = "0.5 s"}), 0);
   ASSERT_EQ(run({.out = folder / "branch",
                  .set = {"plants.web.speed=90 m/min"},
@@ -327,17 +389,19 @@ TEST_F(KeptRuns, BranchWhereOneLikes) {
   const auto place = before.find("\n1.2,");
   ASSERT_NE(place, std::string::npos);
   EXPECT_EQ(after.substr(0, place), before.substr(0, place));
-  EXPECT_NE(after.find("\n1.21,90,"), std::string::npos) << after.substr(place, 200);
+  const auto faster = after.find("\n1.5,");
+  ASSERT_NE(faster, std::string::npos);
+  EXPECT_GT(std::stod(after.substr(faster + 5)), 75);  // on its way to 90
 }
 
-TEST_F(KeptRuns, WithoutStatesABranchRunsFromZero) {
+TEST_F(KeptMoments, WithoutStatesABranchRunsFromZero) {
   ASSERT_EQ(run({}), 0);
   ASSERT_EQ(run({.out = folder / "branch", .from = (folder / "out/web").string() + "@1.2 s"}), 0) << err;
   EXPECT_THAT(out, HasSubstr("from zero"));
   EXPECT_EQ(content(folder / "branch/web/trace.csv"), content(folder / "out/web/trace.csv"));
 }
 
-TEST_F(KeptRuns, RefuseWhatDoesNotFit) {
+TEST_F(KeptMoments, RefuseWhatDoesNotFit) {
   ASSERT_EQ(run({}), 0);
   EXPECT_EQ(run({.resume = folder / "out/web"}), 2);
   EXPECT_THAT(err, HasSubstr("[state.none]"));

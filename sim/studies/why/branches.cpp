@@ -41,17 +41,23 @@ std::vector<GivenAgain> given_again(const Mixture& mixture, const Subset& cause,
 
 enum class BranchCame { saved, lost, unfit };
 
-BranchCame branch_off(const Mixture& mixture, const Subset& cause, const KeptBranch& moment,
-                      const std::vector<std::string>& channels, const FailedCheck& check, std::string& why) {
+BranchCame branch_off(const Mixture& mixture, const Subset& cause, const KeptBranches& kept,
+                      std::size_t number, const std::vector<std::string>& channels, const FailedCheck& check,
+                      std::string& why) {
   MixedRun without(mixture.with(cause, true), &channels);  // what is looked at is part of a state
   if (!without.problems().empty()) {
     why = to_string(without.problems().front());
     return BranchCame::unfit;
   }
   auto& simulation = without.simulation();
+  // Bytes have no names: of other members they would be taken for what they are not.
+  if (members_of(simulation) != kept.members) {
+    why = "they are made of other parts";
+    return BranchCame::unfit;
+  }
   const auto given = given_again(mixture, cause, simulation);
   try {
-    simulation.restore(moment.state, {}, true);
+    simulation.restore(kept.moments[number].state, {}, true);
   } catch (const BadState& bad) {
     why = bad.what();
     return BranchCame::unfit;
@@ -70,10 +76,21 @@ BranchCame branch_off(const Mixture& mixture, const Subset& cause, const KeptBra
 
 }  // namespace
 
-PointOfReturn point_of_return(const Mixture& mixture, const Subset& cause,
-                              const std::vector<KeptBranch>& moments,
+std::vector<std::string> members_of(loop::Simulation& simulation) {
+  simulation.begin();
+  StateArchive::Bytes bytes;
+  std::vector<StateArchive::Member> members;
+  auto archive = StateArchive::saving(bytes, &members);
+  simulation.visit(archive);
+  std::vector<std::string> names;
+  for (auto& member : members) names.push_back(std::move(member.name));
+  return names;
+}
+
+PointOfReturn point_of_return(const Mixture& mixture, const Subset& cause, const KeptBranches& kept,
                               const std::vector<std::string>& channels, double failed_at,
                               const FailedCheck& check, MixedTrials& trials) {
+  const auto& moments = kept.moments;
   const auto unknown = [](std::string why) { return PointOfReturn{{}, {}, std::move(why)}; };
   if (!mixture.states_fit(cause))
     return unknown("the programs differ, and what one has come to does not fit the other");
@@ -82,7 +99,7 @@ PointOfReturn point_of_return(const Mixture& mixture, const Subset& cause,
   if (count == 0) return unknown("no moment before it was kept");
   std::string why;
   const auto try_from = [&](std::size_t number) {
-    return branch_off(mixture, cause, moments[number], channels, check, why);
+    return branch_off(mixture, cause, kept, number, channels, check, why);
   };
   // From the very beginning it must pass: else what differs is part of what was kept.
   if (!trials.take()) return unknown("the budget ended before");

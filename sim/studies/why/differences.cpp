@@ -316,6 +316,7 @@ bool same_but_numbers(std::string_view one, std::string_view other) {
   const auto stripped = [&](std::string_view text) {
     std::string rest;
     for (const char c : text) {
+      if (c == ' ' || c == '\t') continue;
       if (!is_number(c)) {
         rest += c;
       } else if (rest.empty() || rest.back() != '0') {

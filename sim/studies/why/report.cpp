@@ -65,8 +65,10 @@ std::string cause_sentence(const WhyFound& found) {
         "The budget of {} runs ended before the least difference was found: {} of {} are left that fail "
         "together: {}.",
         found.budget, count, found.differences.size(), texts);
-  const auto which = fmt::format("{} of {}", count == 1 ? "one" : fmt::format("{} together", count),
-                                 counted(found.differences.size(), "difference"));
+  const auto which = found.differences.size() == 1
+                         ? std::string("the only difference")
+                         : fmt::format("{} of {}", count == 1 ? "one" : fmt::format("{} together", count),
+                                       counted(found.differences.size(), "difference"));
   return fmt::format("It fails because of {} ({}){}.", texts, which,
                      found.other_causes ? "; the others fail it without it, too" : "");
 }
@@ -147,7 +149,7 @@ renders::Plot plot_between(const WhyFound& found, const std::string& name, const
                        std::vector<renders::Curve> all) {
     std::erase_if(all, [](const renders::Curve& curve) { return curve.x.empty(); });
     if (all.empty() || plot.panels.size() >= most_panels) return;
-    plot.panels.push_back({panel_title, with_unit(panel_title, unit), std::move(all), {}, {}});
+    plot.panels.push_back({"", with_unit(panel_title, unit), std::move(all), {}, {}});
   };
   add("room of the check", found.unit,
       {room_curve("good", curves.good_room, curves.by_event, from, to),

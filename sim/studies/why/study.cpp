@@ -95,7 +95,7 @@ Subset all_of(const Mixture& mixture) {
 
 /// The good run with the cause alone: recorded, with moments to branch off from.
 struct CauseRun {
-  std::vector<KeptBranch> moments;
+  KeptBranches kept;
   double failed_at = 0;
 };
 std::optional<CauseRun> run_cause(const Mixture& mixture, const Subset& cause, const FailedCheck& check,
@@ -104,7 +104,8 @@ std::optional<CauseRun> run_cause(const Mixture& mixture, const Subset& cause, c
   if (!with.problems().empty()) return {};
   auto& simulation = with.simulation();
   CauseRun run;
-  const auto keep = [&] { run.moments.push_back({seconds(simulation.time()), simulation.save()}); };
+  const auto keep = [&] { run.kept.moments.push_back({seconds(simulation.time()), simulation.save()}); };
+  run.kept.members = members_of(simulation);
   keep();
   const auto& scene = with.scenario().scene;
   const auto every = std::max<Time>(1, scene.duration / kept_branches / scene.step) * scene.step;
@@ -180,7 +181,7 @@ void compare_with_good(const WhyRequest& request, const Mixture& mixture, const 
     curves.channels.push_back(found.parting->channel);
   if (with && least.minimal)
     found.point_of_return =
-        point_of_return(mixture, least.set, with->moments, channels, with->failed_at, check, trials);
+        point_of_return(mixture, least.set, with->kept, channels, with->failed_at, check, trials);
 }
 
 void add_findings(WhyFound& found) {

@@ -186,7 +186,8 @@ std::set<std::string> goes_on_as_before(const StateScene& scene, int every, int 
     for (const auto& member : list) met.insert(member.name.substr(member.name.find('.') + 1));
     for (const std::string axis : {"Knife", "Cut", "Saw", "Line"})
       for (const std::string value : {"coupling_phase", "state"})
-        met.insert(fmt::format("{} {} {}", axis, value, whole.controller.find(axis + "." + value)->read()));
+        met.insert(fmt::format("{} {} {}", axis, value,
+                               whole.controller.find(fmt::format("{}.{}", axis, value))->read()));
     const auto told = whole.run(rest);
     const auto end = whole.saved();
 
@@ -321,7 +322,7 @@ TEST(PlcopenSavedState, OfCamsAndGearsGoesOn) {
   scene.writes = {{500, {{"table1[5,1]", 1'850'000}}}, {900, {{"Line.override", 80}}}};
   EXPECT_THAT(
       goes_on_as_before(scene, 29, 1500),
-      IsSupersetOf({"kernel_.Cut.coupling_.law_.curve.pieces.7.law.c.3",
+      IsSupersetOf({"kernel_.Cut.coupling_.law_.curve.pieces.7.law.c",
                     "kernel_.Cut.coupling_.shift_profile_.count", "kernel_.Cut.overlay_.ticket",
                     "kernel_.Knife.coupling_.law_.numerator", "kernel_.Saw.waiting_.0.request.start_mode",
                     "Cut coupling_phase 1", "Cut coupling_phase 3", "Cut coupling_phase 5",
