@@ -33,6 +33,7 @@ void keep_product(scenario::Scenario& scenario) {
              (event != plants::cut_event && !event.ends_with(fmt::format(".{}", plants::cut_event)));
     return std::ranges::none_of(named, [&](const auto& name) { return name.text == check.name.text; });
   });
+  for (auto& check : scenario.checks) check.at_least = 0;  // a branch has few
   scenario.scene.title.clear();
   scenario.pictures = {};
   scenario.record.channels.clear();

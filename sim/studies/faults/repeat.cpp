@@ -25,14 +25,14 @@ std::string section_in(const std::string& expanded, const std::string& name) {
 }
 
 /// A map in which overrides come to stand: plants: {web: {speed: 80 m/min}}.
-struct Nested {
-  std::vector<std::pair<std::string, Nested>> branches;
+struct SetMap {
+  std::vector<std::pair<std::string, SetMap>> branches;
   std::string value;
 
-  Nested& at(const std::string& key) {
+  SetMap& at(const std::string& key) {
     for (auto& [name, branch] : branches)
       if (name == key) return branch;
-    return branches.emplace_back(key, Nested{}).second;
+    return branches.emplace_back(key, SetMap{}).second;
   }
   [[nodiscard]] std::string text() const {
     if (branches.empty()) return value;
@@ -71,7 +71,7 @@ CellScenarios::CellScenarios(const FaultQuestion& question, const std::filesyste
   const auto line = scenario::read_scenario_text(question.text, question.file, question.set, none);
   around_ = line.pictures.around.has_value();
   entries_ = section_in(scenario::expand(line), "timeline");
-  Nested root;
+  SetMap root;
   for (const auto& [path, value] : question.set) {
     const auto parts = parts_of(path);
     // The timeline has them already, the pictures are its own.

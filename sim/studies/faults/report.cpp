@@ -140,7 +140,7 @@ std::vector<renders::ReportMatrix> matrices_of(const FaultQuestion& question,
           ? fmt::format("when in the machine cycle of {}, from {} s", scenario::format_time(question.cycle),
                         record::seconds_text(question.begin))
           : "when in the run");
-  add(events, "Every fault at each kind of event", "at the first of");
+  add(events, "Every fault at each kind of event", "when this happens");
   constexpr auto* caption =
       "Each cell is a run that went on from the kept state of its moment with the fault put in. The file of "
       "a "

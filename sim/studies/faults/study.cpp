@@ -92,6 +92,8 @@ void read_files(const FaultQuestion& question) {
     read_file(scenario.file.parent_path() / name.text, ignored);
 }
 
+constexpr int most_parts = 5;  ///< of a fault's moments that are listed
+
 std::string seconds_word(double time) { return fmt::format("{:.3g} s", time); }
 
 }  // namespace
@@ -218,7 +220,8 @@ std::vector<FaultStretch> stretches_of(const FaultQuestion& question, const Faul
     if (same == all.end()) {
       all.push_back({matrix.cells[cell].kind, matrix.accepted[cell].has_value(), text, when, count});
     } else {
-      same->when += ", " + text;
+      if (++same->parts <= most_parts) same->when += ", " + text;
+      if (same->parts == most_parts + 1) same->when += ", ...";
       same->count += count;
     }
     when = end;
@@ -248,7 +251,7 @@ std::string text_of(const FaultCell& cell) {
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
   if (cell.harm_after)
-    add(fmt::format("{}{} {} later", cell.harm, cell.detail.empty() ? "" : " fails",
+    add(fmt::format("{} {} later", cell.detail.empty() ? cell.harm : fmt::format("'{}' fails", cell.harm),
                     seconds_word(*cell.harm_after)));
   if (cell.told_after) add(fmt::format("told by {} {} later", cell.told_by, seconds_word(*cell.told_after)));
   if (cell.kind == FaultCell::Kind::damage && !cell.told_after) add("nobody told");

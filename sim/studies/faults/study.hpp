@@ -49,6 +49,7 @@ struct FaultStretch {
   std::string when;
   std::size_t first = 0;  ///< the first of its cells, by moment
   int count = 0;
+  int parts = 1;  ///< of `when`
 };
 /// What came of one fault, in the order of its moments.
 std::vector<FaultStretch> stretches_of(const FaultQuestion& question, const FaultMatrix& matrix,
