@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -70,13 +71,21 @@ class StateArchive {
     return sum;
   }
 
-  /// Appends what it visits to `bytes`; tells the members to `list`, if there is one.
-  static StateArchive saving(Bytes& bytes, std::vector<Member>* list = nullptr, Journal* journal = nullptr) {
+  /// Appends the state of `object`, which has a visit or is one, to `bytes`; tells the members to `list`, if
+  /// there is one.
+  template <class Object>
+  static void save(Bytes& bytes, Object&& object, std::vector<Member>* list = nullptr,
+                   Journal* journal = nullptr) {
     StateArchive state;
     state.out_ = &bytes;
+    state.put_ = bytes.size();
     state.list_ = list;
     state.journal_ = journal;
-    return state;
+    if constexpr (requires { object.visit(state); })
+      object.visit(state);
+    else
+      object(state);
+    bytes.resize(state.put_);
   }
   /// Sets what it visits from bytes of that order; throws BadState where they do not suffice. `skip`: this
   /// member stays as it is, by its number in the list, for tests.
@@ -160,12 +169,12 @@ class StateArchive {
     named(name, there);
     if (!there) return;
     if (!restores()) {
-      const auto place = out_->size();
+      const auto place = put_;
       std::uint64_t size = 0;
       named(name, size);
-      const auto begin = out_->size();
+      const auto begin = put_;
       named(name, *part);
-      size = out_->size() - begin;
+      size = put_ - begin;
       std::memcpy(out_->data() + place, &size, sizeof size);
       return;
     }
@@ -192,8 +201,9 @@ class StateArchive {
     auto& from = journal_->written[number];
     if (from == size) return;
     Bytes entries;
-    auto archive = saving(entries);
-    log.entries(archive, static_cast<std::size_t>(from), static_cast<std::size_t>(size));
+    save(entries, [&](StateArchive& archive) {
+      log.entries(archive, static_cast<std::size_t>(from), static_cast<std::size_t>(size));
+    });
     journal_->sum = sum_of(entries, journal_->sum);
     const Piece piece = {number, from, size, entries.size(), journal_->sum};
     const auto head = std::as_bytes(std::span(&piece, 1));
@@ -294,17 +304,21 @@ class StateArchive {
     return name;
   }
 
-  void raw(void* data, std::size_t size) {
+  // Thousands of small members: the bytes stand ready, none is made one by one.
+  [[gnu::always_inline]] void raw(void* data, std::size_t size) {
     if (out_ != nullptr) {
-      if (list_ != nullptr) list_->push_back({path_, out_->size(), size});
-      const auto place = out_->size();
-      out_->resize(place + size);
-      std::memcpy(out_->data() + place, data, size);
+      if (list_ != nullptr) list_->push_back({path_, put_, size});
+      if (out_->size() - put_ < size) make_room(size);
+      std::memcpy(out_->data() + put_, data, size);
+      put_ += size;
       return;
     }
     if (left() < size) throw BadState("it ends too early");
     if (count_++ != skip_) std::memcpy(data, in_, size);
     in_ += size;
+  }
+  [[gnu::noinline]] void make_room(std::size_t size) {
+    out_->resize(std::max(out_->capacity(), 2 * put_ + size));
   }
   /// Of what `count` elements of a container need at least a byte each.
   std::size_t sized(std::size_t now) {
@@ -468,6 +482,7 @@ class StateArchive {
   void container(std::monostate&) {}
 
   Bytes* out_ = nullptr;
+  std::size_t put_ = 0;  // so many of its bytes are the state's
   std::vector<Member>* list_ = nullptr;
   Journal* journal_ = nullptr;
   std::optional<Pieces> pieces_;

@@ -653,8 +653,7 @@ StateArchive::Bytes Simulation::save(StateArchive::Journal* journal) {
   StateArchive::Bytes state;
   state.reserve(state_size_ + state_size_ / 2);
   state = begun_state();
-  auto archive = StateArchive::saving(state, nullptr, journal);
-  visit(archive);
+  StateArchive::save(state, *this, nullptr, journal);
   state_size_ = state.size();
   StateHead head{{}, time_, keep_every_};
   if (journal != nullptr) {
@@ -699,8 +698,7 @@ void Simulation::tell_files() {
       files_->happened(recording_.events()[event]);
   };
   StateArchive::Bytes slots;  // which are what the files look at
-  auto before = StateArchive::saving(slots);
-  watch_->visit(before);
+  StateArchive::save(slots, *watch_);
   for (std::size_t row = 0; row < rows; ++row) {
     tell_events(recording_.times()[row]);
     for (const auto& column : recording_.columns()) watch_->show(column.slot, column.values[row]);

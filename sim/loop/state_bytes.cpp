@@ -85,8 +85,7 @@ std::string StateOrigin::differs_from(const StateOrigin& other) const {
 
 StateArchive::Bytes begun_state(StateOrigin origin) {
   StateArchive::Bytes bytes(sizeof(Begin));
-  auto archive = StateArchive::saving(bytes);
-  STATE(archive, origin);
+  StateArchive::save(bytes, origin);
   return bytes;
 }
 
@@ -116,7 +115,7 @@ OpenedState open_state(std::span<const std::byte> bytes, std::span<const std::by
   }
   const auto rest = bytes.subspan(sizeof begin);
   auto archive = StateArchive::restoring(rest.data(), rest.size());
-  STATE(archive, opened.head.origin);
+  opened.head.origin.visit(archive);
   opened.members = rest.last(archive.left());
   return opened;
 }

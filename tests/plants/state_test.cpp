@@ -169,8 +169,7 @@ class Site {
 
 Bytes saved(Site& site, Members* members = nullptr) {
   Bytes bytes;
-  StateArchive archive = StateArchive::saving(bytes, members);
-  site.visit(archive);
+  StateArchive::save(bytes, site, members);
   return bytes;
 }
 
@@ -491,8 +490,7 @@ TEST(State, IsThatOfBulletsPosesToo) {
   Shaft& shaft = world.add_shaft({.name = "shaft", .revolutions = 0.3, .speed = 50});
   turned(world, shaft);
   Bytes bytes;
-  auto saving = StateArchive::saving(bytes);
-  world.visit(saving);
+  StateArchive::save(bytes, world);
   World other;
   Shaft& its = other.add_shaft({.name = "shaft"});
   auto restoring = StateArchive::restoring(bytes.data(), bytes.size());
@@ -514,11 +512,10 @@ TEST(State, OfTheLoadsOfAMotorIsApart) {
   line.run(0.01);
   Bytes state;
   Bytes number;
-  auto saving = StateArchive::saving(state);
-  knife.visit_all(saving);
+  StateArchive::save(state, [&](StateArchive& archive) { knife.visit_all(archive); });
   StateArchive::Journal journal;
-  auto saving_loads = StateArchive::saving(number, nullptr, &journal);
-  saving_loads.log("loads", *knife.motor_loads());
+  const auto loads = [&](StateArchive& archive) { archive.log("loads", *knife.motor_loads()); };
+  StateArchive::save(number, loads, nullptr, &journal);
 
   Machine other(definition, &web);
   auto& its = static_cast<RotaryKnife&>(*other.plant);

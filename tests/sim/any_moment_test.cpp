@@ -40,8 +40,7 @@ struct Line {
   }
   [[nodiscard]] Bytes members() const {
     Bytes bytes;
-    auto archive = StateArchive::saving(bytes);
-    simulation->visit(archive);
+    StateArchive::save(bytes, *simulation);
     return bytes;
   }
 
@@ -54,8 +53,7 @@ struct Line {
 std::string first_difference(const Line& a, const Line& b) {
   std::vector<StateArchive::Member> list;
   Bytes one;
-  auto first = StateArchive::saving(one, &list);
-  a.simulation->visit(first);
+  StateArchive::save(one, *a.simulation, &list);
   const auto other = b.members();
   for (const auto& [name, offset, size] : list) {
     if (name.starts_with("recording_.")) continue;  // without a journal it stays as it is
@@ -168,13 +166,11 @@ struct Restored {
     (moment < other ? target : before) = line.members();
     line.run_to(std::max(moment, other));
     (moment < other ? before : target) = line.members();
-    auto archive = StateArchive::saving(scratch, &list);
-    line.simulation->visit(archive);
+    StateArchive::save(scratch, *line.simulation, &list);
     restore(target);
     scratch.clear();
     list.clear();
-    auto again = StateArchive::saving(scratch, &list);
-    line.simulation->visit(again);
+    StateArchive::save(scratch, *line.simulation, &list);
   }
   void restore(const Bytes& to, std::optional<std::size_t> skip = {}) {
     auto archive = StateArchive::restoring(to.data(), to.size(), skip);

@@ -95,14 +95,12 @@ TEST(WireCuts, WhatTheControllerDrivesGetsNothing) {
 TEST(WireCuts, AreState) {
   Ends ends;
   StateArchive::Bytes whole;
-  auto before = StateArchive::saving(whole);
-  ends.cuts.visit(before);
+  StateArchive::save(whole, ends.cuts);
   ends.encoder.count = 100;
   ends.cut(0);
   ends.cut(3);
   StateArchive::Bytes open;
-  auto between = StateArchive::saving(open);
-  ends.cuts.visit(between);
+  StateArchive::save(open, ends.cuts);
 
   auto mended = StateArchive::restoring(whole.data(), whole.size());
   ends.cuts.visit(mended);

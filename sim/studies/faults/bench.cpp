@@ -32,8 +32,7 @@ FaultBench::FaultBench(const scenario::Scenario& scenario, Problems& problems)
       const auto output = controller->cards().outputs.find(*address);
       if (output != controller->cards().outputs.end()) enables_.push_back({plug.text, &output->second});
     }
-  auto archive = StateArchive::saving(fresh_);
-  checks_.visit(archive);
+  StateArchive::save(fresh_, checks_);
   simulation_.keep_nothing();
   simulation_.add(*this);
   simulation_.tell_steps(*this);

@@ -80,8 +80,7 @@ std::vector<std::string> members_of(loop::Simulation& simulation) {
   simulation.begin();
   StateArchive::Bytes bytes;
   std::vector<StateArchive::Member> members;
-  auto archive = StateArchive::saving(bytes, &members);
-  simulation.visit(archive);
+  StateArchive::save(bytes, simulation, &members);
   std::vector<std::string> names;
   for (auto& member : members) names.push_back(std::move(member.name));
   return names;

@@ -78,8 +78,7 @@ class Teller {
 
   Bytes save(Members* list = nullptr) {
     Bytes bytes;
-    auto archive = StateArchive::saving(bytes, list);
-    controller_.visit(archive);
+    StateArchive::save(bytes, controller_, list);
     return bytes;
   }
   void restore(const Bytes& bytes, int tick, std::optional<std::size_t> skip = {}) {

@@ -146,8 +146,7 @@ struct StateRig {
   void visit(StateArchive& archive) { STATE(archive, controller, knife_counts, steps); }
   StateArchive::Bytes saved(std::vector<StateArchive::Member>* list = nullptr) {
     StateArchive::Bytes bytes;
-    auto archive = StateArchive::saving(bytes, list);
-    visit(archive);
+    StateArchive::save(bytes, *this, list);
     return bytes;
   }
   void restore(const StateArchive::Bytes& bytes) {

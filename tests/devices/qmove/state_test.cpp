@@ -480,8 +480,7 @@ class Line {
   void visit(StateArchive& archive) { STATE(archive, step_, press_, ram_, *controller_); }
   StateArchive::Bytes save(std::vector<StateArchive::Member>* list = nullptr) {
     StateArchive::Bytes bytes;
-    auto archive = StateArchive::saving(bytes, list);
-    visit(archive);
+    StateArchive::save(bytes, *this, list);
     return bytes;
   }
   /// The bytes that are left.
