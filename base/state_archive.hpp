@@ -59,14 +59,17 @@ class StateArchive {
   static constexpr std::uint64_t first_sum = 14695981039346656037ULL;
   /// A sum over bytes that finds every change of one of them; over more of them from that over the first.
   static std::uint64_t sum_of(std::span<const std::byte> bytes, std::uint64_t before = first_sum) {
+    // Another byte gives another sum, for each step can be undone. Eight bytes at a time, in four sums that
+    // do not wait for one another.
     constexpr std::uint64_t prime = 1099511628211ULL;
-    // Eight at a time; another byte gives another sum, for each step can be undone.
-    std::uint64_t sum = before;
-    for (; bytes.size() >= sizeof sum; bytes = bytes.subspan(sizeof sum)) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes.data(), sizeof word);
-      sum = (sum ^ word) * prime;
+    std::array<std::uint64_t, 4> sums{before, 1, 2, 3};
+    for (; bytes.size() >= sizeof sums; bytes = bytes.subspan(sizeof sums)) {
+      std::array<std::uint64_t, 4> words;
+      std::memcpy(&words, bytes.data(), sizeof words);
+      for (std::size_t n = 0; n < sums.size(); ++n) sums[n] = (sums[n] ^ words[n]) * prime;
     }
+    std::uint64_t sum = sums[0];
+    for (std::size_t n = 1; n < sums.size(); ++n) sum = (sum ^ sums[n]) * prime;
     for (const auto byte : bytes) sum = (sum ^ static_cast<std::uint64_t>(byte)) * prime;
     return sum;
   }
