@@ -132,6 +132,7 @@ inline constexpr CodeRow code_rows[] = {
     {"loop.axis-astray", "An axis moves away from where it is driven to", "Its counter counts the wrong way round, or forward and backward are swapped.", "Turn the count round, or swap the two wires."},
     {"loop.axis-hunts", "An axis swings to and fro, and the swings do not die away", "Its gain is too high for the machine.", "Lower its gain; drycut bode shows how far."},
     {"loop.axis-open", "No program closes the position loop of an axis", "LOOPON is never given.", "Give LOOPON for the axis."},
+    {"loop.axis-stands", "An axis stands though its reference is not zero", "The drive has an offset or a dead band, and the position loop stands against it.", "Balance the offset, in the drive or by the device's offset."},
     {"loop.blow", "A machine ran into its stop, tore or sank", "Something before it went wrong.", "Look at what came before it in events.csv."},
     {"loop.counted-nothing", "A wired counter counted nothing", "Nothing turned the encoder, or it is the wrong one.", "Look at the wiring and at what should turn it."},
     {"loop.cycle-no-piece", "No whole number of a cam's cycles makes a piece", "The cam is of another length than a check wants.", "Make the cam for this length, or correct the check."},

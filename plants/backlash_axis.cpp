@@ -68,7 +68,7 @@ Parameters backlash_axis_parameters(FlankData& flanks, LinearAxisData& axis) {
   Parameters carried =
       linear_axis_parameters(axis, {.mass = "a worn machine's heavy slide",
                                     .stop_damping = "estimate: 7 % of critical for 100 kg",
-                                    .coulomb = "estimate: plain guides, 0.15 of the weight",
+                                    .coulomb = "estimate: plain guides, 0.15 of the weight of 100 kg",
                                     .breakaway = "estimate: plain guides stick",
                                     .inertia_ratio = "the default screw and load on the motor"});
   std::erase_if(carried, [](const Parameter& p) { return replaced(p.name); });

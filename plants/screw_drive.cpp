@@ -59,7 +59,8 @@ void ScrewDrive::push_back(double h) {
 void ScrewDrive::rub(double h, const DryResistance& on_rotor, double weight) {
   rotor.add_torque(
       friction_effort(data_.motor_friction, rotor.speed, rotor.torque, rotor.inertia, h, on_rotor));
-  slide.add_force(friction_effort(data_.guide_friction, slide.speed, slide.force + weight, slide.mass, h));
+  rubbing_ = friction_effort(data_.guide_friction, slide.speed, slide.force + weight, slide.mass, h);
+  slide.add_force(rubbing_);
 }
 
 void ScrewDrive::sense(double h) {
@@ -73,11 +74,10 @@ MotorLoad ScrewDrive::motor_load(double torque, double weight, double h) const {
   const double turning = rotor.inertia * (rotor.speed - rotor.speed_before) / h;
   const double moving = slide.mass * (slide.speed - slide.speed_before) / h;
   const double resisting = force_ + weight - moving;
-  const double rubbing = friction_in(data_.guide_friction, slide.speed_before, resisting, slide.mass, h);
   return {.torque = torque,
           .acceleration = turning + moving * arm,
-          .friction = torque - force_ * arm - turning + rubbing * arm,
-          .load = (resisting - rubbing) * arm,
+          .friction = torque - force_ * arm - turning - rubbing_ * arm,
+          .load = (resisting + rubbing_) * arm,
           .gravity = -weight * arm,
           .speed = rotor.speed};
 }

@@ -83,6 +83,7 @@ class ScrewDrive {
   double twist_;
   double torque_ = 0;
   double force_ = 0;
+  double rubbing_ = 0;  ///< of the guides, in the step under way [N]
 };
 
 }  // namespace drycut::plants

@@ -52,7 +52,7 @@ struct ServoData {
 
 /// Where a machine's defaults are from.
 struct ServoSources {
-  std::string_view inertia_ratio = "the default drum behind gear 5: 0.41 / 25 / 0.00468";
+  std::string_view inertia_ratio = "as of the rotary knife's default drum behind gear 5: 0.41 / 25 / 0.00468";
   std::string_view speed_at_10v = "usual setting: rated speed at 10 V";
 };
 /// Rows of the group `servo.`.

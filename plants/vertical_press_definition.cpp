@@ -15,7 +15,7 @@ Parameters mechanics(VerticalPressData& data) {
       row("lead", "mm", "travel for one turn of the screw, or of a rack's pinion", data.lead, 0.1, 5000,
           "ball screw 40 x 10"),
       row("screw_inertia", "kg m2", "inertia of screw or pinion", data.screw_inertia, 0, 100,
-          "steel screw, 40 mm by 0.8 m"),
+          "steel screw, 40 mm by 0.8 m, 36 mm at the root"),
       row("efficiency", "", "of screw or rack while the motor drives the ram", data.efficiency, 0.05, 1,
           "usual: ball screw 0.9, trapezoidal screw 0.35"),
       row("back_efficiency", "", "while the ram drives the motor; 0 or less: self-locking",

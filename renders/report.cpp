@@ -165,7 +165,11 @@ void write_checks(ReportPage& page, const std::vector<ReportCheck>& checks) {
     for (const ReportCheck& check : checks) {
       if (check.passed != passed) continue;
       page += fmt::format(R"(<tr class="{0}"><td><span class="badge {0}">{1}</span></td><td>{2})",
-                          state(check.passed), check.passed ? "PASS" : "FAIL", html_text(check.name));
+                          check.nothing ? "doubt" : state(check.passed),
+                          check.nothing  ? "NOT JUDGED"
+                          : check.passed ? "PASS"
+                                         : "FAIL",
+                          html_text(check.name));
       if (!check.detail.empty()) page += fmt::format("<small>{}</small>", html_text(check.detail));
       page += fmt::format("</td><td><code>{}</code></td><td>{}{}</td></tr>\n", html_text(check.expectation),
                           check.used ? share_bar(*check.used, !check.passed) : "", html_text(check.margin));

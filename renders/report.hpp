@@ -20,6 +20,7 @@ struct ReportCheck {
   std::string margin;               ///< "0.053 mm left at 7.204 s", "" if none can be said
   std::string detail;               ///< "15 cuts, worst length = 800.047 mm"
   std::optional<double> used = {};  ///< share of its limit, drawn as a bar: 1 = all of it, above: beyond it
+  bool nothing = false;             ///< it passed, for it found nothing to judge
 };
 
 /// A figure that says much of a run in little room; they stand on top.
@@ -75,10 +76,10 @@ struct Report {
   std::vector<ReportKey> keys = {};
   std::vector<ReportRow> facts;  ///< label, value: duration, step, seed, versions
   std::vector<ReportCheck> checks;
-  std::vector<std::string> notes = {};   ///< what a reader should know besides, behind the checks
-  std::vector<ReportTable> summary;      ///< what is read before the pictures: a comparison
-  std::vector<ReportText> texts = {};    ///< to copy
-  std::vector<ReportMap> maps = {};      ///< before the frames
+  std::vector<std::string> notes = {};  ///< what a reader should know besides, behind the checks
+  std::vector<ReportTable> summary;     ///< what is read before the pictures: a comparison
+  std::vector<ReportText> texts = {};   ///< to copy
+  std::vector<ReportMap> maps = {};     ///< before the frames
   std::vector<ReportMatrix> matrices = {};
   std::vector<ReportFigure> frames;      ///< chosen frames, shown as a strip
   std::filesystem::path video;           ///< MP4 of all frames, "" = none

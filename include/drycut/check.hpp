@@ -50,6 +50,8 @@ struct Check {
   Prose doubt = {};
   std::optional<double> too_few = {};  ///< [s] of events that it counts there were too few, from then on
   bool deadline = false;               ///< its limit is a time by which something has come
+  /// It passed, but there was nothing that it could have failed by.
+  [[nodiscard]] bool judged_nothing() const { return passed && !doubt.empty() && !used; }
   /// Where it held at none of its instants: what there was, "AxisX.st_error 0", "Axis.follerr -12 to 80".
   Prose throughout = {};
 

@@ -104,7 +104,7 @@ void write(const BodeOptions& options, const scenario::Scenario& scenario, const
            const studies::LimitCycle* cycle, const record::Verdict& verdict,
            const std::vector<record::CheckResult>& checks, OutputFolder* folder) {
   if (folder != nullptr)
-    studies::write_bode_report(result, cycle, verdict, checks, scenario::expand(scenario), *folder);
+    studies::write_bode_report(result, cycle, verdict, checks, scenario, *folder);
   if (folder != nullptr && !result.sweep.points.empty())
     write_file(folder->add("bode.csv"), bode_csv(result));
   if (folder != nullptr) record::write_verdict(verdict, *folder);

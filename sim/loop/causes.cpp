@@ -277,7 +277,7 @@ std::optional<Causes::Cause> Causes::cause_of(const std::vector<record::CheckRes
   }
   auto cause = by_time(failed_at.value_or(ever), known);
   if (auto misfit = of_check(checks); errors_.empty() && misfit && (!cause || cause->link == Link::after))
-    return Cause{Link::because, std::move(*misfit)};
+    return Cause{Link::because, known.astray.empty() ? std::move(*misfit) : known.astray.front().second};
   if (!cause && known.standing && known.standing->first <= failed_at.value_or(ever))
     cause = Cause{Link::meanwhile, known.standing->second};
   if (!cause || cause->link == Link::after) return last_resort(checks, known, std::move(cause));

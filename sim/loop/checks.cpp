@@ -490,9 +490,15 @@ record::CheckResult Checks::result(State& state, Time end) {
   }
   result.passed = state.failed == 0;
   const auto unmet = result.passed && !state.windowed ? state.expression->unmet() : "";
-  if (!unmet.empty())
+  if (!unmet.empty()) {
     result.doubt = fmt::format("check '{}' judged nothing: {} was 0 at all {} {}", check.name.text, unmet,
                                state.count, looked_at(state));
+    // What is left of a limit that nothing was held against is no figure.
+    result.margin.reset();
+    result.used.reset();
+    result.detail = fmt::format("judged nothing in {} {}", state.count, looked_at(state));
+    return result;
+  }
   // Its unit may be a slip.
   constexpr double far_off = 0.001;
   constexpr double rounding = 1e-7;

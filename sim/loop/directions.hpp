@@ -11,7 +11,8 @@
 namespace drycut::sim::loop {
 
 /// Finds axes that move away from where they are driven to: their count is the wrong way round, or forward
-/// and backward are swapped. It looks at the first second in which an axis is driven.
+/// and backward are swapped. It looks at the first second in which an axis is driven. And axes that stand on
+/// at a small reference: their drive has an offset.
 class Directions : public record::Observer {
  public:
   Directions(const scenario::Scenario& scenario, devices::Controller& controller);
@@ -19,7 +20,7 @@ class Directions : public record::Observer {
   void sample(Time now) override;
   void visit(StateArchive& archive) override;
 
-  /// An axis that goes the wrong way, as the end of a sentence.
+  /// An axis that goes the wrong way or stands, as the end of a sentence.
   struct Found {
     double at = 0;  ///< [s] when it began
     Finding what;
@@ -35,7 +36,13 @@ class Directions : public record::Observer {
     std::int64_t with = 0;           ///< counts gone where it was driven to ...
     std::int64_t against = 0;        ///< ... and the other way
     bool done = false;               ///< it is not looked at any more
+    // Since when it has stood at which reference, and where.
+    Time stood = 0;
+    double volts = 0;
+    std::int64_t place = 0;
+    bool told = false;
   };
+  void look_at_standing(Axis& axis, double drive, std::int64_t counts, Time now);
   void tell(const Axis& axis, Time now);
 
   std::vector<Axis> axes_;

@@ -331,10 +331,12 @@ std::vector<record::CheckResult> DriveJudge::results(
   if (!judged_ || drives_.empty()) return {};
   record::CheckResult result;
   result.name = "drive within its ratings";
-  result.expectation =
-      "torque, speed, current, heat, DC link and brake resistor of every drive within their ratings, over "
-      "the "
-      "worst ten cycles in a row as if they went on for ever; no trip";
+  std::vector<std::string> judged;  // of some drive
+  for (const auto& verdict : verdicts)
+    for (const auto& figure : verdict.figures)
+      if (figure.judged && std::ranges::find(judged, figure.name) == judged.end())
+        judged.push_back(figure.name);
+  result.expectation = fmt::format("of every drive within its ratings: {}; no trip", fmt::join(judged, "; "));
   result.passed = true;
   std::vector<std::string> details;
   double largest = 0;

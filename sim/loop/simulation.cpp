@@ -582,7 +582,8 @@ record::Outcome Simulation::outcome() {
   auto warnings = warnings_;
   for (const auto& check : outcome.checks)
     if (!check.doubt.empty())
-      warnings.emplace_back(check.used ? "check.far-limit"_code : "check.judged-nothing"_code, check.doubt);
+      warnings.emplace_back(check.judged_nothing() ? "check.judged-nothing"_code : "check.far-limit"_code,
+                            check.doubt);
   if (drives_->judges())
     for (const auto& drive : outcome.drives)
       for (const auto& warning : drive.warnings) warnings.emplace_back("drive.warning"_code, warning);

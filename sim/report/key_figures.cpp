@@ -172,23 +172,48 @@ void add_drives(const record::Outcome& outcome, bool all_judged, std::vector<ren
   }
 }
 
+/// How much of its limit a check used: of one that says it by its events' values alone, by the worst of them.
+std::optional<double> used_by(const record::CheckResult& check, const record::Recording& recording) {
+  auto most = check.used;
+  for (const auto& tolerance : check.tolerances) {
+    if (check.used || !is_shareable(tolerance)) continue;
+    const auto series = loop::event_numbers(recording.events(), tolerance.event, tolerance.value,
+                                            tolerance.from, tolerance.until);
+    for (const double number : series.numbers) most = std::max(most.value_or(0), used_of(tolerance, number));
+  }
+  return most;
+}
+
 /// The check that failed by most, or would fail first if all went on a little worse. How long a run took to
 /// be done says nothing of the machine.
-void add_nearest(const record::Outcome& outcome, std::vector<renders::ReportKey>& keys) {
+void add_nearest(const record::Recording& recording, const record::Outcome& outcome,
+                 std::vector<renders::ReportKey>& keys) {
   const record::CheckResult* nearest = nullptr;
+  double most = 0;
+  double most_of_deadlines = 0;
   std::size_t count = 0;
   const bool passed = std::all_of(outcome.checks.begin(), outcome.checks.end(),
                                   [](const record::CheckResult& check) { return check.passed; });
   for (const auto& check : outcome.checks) {
-    if (!check.used || (check.deadline && check.passed) || check.passed != passed) continue;
+    if (check.passed != passed) continue;
+    if (check.deadline && check.passed) {
+      most_of_deadlines = std::max(most_of_deadlines, check.used.value_or(0));
+      continue;
+    }
+    const auto used = used_by(check, recording);
+    if (!used) continue;
     ++count;
-    if (nearest == nullptr || *check.used > *nearest->used) nearest = &check;
+    if (nearest != nullptr && *used <= most) continue;
+    nearest = &check;
+    most = *used;
   }
   if (count < (passed ? 2U : 1U)) return;
-  keys.push_back({nearest->passed ? "nearest to its limit" : "farthest beyond its limit",
+  keys.push_back({!nearest->passed           ? "farthest beyond its limit"
+                  : most_of_deadlines > most ? "nearest to its limit, deadlines apart"
+                                             : "nearest to its limit",
                   nearest->name,
                   {},
-                  nearest->used});
+                  most});
 }
 
 }  // namespace
@@ -202,7 +227,7 @@ std::vector<renders::ReportKey> key_figures(const record::Recording& recording,
   add_values(recording, outcome, keys);
   add_line_speeds(recording, lines, keys);
   add_drives(outcome, drives_judged, keys);
-  add_nearest(outcome, keys);
+  add_nearest(recording, outcome, keys);
   return keys;
 }
 

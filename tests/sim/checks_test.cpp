@@ -102,6 +102,10 @@ TEST_F(ChecksTest, ACheckWhoseConditionNeverCameJudgedNothing) {
   EXPECT_THAT(doubts(), testing::ElementsAre(
                             "check 'the check' judged nothing: step == 2 was 0 at all 3 instants",
                             "check 'the check' judged nothing: flag was 0 at all 3 instants", "", "", ""));
+  const auto of_nothing = checks->results(10 * second).front();
+  EXPECT_TRUE(of_nothing.judged_nothing());
+  EXPECT_EQ(of_nothing.margin, std::nullopt);
+  EXPECT_FALSE(checks->results(10 * second).back().judged_nothing());
   controller.values["step"] = 2;
   controller.values["flag"] = 1;
   sample(3 * second, 0);

@@ -129,7 +129,7 @@ TEST(KeyFigures, SpeedsDrivesAndTheNearestCheck) {
   outcome.checks.back().used = 0.99;
   outcome.checks.back().deadline = true;
   EXPECT_EQ(told(key_figures(recording, {}, {"web", "other"}, outcome, true)).back(),
-            "nearest to its limit: b [90]");
+            "nearest to its limit, deadlines apart: b [90]");
   EXPECT_THAT(told(key_figures(recording, {}, {}, outcome, false))[0],
               testing::StartsWith("rms torque of knife.servo: 2.04 N m; limit 9.5 N m; not judged"));
   EXPECT_THAT(key_figures(record::Recording(), {}, {}, {}, true), IsEmpty());

@@ -171,6 +171,14 @@ TEST(TorqueSplits, HaveTheWeightOfAnInclinedAxis) {
   EXPECT_NEAR(gravity->rms, 20 * 9.80665 * 0.5 * 0.02 / (2 * std::numbers::pi), 1e-4);
 }
 
+// Guides that hold a ram as it turns round are friction, and no load.
+TEST(TorqueSplits, HaveNoLoadWhereNothingIsTouched) {
+  const auto run = SplitRun::scene("press_learning.yaml", {{"scene.duration", "14 s"}});
+  ASSERT_EQ(run.splits.size(), 1U);
+  EXPECT_EQ(part_of(run.splits.front(), "load"), nullptr);
+  EXPECT_NE(part_of(run.splits.front(), "friction"), nullptr);
+}
+
 // A fast knife's loops add to the cam, the more the shorter a piece takes.
 TEST(TorqueSplits, TellWhatTheRegulatorAdds) {
   const auto added = [](const std::string& speed) {

@@ -123,6 +123,13 @@ TEST(WhyItFailed, TenVoltsThatAreAnotherSpeedForTheAxisAreTold) {
       "axis.reference and axis.encoder 200000");
 }
 
+TEST(WhyItFailed, AnOffsetOfTheDriveIsTold) {
+  const auto outcome = outcome_of(lines / "flying_saw_qmove.yaml", {{"plants.saw.servo.offset", "500 mV"}});
+  EXPECT_THAT(outcome.cause(),
+              ContainsRegex("^because AxisX stands from [0-9.]+ s on though its reference is "
+                            "-?0.[45][0-9]* V: its drive has an offset or a dead band"));
+}
+
 // 4 times the lines: a unit of the master is a quarter of 0.1 mm.
 TEST(WhyItFailed, AWheelWithOtherLinesThanTheProgramTakesIsTold) {
   const auto outcome = outcome_of(lines / "rotary_knife_qmove.yaml",

@@ -10,7 +10,7 @@ namespace {
 constexpr double lowest_amplitude = 0.05;  // some tens of steps of a 14 bit converter [V]
 constexpr int octaves = 7;
 constexpr int refinements = 2;
-constexpr double lost = 0.5;  // error of a point that is noise alone
+constexpr double least_sure = 0.1;  // error of a gain that a margin is read from: 1 dB
 
 /// The gain margin, if both points beside it are sound.
 std::optional<AtFrequency> sound_margin(const LoopResult& result) {
@@ -22,7 +22,8 @@ std::optional<AtFrequency> sound_margin(const LoopResult& result) {
   });
   if (after == points.begin() || after == points.end()) return {};
   for (const auto* point : {&*after, &*std::prev(after)})
-    if (point->silent || point->saturated || !(point->error <= lost) || !(point->doubt() <= bode_error_limit))
+    if (point->silent || point->saturated || !(point->error <= least_sure) ||
+        !(point->doubt() <= bode_error_limit))
       return {};
   return margin;
 }

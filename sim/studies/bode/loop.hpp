@@ -84,6 +84,8 @@ struct LoopResult {
 
 /// Doubt of a point (BodePoint::doubt) above which it is not to be trusted.
 inline constexpr double bode_error_limit = 0.05;
+/// Error of a point above which it is noise.
+inline constexpr double bode_lost = 0.5;
 
 /// Numbers of the request that no scenario allows, by the names of the options.
 void check_request(const LoopRequest& request, Problems& problems);

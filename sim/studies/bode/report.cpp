@@ -6,6 +6,7 @@
 #include <limits>
 #include <string_view>
 
+#include "base/text.hpp"
 #include "renders/report.hpp"
 #include "sim/record/recording.hpp"
 #include "sim/report/report.hpp"
@@ -46,8 +47,14 @@ std::vector<BodePoint> heard(const LoopResult& result) {
   return points;
 }
 
-BodeTable table_of(const LoopResult& result) {
-  const auto points = heard(result);
+/// Those of them where the answer is more than noise.
+std::vector<BodePoint> known(const LoopResult& result) {
+  auto points = heard(result);
+  std::erase_if(points, [](const BodePoint& point) { return !(point.error <= bode_lost); });
+  return points;
+}
+
+BodeTable table_of(const LoopResult& result, const std::vector<BodePoint>& points) {
   BodeTable table;
   table.open = columns_of(points, [](const BodePoint& p) { return p.open_loop; });
   table.closed = columns_of(points, [](const BodePoint& p) { return p.closed_loop(); });
@@ -111,7 +118,7 @@ std::vector<renders::ReportRow> margin_rows(const LoopResult& result, const std:
 
 std::string table_text(const LoopResult& result) {
   const auto points = heard(result);
-  const auto table = table_of(result);
+  const auto table = table_of(result, points);
   const bool speed = !result.speed.empty();
   std::string text = fmt::format("{:>10}{:>20}{:>20}{:>20}{:>9}\n{:>10}{:>20}{:>20}{:>20}{:>9}\n",
                                  "frequency", "open loop", "closed loop", speed ? result.speed : "", "error",
@@ -129,7 +136,8 @@ std::string table_text(const LoopResult& result) {
 }
 
 renders::ReportTable response_table(const LoopResult& result) {
-  const auto table = table_of(result);
+  const auto points = known(result);
+  const auto table = table_of(result, points);
   renders::ReportTable made{"Response", {"frequency [Hz]"}, {}, true};
   std::vector<const BodeColumns*> all = {&table.open, &table.closed, &table.sensitivity};
   std::vector<std::string> names = {"open loop", "position loop", "sensitivity"};
@@ -141,7 +149,7 @@ renders::ReportTable response_table(const LoopResult& result) {
     made.headings.push_back(name + " [dB]");
     made.headings.push_back(name + " [deg]");
   }
-  const auto points = heard(result);
+  made.headings.emplace_back("error of the open loop [%]");
   for (std::size_t i = 0; i < points.size(); ++i) {
     renders::ReportRow row{{fmt::format("{:.4g}", points[i].frequency)}};
     for (const auto* columns : all) {
@@ -149,6 +157,7 @@ renders::ReportTable response_table(const LoopResult& result) {
       row.cells.push_back(fmt::format("{:.2f}", columns->gain[i] - zero));
       row.cells.push_back(fmt::format("{:.1f}", columns->phase[i]));
     }
+    row.cells.push_back(fmt::format("{:.2f}", points[i].error * 100));
     made.rows.push_back(std::move(row));
   }
   return made;
@@ -277,7 +286,7 @@ record::Verdict verdict_of(const LoopResult& result, const std::vector<std::stri
 }
 
 void write_bode_report(const LoopResult& result, const LimitCycle* cycle, const record::Verdict& verdict,
-                       const std::vector<record::CheckResult>& checks, const std::string& expanded,
+                       const std::vector<record::CheckResult>& checks, const scenario::Scenario& scenario,
                        OutputFolder& folder) {
   std::vector<renders::Plot> plots;
   auto report = report::page_of(verdict);
@@ -285,7 +294,12 @@ void write_bode_report(const LoopResult& result, const LimitCycle* cycle, const 
   report::add_checks(checks, report);
   report.facts = {
       {{"measured", subject(result)}}, {{"reading", std::string(reading)}}, {{"drycut", DRYCUT_VERSION}}};
-  if (!heard(result).empty()) {
+  if (const auto lost = heard(result).size() - known(result).size(); lost > 0)
+    report.facts.push_back(
+        {{"left out", fmt::format("{} where the answer is noise (error above {:.0f} %); bode.csv has "
+                                  "them",
+                                  counted(static_cast<std::int64_t>(lost), "point"), bode_lost * 100)}});
+  if (!known(result).empty()) {
     report.summary = {
         {"Margins",
          {"", ""},
@@ -298,17 +312,18 @@ void write_bode_report(const LoopResult& result, const LimitCycle* cycle, const 
     report.summary.insert(report.summary.begin(), amplitude_table(*cycle));
     if (cycle->least) plots.push_back(amplitude_plot(*cycle));
   }
-  report.scenario_expanded = expanded;
+  report::add_overrides(scenario.overrides, report);
+  report.scenario_expanded = scenario::expand(scenario);
   report::write_report(std::move(report), std::move(plots), folder);
 }
 
 std::string bode_csv(const LoopResult& result) {
-  const auto table = table_of(result);
+  const auto points = heard(result);
+  const auto table = table_of(result, points);
   const bool speed = !result.speed.empty();
   std::string text(bode_csv_header);
   if (speed) text += fmt::format(",{0}.gain [{1}/V],{0}.phase [deg]", result.speed, result.speed_unit);
   text += '\n';
-  const auto points = heard(result);
   for (std::size_t i = 0; i < points.size(); ++i) {
     text +=
         fmt::format("{},{},{},{},{},{},{}", points[i].frequency, table.open.gain[i], table.open.phase[i],
@@ -320,7 +335,7 @@ std::string bode_csv(const LoopResult& result) {
 }
 
 renders::Plot bode_plot(const LoopResult& result, const std::string& name) {
-  const auto table = table_of(result);
+  const auto table = table_of(result, known(result));
   renders::Plot plot;
   plot.name = name;
   plot.title = fmt::format("{}: {}", result.scenario, result.wire);
@@ -343,19 +358,19 @@ renders::Plot bode_plot(const LoopResult& result, const std::string& name) {
     std::size_t next = 0;
     for (const auto& point : result.sweep.points) {
       if (next == columns.gain.size()) break;
-      const bool known = !point.silent && point.error < 1;
+      const bool is_known = !point.silent && point.error <= bode_lost;
       gains.x.push_back(point.frequency);
       phases.x.push_back(point.frequency);
-      gains.y.push_back(known ? columns.gain[next] - zero : nothing);
-      phases.y.push_back(known ? columns.phase[next] : nothing);
-      if (!point.silent) ++next;
+      gains.y.push_back(is_known ? columns.gain[next] - zero : nothing);
+      phases.y.push_back(is_known ? columns.phase[next] : nothing);
+      if (is_known) ++next;
     }
     gain.curves.push_back(std::move(gains));
     phase.curves.push_back(std::move(phases));
   };
   draw("open loop", table.open, 0);
   draw("position loop", table.closed, 0);
-  if (!result.speed.empty()) draw("speed loop", table.speed, table.speed.gain.front());
+  if (!table.speed.gain.empty()) draw("speed loop", table.speed, table.speed.gain.front());
   plot.panels = {gain, phase};
   const auto margins = loop_doubts(result).empty() ? result.margins : Margins{};
   if (margins.phase)

@@ -54,12 +54,18 @@ std::vector<PatchEntry> entries_of(const Tuning& tuning) {
                        before ? fmt::format("drycut tune; before: {}", value_text(parameters[i], *before))
                               : std::string("drycut tune")});
   }
+  return entries;
+}
+
+/// What it was tried with: no part of the machine's change.
+std::vector<PatchEntry> set_of(const Tuning& tuning, const std::vector<PatchEntry>& entries) {
+  std::vector<PatchEntry> others;
   for (const auto& override : tuning.study.set) {
     const bool told = std::any_of(entries.begin(), entries.end(),
                                   [&](const PatchEntry& entry) { return entry.path == override.path; });
-    if (!told) entries.push_back({override.path, override.value, "--set"});
+    if (!told) others.push_back({override.path, override.value, "--set"});
   }
-  return entries;
+  return others;
 }
 
 std::string yaml_of(std::vector<PatchEntry> entries) {
@@ -89,9 +95,15 @@ std::string qcl_line(std::string name, double value) {
 
 std::string patch_text(const Tuning& tuning) {
   auto entries = entries_of(tuning);
+  const auto tried_with = set_of(tuning, entries);
   const bool has_any = !entries.empty();
   std::string arguments = "#  ";
+  std::string with;
   for (const auto& entry : entries) arguments += fmt::format(" --set \"{}={}\"", entry.path, entry.value);
+  for (const auto& entry : tried_with) {
+    arguments += fmt::format(" --set \"{}={}\"", entry.path, entry.value);
+    with += fmt::format("#   {}: {}\n", entry.path, entry.value);
+  }
   std::string qcl;
   for (std::size_t i = 0; i < tuning.trials.parameters().size() && !tuning.stays; ++i) {
     const auto preset = preset_name(tuning.trials.parameters()[i].path);
@@ -109,6 +121,8 @@ std::string patch_text(const Tuning& tuning) {
     text += "# Into the scenario, beside what stands there\n" + yaml_of(std::move(entries));
   if (!others.empty()) text += "# In lists of the scenario, at these paths\n" + others;
   if (!qcl.empty()) text += "# Or in QCL, in the set-up of the axis\n" + qcl;
+  if (!with.empty()) text += "# It was tried with these, which are no part of it\n" + with;
+  if (tuning.study.ignore_checks) text += "# The scenario's checks were ignored (--ignore-checks)\n";
   if (!has_any) return text + "# There is nothing to change\n";
   return text + "# Or for drycut run\n" + arguments + "\n";
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/text.hpp"
 #include "renders/decimate.hpp"
 #include "sim/report/gallery_plots.hpp"
 
@@ -104,7 +105,14 @@ renders::Plot way(const Tuning& tuning) {
     const double low = std::min(sorted.front(), present);
     const double most = sorted[(sorted.size() - 1) * 4 / 5];
     const double room = (most - low) / 10;
-    if (room > 0) panel.y_range = {low - room, most + room};
+    if (room > 0) {
+      panel.y_range = {low - room, most + room};
+      const auto above =
+          std::count_if(sorted.begin(), sorted.end(), [&](double y) { return y > most + room; });
+      if (above > 0) panel.title += fmt::format("; above the picture: {}", counted(above, "trial"));
+      if (!tuning.before.stopped && present > most + room)
+        panel.bands.back().label = fmt::format("present values, above the picture: {:.4g}", present);
+    }
   }
   renders::Plot plot{"search", "The way to the optimum", "trial", {}};
   if (!all.x.empty() || !refused.x.empty()) plot.panels.push_back(std::move(panel));

@@ -134,8 +134,12 @@ std::string pushes_text(const Tuning& tuning) {
     least = std::fmin(least, trial.verdict.hunts_from);
     if (trial.verdict.hunts_from <= 1) ++hunting;
   }
-  return text +
-         fmt::format("; over the spread {} machines hunt, the worst {}", hunting, hunts_from_text(least));
+  return text + (hunting > 0
+                     ? fmt::format("; over the spread {} on hunting, the worst {}",
+                                   hunting == 1 ? "1 machine goes" : fmt::format("{} machines go", hunting),
+                                   hunts_from_text(least))
+                     : fmt::format("; over the spread no machine hunts, the nearest to it would {}",
+                                   hunts_from_text(least)));
 }
 
 /// What the ranges leave out, a line each.
@@ -315,6 +319,23 @@ std::string summary_text(const Tuning& tuning) {
   return text + "\n" + patch_text(tuning);
 }
 
+namespace {
+
+/// "; checks ignored, 1 of 7 failed with these values"; "" where they count.
+std::string ignored_text(const Tuning& tuning) {
+  if (!tuning.study.ignore_checks) return "";
+  std::size_t failed = 0;
+  std::size_t all = 0;
+  for (const auto& run : tuning.runs_after)
+    for (const auto& check : run.outcome.checks) {
+      ++all;
+      if (!check.passed) ++failed;
+    }
+  return fmt::format("; checks ignored (--ignore-checks), {} of {} failed with these values", failed, all);
+}
+
+}  // namespace
+
 record::Verdict verdict_of(const Tuning& tuning) {
   const auto& after = tuning.after();
   record::Verdict verdict;
@@ -328,7 +349,7 @@ record::Verdict verdict_of(const Tuning& tuning) {
   const auto change = tuning.stays ? metric_equals(tuning, metric_text(after))
                                    : fmt::format("{}: {}{} before, {}{} after", tuning.study.minimise,
                                                  metric_text(tuning.before), unit, metric_text(after), unit);
-  verdict.sentence = first + change + (after.feasible() ? "; all limits kept" : "");
+  verdict.sentence = first + change + (after.feasible() ? "; all limits kept" : "") + ignored_text(tuning);
   verdict.counts["tried"] = std::ssize(tuning.trials.trials());
   for (const auto& part : tuning.used) verdict.counts["runs"] += part.second;
   return verdict;
