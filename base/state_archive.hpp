@@ -480,7 +480,7 @@ class StateArchive {
       std::size_t n = 0;
       ((n++ == index ? static_cast<void>(member.template emplace<T>()) : static_cast<void>(0)), ...);
     }
-    std::visit([this](auto& value) { one(value); }, member);
+    std::visit([this](auto& value) { this->one(value); }, member);
   }
   void container(std::monostate&) {}
 

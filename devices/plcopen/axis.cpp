@@ -224,7 +224,7 @@ void CouplingLink::visit(StateArchive& archive) {
 void CommandState::visit(StateArchive& archive) { STATE(archive, progress, error); }
 void WaitingCommand::visit(StateArchive& archive) { STATE(archive, ticket, mode, request); }
 void AxisRemark::visit(StateArchive& archive) { STATE(archive, event, text); }
-void Axis::Overlay::visit(StateArchive& archive) { STATE(archive, profile, time, ticket); }
+void Overlay::visit(StateArchive& archive) { STATE(archive, profile, time, ticket); }
 void Axis::Ended::visit(StateArchive& archive) { STATE(archive, ticket, state); }
 
 void Axis::visit(StateArchive& archive) {

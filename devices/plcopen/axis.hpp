@@ -82,6 +82,15 @@ struct AxisRemark {
   void visit(StateArchive& archive);
 };
 
+/// A superimposed movement.
+struct Overlay {
+  JerkProfile profile = {};
+  double time = 0;
+  std::uint64_t ticket = 0;
+
+  void visit(StateArchive& archive);
+};
+
 /// One axis: setpoints by the state diagram, actual values from counts, and the position controller that
 /// makes the drive's reference. Lengths are increments of 0.1 um or 0.0001 deg throughout.
 class Axis {
@@ -201,14 +210,6 @@ class Axis {
   void visit(StateArchive& archive);
 
  private:
-  /// A superimposed movement.
-  struct Overlay {
-    JerkProfile profile = {};
-    double time = 0;
-    std::uint64_t ticket = 0;
-
-    void visit(StateArchive& archive);
-  };
   /// How a command ended that is no longer in force.
   struct Ended {
     std::uint64_t ticket = 0;

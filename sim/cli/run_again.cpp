@@ -1,5 +1,6 @@
 // A run that goes on from a kept moment: of the same run, or of one from which it branches.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/run_work.hpp"
@@ -7,6 +8,7 @@
 #include "sim/loop/names.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
+#include "sim/studies/why/differences.hpp"
 
 namespace drycut::sim::cli {
 
@@ -28,9 +30,27 @@ struct Branch {
   Time at = never;
 };
 
+/// The folder of a run, or a problem of `option`.
+bool is_run(const fs::path& run, const std::string& name, const std::string& option, Problems& problems) {
+  if (file_exists(run / report::scenario_file) || folder_exists(run / loop::states_folder)) return true;
+  const auto inside = run / name;
+  problems.push_back({"record.no-run"_code, option, 1, 1,
+                      folder_exists(run) ? fmt::format("{} is not the folder of a run", run.string())
+                                         : fmt::format("there is no folder {}", run.string()),
+                      !name.empty() && file_exists(inside / report::scenario_file)
+                          ? fmt::format("did you mean {}?", inside.string())
+                          : "name a folder that drycut run made, such as out/rotary_knife"});
+  return false;
+}
+
 std::optional<Branch> read_branch(const std::string& text, Problems& problems) {
   const auto mark = text.rfind('@');
   if (mark == std::string::npos || fs::exists(text)) return Branch{text};
+  if (mark + 1 == text.size()) {
+    problems.push_back({"option.value"_code, "--from", 1, static_cast<int>(mark) + 2,
+                        "there is no time behind @", fmt::format("such as --from \"{}12.5 s\"", text)});
+    return {};
+  }
   const auto at = read_span(text.substr(mark + 1), static_cast<int>(mark) + 2, "--from",
                             scenario::Sign::not_negative, problems);
   if (!at) return {};
@@ -72,31 +92,63 @@ std::optional<loop::KeptMoment> stepped_to(const scenario::Scenario& scenario, b
   return moment_now(was, from != nullptr ? from->journal : StateArchive::Bytes());
 }
 
-/// The scenario of a kept moment, as it is now.
-std::optional<scenario::Scenario> scenario_of(const loop::StateOrigin& origin) {
+/// The scenario of a run that kept a moment, or is to run again: as it ran, else as its file is now.
+std::optional<scenario::Scenario> scenario_of(const fs::path& run, const loop::StateOrigin& origin) {
   std::vector<scenario::Override> overrides;
   for (const auto& [path, value] : origin.overrides) overrides.push_back({path, value});
   Problems problems;
-  auto scenario = scenario::read_scenario(origin.file, overrides, problems);
+  const auto ran = run / report::scenario_file;
+  const auto text = file_exists(ran) ? read_file(ran, problems) : std::nullopt;
+  auto scenario = text ? scenario::read_scenario_text(*text, origin.file, {}, problems)
+                       : scenario::read_scenario(origin.file, overrides, problems);
+  scenario.overrides = std::move(overrides);
   scenario.scene.seed = origin.seed;
   if (!problems.empty()) return {};
   return scenario;
 }
 
-/// What of --set the machine takes while it runs is set there; all else it has had from the beginning.
-void set_there(Job& job, const std::vector<scenario::Override>& set, Time when, Problems& problems) {
+/// What the machine and the controller take while they run is set there; of all else it is told that it
+/// counts only where the run has not come to it yet.
+void set_there(Job& job, const scenario::Scenario& was, Time when, Problems& problems) {
   constexpr std::string_view plants = "plants.";
-  for (const auto& [path, value] : set) {
-    const auto name = path.starts_with(plants) ? path.substr(plants.size()) : path;
-    if (!job.simulation->names().target(name)) continue;
-    auto act = live::read_act(fmt::format("set: {{{}: {}}}", name, value), "--set", when, problems);
-    if (act) job.then.push_back(std::move(*act));
+  constexpr std::size_t most_told = 6;
+  std::vector<std::string> set;
+  std::vector<std::string> others;
+  for (const auto& difference : studies::differences_between(was, job.scenario)) {
+    const auto& where = difference.where;
+    const auto preset = difference.preset();
+    const auto name = !preset.empty()             ? preset
+                      : where.starts_with(plants) ? where.substr(plants.size())
+                                                  : where;
+    if (difference.kind != studies::Difference::Kind::value || difference.failed.empty() ||
+        !job.simulation->names().target(name)) {
+      others.push_back(where);
+      continue;
+    }
+    auto act =
+        live::read_act(fmt::format("set: {{{}: {}}}", name, difference.failed), "--from", when, problems);
+    if (!act) continue;
+    set.push_back(fmt::format("{} = {}", name, difference.failed));
+    job.then.push_back(std::move(*act));
   }
+  const auto tell = [&](const std::string& what, std::vector<std::string>& list) {
+    if (list.empty()) return;
+    const auto more = list.size() > most_told ? list.size() - most_told : 0;
+    list.resize(list.size() - more);
+    job.notes.emplace_back("state.went-on"_code,
+                           fmt::format("{}: {}{}", what, fmt::join(list, ", "),
+                                       more > 0 ? fmt::format(" and {} more", more) : ""));
+  };
+  tell(fmt::format("set at {}", at(when)), set);
+  tell(
+      "other differences, which count from there on, where the run does not hold what has come of them "
+      "already",
+      others);
 }
 
 void branch_off(Job& job, const RunOptions& options, Problems& problems) {
   const auto branch = read_branch(options.from, problems);
-  if (!branch) return;
+  if (!branch || !is_run(branch->run, job.result.name, "--from", problems)) return;
   std::error_code ignored;
   if (fs::equivalent(branch->run, options.out / job.result.name, ignored)) {
     problems.push_back({"state.refused"_code, "--from", 1, 1,
@@ -120,24 +172,24 @@ void branch_off(Job& job, const RunOptions& options, Problems& problems) {
   }
   const auto begun = from_zero ? 0 : kept->head.time;
   auto until = branch->at == never ? begun : branch->at;
-  Problems none;
-  const auto was = from_zero ? std::optional(scenario::read_scenario(job.scenario.file, {}, none))
-                             : scenario_of(kept->head.origin);
-  auto moment = was && none.empty() ? stepped_to(*was, options.pictures, from_zero ? nullptr : &*kept, until)
-                                    : std::nullopt;
+  loop::StateOrigin now(job.scenario);
+  now.overrides.clear();
+  const auto was = scenario_of(branch->run, from_zero ? now : kept->head.origin);
+  auto moment = was ? stepped_to(*was, options.pictures, from_zero ? nullptr : &*kept, until) : std::nullopt;
   if (!moment && from_zero) {
     problems.push_back({"state.none"_code, "--from", 1, 1,
-                        fmt::format("{} keeps no state, and the scenario does not run to {}",
+                        fmt::format("{} keeps no state at {} or before, and the scenario does not run to it",
                                     branch->run.string(), at(until)),
                         "run it with --states \"1 s\""});
     return;
   }
   if (moment) {
-    job.notes.emplace_back(
-        "state.went-on"_code,
-        from_zero ? fmt::format("{} keeps no state: it ran from zero to {}", branch->run.string(), at(until))
-                  : fmt::format("branched at {} of {}, from the state at {}", at(until), branch->run.string(),
-                                at(begun)));
+    job.notes.emplace_back("state.went-on"_code,
+                           from_zero
+                               ? fmt::format("{} keeps no state at {} or before: it ran from zero to there",
+                                             branch->run.string(), at(until))
+                               : fmt::format("branched at {} of {}, from the state at {}", at(until),
+                                             branch->run.string(), at(begun)));
   } else {
     job.notes.emplace_back("state.went-on"_code,
                            fmt::format("branched at {} of {}: its scenario or programs have changed since, "
@@ -149,10 +201,11 @@ void branch_off(Job& job, const RunOptions& options, Problems& problems) {
   if (until >= job.scenario.scene.duration) {
     problems.push_back({"state.refused"_code, "--from", 1, 1,
                         fmt::format("the run ends at {}", at(job.scenario.scene.duration)),
-                        "branch before, or --set scene.duration"});
+                        fmt::format("name a time before, --from \"{}@12.5 s\", or --set scene.duration",
+                                    branch->run.string())});
     return;
   }
-  set_there(job, overrides_of(options.set, problems), until, problems);
+  if (was) set_there(job, *was, until, problems);
   job.from = std::move(moment);
   job.branches = true;
 }
@@ -177,19 +230,27 @@ void read_again(RunOptions& options, Problems& problems) {
                         "leave them away, or branch: --from \"DIR@12.5 s\" --set ..."});
     return;
   }
-  std::vector<Finding> notes;
-  const auto moment = moment_of(options.resume, never, notes);
-  for (const auto& note : notes) fmt::print(stderr, "{} [{}]\n", note.text, note.code);
+  if (const auto mark = options.resume.string().rfind('@');
+      mark != std::string::npos && !folder_exists(options.resume)) {
+    problems.push_back(
+        {"option.does-not-apply"_code, "--resume", 1, 1, "a run goes on from its last moment",
+         fmt::format("leave away the time, or branch: --from \"{}\"", options.resume.string())});
+    return;
+  }
+  if (!is_run(options.resume, "", "--resume", problems)) return;
+  std::vector<Finding> ignored;  // told with the run
+  const auto moment = moment_of(options.resume, never, ignored);
   if (!moment) {
     problems.push_back({"state.none"_code, "--resume", 1, 1,
                         fmt::format("{} keeps no state", options.resume.string()),
                         "name the folder of a run with --states: out/NAME"});
     return;
   }
-  const auto folder = fs::absolute(options.resume / "").lexically_normal().parent_path();
+  const auto folder = (options.resume / "").lexically_normal().parent_path();
   const auto& origin = moment->head.origin;
-  options.out = folder.parent_path();
-  options.scenarios = {origin.file};
+  options.out = folder.parent_path().empty() ? fs::path(".") : folder.parent_path();
+  options.scenarios = {report::path_from_here(origin.file)};
+  if (moment->head.plain) options.pictures = false;
   for (const auto& [path, value] : origin.overrides) options.set.push_back(path + "=" + value);
   options.seed = origin.seed;
   if (!options.every && moment->head.every != never) options.every = moment->head.every;
@@ -198,6 +259,19 @@ void read_again(RunOptions& options, Problems& problems) {
                         fmt::format("{} is not the folder of {}", options.resume.string(), origin.file),
                         "give it its name again"});
 }
+
+namespace {
+
+/// Why a machine does not take a moment.
+std::string refusal(const loop::KeptMoment& moment, const scenario::Scenario& scenario,
+                    const std::string& why) {
+  const auto differs = moment.head.origin.differs_from(loop::StateOrigin(scenario));
+  return differs.empty() ? fmt::format("the moment at {}: {}", at(moment.head.time), why)
+                         : fmt::format("the moment at {} is of another machine or program; not the same: {}",
+                                       at(moment.head.time), differs);
+}
+
+}  // namespace
 
 void go_on(Job& job, const RunOptions& options, Problems& problems) {
   if (!options.resume.empty()) {
@@ -215,8 +289,9 @@ void go_on(Job& job, const RunOptions& options, Problems& problems) {
     for (const auto& stimulus : job.then) job.simulation->act(stimulus, problems);
   } catch (const BadState& bad) {
     problems.push_back({"state.refused"_code, options.resume.empty() ? "--from" : "--resume", 1, 1,
-                        fmt::format("the state at {}: {}", at(job.from->head.time), bad.what()),
-                        "run from zero"});
+                        refusal(*job.from, job.scenario, bad.what()),
+                        job.branches ? "branch off a run of this machine, or run from zero"
+                                     : "branch, --from \"DIR@TIME\", or run from zero"});
   }
 }
 

@@ -310,7 +310,8 @@ void run_options(CLI::App& run, int& status) {
   run.add_option("--keep", options.most_states, "With --states: so many moments, evenly over the run")
       ->check(CLI::Range(4, 100000))
       ->capture_default_str();
-  run.add_option("--resume", options.resume, "Go on with a run that was stopped: the folder of its results");
+  run.add_option("--resume", options.resume, "Go on with a run that was stopped: the folder of its results")
+      ->excludes(run.get_option("--out"));
   run.add_option(
       "--from", options.from,
       "Branch off a run at a time, \"out/line@12.5 s\": from there on with this scenario and --set");

@@ -144,10 +144,9 @@ void KeptStates::give_up() {
   }
 }
 
+// First those go that came between since the last time; where these are none, every second one.
 void KeptStates::thin() {
-  if (kept_.size() <= most_) return;
-  while (kept_.size() > most_) {
-    stride_ *= 2;
+  for (; kept_.size() > most_; stride_ *= 2) {
     for (std::size_t i = 0; i + 2 < kept_.size();) {
       if (kept_[i].number % stride_ == 0) {
         ++i;

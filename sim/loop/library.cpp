@@ -146,7 +146,7 @@ void Simulation::restore(const std::vector<std::byte>& moment) {
   try {
     run_->simulation.restore(moment);
   } catch (const BadState& bad) {
-    throw BadInput(std::string("this moment cannot be come back to: ") + bad.what());
+    throw BadInput(std::string("this moment cannot be restored: ") + bad.what());
   }
   run_->events.clear();
 }

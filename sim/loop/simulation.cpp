@@ -657,6 +657,7 @@ StateArchive::Bytes Simulation::save(StateArchive::Journal* journal) {
   StateArchive::save(state, *this, nullptr, journal);
   state_size_ = state.size();
   StateHead head{{}, time_, keep_every_};
+  head.plain = keep_plain_;
   if (journal != nullptr) {
     head.journal = journal->end();
     head.journal_sum = journal->sum;

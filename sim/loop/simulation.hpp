@@ -68,9 +68,11 @@ class Simulation {
     if (failure_.empty()) failure_ = why;
   }
 
-  /// Has `keep` called every so often while it runs; before run().
-  void keep_states(Time every, std::function<void()> keep) {
+  /// Has `keep` called every so often while it runs; before run(). `plain`: it draws nothing, which states
+  /// say.
+  void keep_states(Time every, bool plain, std::function<void()> keep) {
     keep_every_ = every;
+    keep_plain_ = plain;
     keep_ = std::move(keep);
   }
 
@@ -210,6 +212,7 @@ class Simulation {
   std::size_t events_seen_ = 0;
   Time next_record_ = 0;
   Time keep_every_ = never;
+  bool keep_plain_ = false;
   std::function<void()> keep_;
   std::unique_ptr<Shutter> shutter_;
   std::vector<plants::Part> parts_;  ///< of all plants, from the first shot on

@@ -34,6 +34,7 @@ struct StateHead {
   Time every = never;                                   ///< how often it was kept
   std::uint64_t journal = 0;                            ///< bytes of it that belong to the state ...
   std::uint64_t journal_sum = StateArchive::first_sum;  ///< ... and their sum
+  bool plain = false;                                   ///< the run draws nothing
 };
 
 /// The beginning of all states of an origin: their members are appended.

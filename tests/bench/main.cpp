@@ -54,7 +54,7 @@ void run_line() {
 void run_line_with_states() {
   with_line([](auto& simulation) {
     StateArchive::Bytes state;
-    simulation.keep_states(sim::second, [&] { state = simulation.save(); });
+    simulation.keep_states(sim::second, true, [&] { state = simulation.save(); });
     simulation.run();
   });
 }

@@ -352,6 +352,19 @@ TEST_F(KeptMoments, LieEvenlyOverTheRunAndTheLastTwoAlways) {
   EXPECT_EQ(kept[kept.size() - 2], "0000001.950000000");
 }
 
+// Of very many there is always one not far before any time.
+TEST_F(KeptMoments, LieEvenlyHoweverManyThereWere) {
+  ASSERT_EQ(run({.states = "500 us", .most_states = 8}), 0) << err;
+  const auto kept = states();
+  ASSERT_LE(kept.size(), 8U);
+  ASSERT_GE(kept.size(), 5U);
+  const auto at = [&](std::size_t n) { return std::stod(kept[n]); };
+  const double stride = at(1) - at(0);
+  EXPECT_LE(at(0), stride + 1e-9);
+  for (std::size_t n = 2; n + 2 < kept.size(); ++n) EXPECT_NEAR(at(n) - at(n - 1), stride, 1e-9) << n;
+  EXPECT_LE(at(kept.size() - 1) - at(kept.size() - 3), 2 * stride + 1e-9);
+}
+
 TEST_F(KeptMoments, GoOnToTheSameBytes) {
   ASSERT_EQ(run({.out = folder / "whole"}), 0);
   ASSERT_EQ(run({.states = "50 ms"}), 0);
@@ -390,6 +403,20 @@ TEST_F(KeptMoments, BranchWhereOneLikes) {
   EXPECT_GT(std::stod(after.substr(faster + 5)), 75);  // on its way to 90
 }
 
+TEST_F(KeptMoments, ABranchHasTheValuesThatItsFileHas) {
+  ASSERT_EQ(run({.states = "0.5 s"}), 0);
+  auto slower = std::string(web);
+  slower.replace(slower.find("60 m/min"), 2, "30");
+  folder.file("web.yaml", slower);
+  ASSERT_EQ(run({.out = folder / "branch", .from = (folder / "out/web").string() + "@1.2 s"}), 0) << err;
+  EXPECT_THAT(out,
+              AllOf(HasSubstr("set at 1.2 s: web.speed = 30 m/min"), HasSubstr("from the state at 1.0 s")));
+  const auto after = content(folder / "branch/web/trace.csv");
+  const auto end = after.find("\n2,") != std::string::npos ? after.find("\n2,") : after.find("\n2.0,");
+  ASSERT_NE(end, std::string::npos);
+  EXPECT_LT(std::stod(after.substr(after.find(',', end) + 1)), 50);  // on its way to 30
+}
+
 TEST_F(KeptMoments, WithoutStatesABranchRunsFromZero) {
   ASSERT_EQ(run({}), 0);
   ASSERT_EQ(run({.out = folder / "branch", .from = (folder / "out/web").string() + "@1.2 s"}), 0) << err;
@@ -406,6 +433,10 @@ TEST_F(KeptMoments, RefuseWhatDoesNotFit) {
   EXPECT_EQ(run({.out = folder / "branch", .from = (folder / "out/web").string() + "@1.2"}), 2);
   EXPECT_EQ(run({.out = folder / "branch", .from = (folder / "out/web").string()}), 2);
   EXPECT_THAT(err, HasSubstr("[state.none]"));
+  EXPECT_EQ(run({.out = folder / "branch", .from = (folder / "none").string() + "@1.2 s"}), 2);
+  EXPECT_THAT(err, HasSubstr("[record.no-run]"));
+  EXPECT_EQ(run({.resume = folder / "none"}), 2);
+  EXPECT_THAT(err, HasSubstr("[record.no-run]"));
   EXPECT_EQ(run({.states = "0 s"}), 2);
   EXPECT_EQ(run({.states = "soon"}), 2);
   ASSERT_EQ(run({.states = "0.5 s"}), 0);

@@ -24,7 +24,7 @@ std::optional<std::pair<double, double>> stretch_in(const std::string& text) {
   if (dots == std::string::npos || !text.ends_with('%')) return {};
   const auto low = parsed<double>(trimmed(text.substr(0, dots)));
   const auto high = parsed<double>(trimmed(text.substr(dots + 2, text.size() - dots - 3)));
-  if (!low || !high) return {};
+  if (!low || !high || *low < 0 || *low > *high || *high > 100) return {};
   return std::pair(*low, *high);
 }
 
@@ -42,6 +42,9 @@ class EntryReader {
     entry.fault = word("fault");
     entry.when = word("when");
     entry.why = word("why");
+    if (entry.when.find("..") != std::string::npos && !stretch_in(entry.when))
+      refuse(place("when"), fmt::format("'{}' is no stretch of a cycle", entry.when),
+             "such as 20..45 %, from 0 to 100, or the name of a moment as faults.csv has it");
     const auto cell = word("cell");
     if (cell == record::word_of(FaultCell::Kind::damage))
       entry.cell = FaultCell::Kind::damage;

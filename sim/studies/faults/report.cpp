@@ -195,6 +195,9 @@ record::Verdict verdict_of(const FaultQuestion& question, const FaultMatrix& mat
     if (count(kind) > 0) parts.push_back(fmt::format("{} {}", count(kind), std::string(text_of(kind))));
   verdict.sentence = fmt::format("{} at {}: {}", plural(question.faults.size(), "fault"),
                                  plural(question.when.size(), "moment"), fmt::join(parts, ", "));
+  const auto accepted = matrix.accepted.size() - static_cast<std::size_t>(std::ranges::count(
+                                                     matrix.accepted, std::optional<std::size_t>()));
+  if (accepted > 0) verdict.sentence += fmt::format("; {} of them accepted", accepted);
   verdict.judge(failing == 0);
   verdict.found(question.notes);
   verdict.found(findings);

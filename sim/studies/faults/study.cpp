@@ -161,10 +161,10 @@ std::vector<Finding> accept_cells(const FaultQuestion& question, const std::vect
       if (!matrix.accepted[i]) matrix.accepted[i] = entry;
     }
     if (!used)
-      findings.emplace_back(
-          "faults.accepts-nothing"_code,
-          fmt::format("the accepted cells of line {} are none: {} {} is {} nowhere", entries[entry].line,
-                      entries[entry].fault, entries[entry].when, record::word_of(entries[entry].cell)));
+      findings.emplace_back("faults.accepts-nothing"_code,
+                            fmt::format("the accepted cells of line {} are none: of {}, at '{}', none is {}",
+                                        entries[entry].line, entries[entry].fault, entries[entry].when,
+                                        record::word_of(entries[entry].cell)));
   }
   return findings;
 }

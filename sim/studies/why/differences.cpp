@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/units.hpp"
 
@@ -264,6 +265,19 @@ YamlNode without_looks(YamlNode root) {
 
 YamlNode mixed_tree(const YamlNode& good, const YamlNode& failed, const Take& take) {
   return Mixer(take).mix(good, failed, "");
+}
+
+std::vector<Difference> differences_between(const scenario::Scenario& one, const scenario::Scenario& other) {
+  scenario::Findings ignored({"expanded"});  // they were read
+  const auto tree = [&](const scenario::Scenario& scenario) {
+    return without_looks(scenario::parse_scenario(scenario::expand(scenario), 0, ignored));
+  };
+  std::vector<Difference> found;
+  static_cast<void>(mixed_tree(tree(one), tree(other), [&](const Difference& difference) {
+    found.push_back(difference);
+    return TakenSide::good;
+  }));
+  return found;
 }
 
 std::string mixed_lines(const std::string& name, const std::string& good, const std::string& failed,

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/scenario/scenario.hpp"
 #include "sim/scenario/yaml_node.hpp"
 
 namespace drycut::sim::studies {
@@ -37,6 +38,8 @@ scenario::YamlNode without_looks(scenario::YamlNode root);
 /// The tree between two.
 scenario::YamlNode mixed_tree(const scenario::YamlNode& good, const scenario::YamlNode& failed,
                               const Take& take);
+/// All values and entries in which a scenario is another, looks apart.
+std::vector<Difference> differences_between(const scenario::Scenario& one, const scenario::Scenario& other);
 /// A text between two, line by line; `name`: what its lines are called.
 std::string mixed_lines(const std::string& name, const std::string& good, const std::string& failed,
                         const Take& take);

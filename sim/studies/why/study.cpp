@@ -49,7 +49,11 @@ std::optional<FailedCheck> check_of(const WhyRequest& request, const record::Out
 /// What the run says of itself: check, cause, chain, slide.
 void tell_run(const FailedRun& run, const FailedCheck& check, const loop::Signs* good, WhyFound& found) {
   found.check = check.name;
-  found.because = run.outcome.cause();
+  // That nothing else is amiss is no answer.
+  const bool told = std::ranges::none_of(run.outcome.findings, [](const Finding& finding) {
+    return finding.role == Finding::Role::cause && finding.code == "check.alone-fails";
+  });
+  if (told) found.because = run.outcome.cause();
   if (const auto* result = find_check(run.outcome, check.name)) {
     found.failed_at = result->failed_at;
     found.unit = result->unit;
@@ -109,7 +113,7 @@ std::optional<CauseRun> run_cause(const Mixture& mixture, const Subset& cause, c
   keep();
   const auto& scene = with.scenario().scene;
   const auto every = std::max<Time>(1, scene.duration / kept_branches / scene.step) * scene.step;
-  simulation.keep_states(every, keep);
+  simulation.keep_states(every, true, keep);
   const auto outcome = with.run();
   const auto* result = find_check(outcome, check.name);
   run.failed_at = result != nullptr && result->failed_at ? *result->failed_at : seconds(outcome.end);
