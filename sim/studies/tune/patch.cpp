@@ -54,18 +54,17 @@ std::vector<PatchEntry> entries_of(const Tuning& tuning) {
                        before ? fmt::format("drycut tune; before: {}", value_text(parameters[i], *before))
                               : std::string("drycut tune")});
   }
-  return entries;
-}
-
-/// What it was tried with: no part of the machine's change.
-std::vector<PatchEntry> set_of(const Tuning& tuning, const std::vector<PatchEntry>& entries) {
-  std::vector<PatchEntry> others;
   for (const auto& override : tuning.study.set) {
     const bool told = std::any_of(entries.begin(), entries.end(),
                                   [&](const PatchEntry& entry) { return entry.path == override.path; });
-    if (!told) others.push_back({override.path, override.value, "--set"});
+    if (!told) entries.push_back({override.path, override.value, "--set"});
   }
-  return others;
+  return entries;
+}
+
+/// Set for the trial, and nothing of the machine: how long it ran, for what product, what was done to it.
+bool is_of_trial(const PatchEntry& entry) {
+  return entry.who == "--set" && !entry.path.starts_with("controller.") && !entry.path.starts_with("plants.");
 }
 
 std::string yaml_of(std::vector<PatchEntry> entries) {
@@ -95,15 +94,14 @@ std::string qcl_line(std::string name, double value) {
 
 std::string patch_text(const Tuning& tuning) {
   auto entries = entries_of(tuning);
-  const auto tried_with = set_of(tuning, entries);
   const bool has_any = !entries.empty();
   std::string arguments = "#  ";
   std::string with;
-  for (const auto& entry : entries) arguments += fmt::format(" --set \"{}={}\"", entry.path, entry.value);
-  for (const auto& entry : tried_with) {
+  for (const auto& entry : entries) {
     arguments += fmt::format(" --set \"{}={}\"", entry.path, entry.value);
-    with += fmt::format("#   {}: {}\n", entry.path, entry.value);
+    if (is_of_trial(entry)) with += fmt::format("#   {}: {}\n", entry.path, entry.value);
   }
+  std::erase_if(entries, is_of_trial);
   std::string qcl;
   for (std::size_t i = 0; i < tuning.trials.parameters().size() && !tuning.stays; ++i) {
     const auto preset = preset_name(tuning.trials.parameters()[i].path);
