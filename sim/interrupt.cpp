@@ -20,8 +20,12 @@ InterruptWatch::InterruptWatch(Ends ends) {
   if (watches++ > 0) return;
   came = 0;
   struct sigaction action {};
-  action.sa_handler = [](int signal) { came = signal; };
-  action.sa_flags = SA_RESETHAND;
+  // A second one, whichever it is, is not kept.
+  action.sa_handler = [](int signal) {
+    if (came != 0) raise(signal);
+    came = signal;
+  };
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
   for (std::size_t i = 0; i < watched.size(); ++i) sigaction(watched[i], &action, &before[i]);
 }
 

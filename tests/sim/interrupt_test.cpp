@@ -68,6 +68,13 @@ TEST(Interrupt, IsWatchedUntilTheLastWatchHasEnded) {
     _exit(0);
   };
   EXPECT_EXIT(over(), testing::KilledBySignal(SIGTERM), "");
+  const auto another = [] {
+    const InterruptWatch watch;
+    std::raise(SIGINT);
+    std::raise(SIGTERM);
+    _exit(0);
+  };
+  EXPECT_EXIT(another(), testing::KilledBySignal(SIGTERM), "");
 }
 
 }  // namespace
