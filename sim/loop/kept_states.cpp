@@ -144,9 +144,10 @@ void KeptStates::give_up() {
   }
 }
 
-// First those go that came between since the last time; where these are none, every second one.
+// First those go that came between since the last time; where that is not enough, every second one.
 void KeptStates::thin() {
-  for (; kept_.size() > most_; stride_ *= 2) {
+  while (kept_.size() > most_) {
+    const auto before = kept_.size();
     for (std::size_t i = 0; i + 2 < kept_.size();) {
       if (kept_[i].number % stride_ == 0) {
         ++i;
@@ -155,6 +156,7 @@ void KeptStates::thin() {
       folder_.take_back(kept_[i].name);
       kept_.erase(kept_.begin() + static_cast<std::ptrdiff_t>(i));
     }
+    if (kept_.size() == before) stride_ *= 2;
   }
 }
 
