@@ -144,25 +144,28 @@ void KeptStates::give_up() {
   }
 }
 
-// First those go that came between since the last time; where that is not enough, every second one.
+// All but the last two lie on the stride, which doubles where they are still too many.
 void KeptStates::thin() {
   const auto take_back = [&](std::size_t i) {
     folder_.take_back(kept_[i].name);
     kept_.erase(kept_.begin() + static_cast<std::ptrdiff_t>(i));
   };
-  while (kept_.size() > most_) {
-    const auto before = kept_.size();
+  const auto drop = [&] {
     for (std::size_t i = 0; i + 2 < kept_.size();) {
       if (kept_[i].number % stride_ == 0)
         ++i;
       else
         take_back(i);
     }
-    if (kept_.size() < before) continue;
-    if (stride_ <= kept_.back().number)
-      stride_ *= 2;
-    else
+  };
+  drop();
+  while (kept_.size() > most_) {
+    if (stride_ > kept_.back().number) {
       take_back(0);  // of a run that kept them closer before it went on
+    } else {
+      stride_ *= 2;
+      drop();
+    }
   }
 }
 

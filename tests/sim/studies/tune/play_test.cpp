@@ -100,9 +100,8 @@ TEST_F(TunePlay, MachinesOfTheSpreadThatHuntAreTold) {
       out,
       HasSubstr("Spread of the machine: 2 samples, 2 beyond a limit; worst of the limits: it hunts after a "
                 "push: 1"));
-  EXPECT_THAT(
-      out, ContainsRegex(
-               "; over the spread 2 machines hunt, the worst from (1|0[.][89][0-9]*) times the gain on\n"));
+  EXPECT_THAT(out, ContainsRegex("; over the spread 2 machines go on hunting, the worst from "
+                                 "(1|0[.][89][0-9]*) times the gain on\n"));
 }
 
 // A sine that stays in the play answers at no gain: it is told at once, and how it can be had.
