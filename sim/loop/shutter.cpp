@@ -71,7 +71,7 @@ void Snapshot::visit(StateArchive& archive) {
   bool has_quota = quota.has_value();
   STATE(archive, has_quota);
   if (!has_quota) return quota.reset();
-  if (!quota) quota.emplace();
+  if (!quota) quota = Quota{};
   STATE(archive, quota->line.left, quota->line.right, quota->line.miss, quota->place);
 }
 

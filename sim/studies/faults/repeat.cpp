@@ -26,19 +26,21 @@ std::string section_in(const std::string& expanded, const std::string& name) {
 
 /// A map in which overrides come to stand: plants: {web: {speed: 80 m/min}}.
 struct SetMap {
-  std::vector<std::pair<std::string, SetMap>> branches;
+  std::string name;
+  std::vector<SetMap> branches;
   std::string value;
 
   SetMap& at(const std::string& key) {
-    for (auto& [name, branch] : branches)
-      if (name == key) return branch;
-    return branches.emplace_back(key, SetMap{}).second;
+    for (auto& branch : branches)
+      if (branch.name == key) return branch;
+    branches.push_back({key, {}, ""});
+    return branches.back();
   }
   [[nodiscard]] std::string text() const {
     if (branches.empty()) return value;
     std::vector<std::string> entries;
-    for (const auto& [name, branch] : branches)
-      entries.push_back(fmt::format("{}: {}", scenario::yaml_text(name), branch.text()));
+    for (const auto& branch : branches)
+      entries.push_back(fmt::format("{}: {}", scenario::yaml_text(branch.name), branch.text()));
     return scenario::yaml_map(entries);
   }
 };
@@ -85,12 +87,12 @@ CellScenarios::CellScenarios(const FaultQuestion& question, const std::filesyste
     branch->value = value;
   }
   root.at("scene").at("duration");
-  for (const auto& [name, branch] : root.branches)
-    if (name != "scene")
-      sections_.push_back(fmt::format("{}: {}\n", scenario::yaml_text(name), branch.text()));
+  for (const auto& branch : root.branches)
+    if (branch.name != "scene")
+      sections_.push_back(fmt::format("{}: {}\n", scenario::yaml_text(branch.name), branch.text()));
   std::string scene;
-  for (const auto& [name, branch] : root.at("scene").branches)
-    if (name != "duration") scene += fmt::format(", {}: {}", name, branch.text());
+  for (const auto& branch : root.at("scene").branches)
+    if (branch.name != "duration") scene += fmt::format(", {}: {}", branch.name, branch.text());
   sections_.insert(sections_.begin(), scene);
 }
 
