@@ -10,13 +10,14 @@ void Softening::visit(StateArchive& archive) { STATE(archive, half_width, change
 void GrainResolution::visit(StateArchive& archive) { STATE(archive, measure, pulse); }
 void Space::visit(StateArchive& archive) { STATE(archive, grains, fraction); }
 void Point::visit(StateArchive& archive) { STATE(archive, bits, part, fraction); }
-void Row::visit(StateArchive& archive) { STATE(archive, codeG, codeQm, codeQs, codeQma, codeQsa, codeM); }
+void Row::visit(StateArchive& archive) { archive.plain("codes", *this); }
 void CamSettings::visit(StateArchive& archive) { STATE(archive, master, slave, decpt); }
 void CamEvent::visit(StateArchive& archive) { STATE(archive, code, row); }
 void Sector::visit(StateArchive& archive) {
+  const bool was_entered = number != 0;
   STATE(archive, number);
   if (number == 0) {  // never entered, as most of the 128
-    if (archive.restores()) *this = {};
+    if (was_entered) *this = {};
     return;
   }
   STATE(archive, kind, row, reads_out, entered_ahead, law, arc, master, slave, entry_speed, exit_speed, exit);
