@@ -167,7 +167,7 @@ void branch_off(Job& job, const RunOptions& options, Problems& problems) {
   if (from_zero && branch->at == never) {
     problems.push_back({"state.none"_code, "--from", 1, 1,
                         fmt::format("{} keeps no state", branch->run.string()),
-                        "run it with --states \"1 s\", or name the time: --from \"DIR@12.5 s\""});
+                        R"(run it with --states "1 s", or name the time: --from "DIR@12.5 s")"});
     return;
   }
   const auto begun = from_zero ? 0 : kept->head.time;
@@ -251,7 +251,7 @@ void read_again(RunOptions& options, Problems& problems) {
   options.out = folder.parent_path().empty() ? fs::path(".") : folder.parent_path();
   options.scenarios = {report::path_from_here(origin.file)};
   if (moment->head.plain) options.pictures = false;
-  for (const auto& [path, value] : origin.overrides) options.set.push_back(path + "=" + value);
+  for (const auto& [path, value] : origin.overrides) options.set.push_back(fmt::format("{}={}", path, value));
   options.seed = origin.seed;
   if (!options.every && moment->head.every != never) options.every = moment->head.every;
   if (result_names(options.scenarios).front() != folder.filename())

@@ -79,7 +79,7 @@ CellScenarios::CellScenarios(const FaultQuestion& question, const std::filesyste
     // The timeline has them already, the pictures are its own.
     if (parts.front() == "timeline" || parts.front() == "pictures" || path == "scene.duration") continue;
     if (!goes_into_maps(parts)) {
-      also_.push_back(path + "=" + value);
+      also_.push_back(fmt::format("{}={}", path, value));
       continue;
     }
     auto* branch = &root;
