@@ -38,6 +38,17 @@ class Recalculation {
   int left_ = 0;                                                            ///< their sum
 };
 
+/// An edge of an armed input: where the axes were, to the count.
+struct Capture {
+  std::int64_t slave = 0;  ///< totals [bits x4]
+  std::int64_t master = 0;
+  std::int64_t start = 0;         ///< master's origin of a cam that it starts
+  std::optional<int> delay = {};  ///< samples of recalculation that it waits for, once sampled
+  bool late = false;              ///< it waited (warning 8)
+
+  void visit(StateArchive& archive);
+};
+
 /// The CAMMING4 device: a positioner and a cam generator on one slave axis (000 1; spec qem.md 8).
 class Camming4 final : public axis::AnaloguePositioner<camming4_type> {
  public:
@@ -61,16 +72,6 @@ class Camming4 final : public axis::AnaloguePositioner<camming4_type> {
   void refused(int command) override;
 
  private:
-  /// An edge of an armed input: where the axes were, to the count.
-  struct Capture {
-    std::int64_t slave = 0;  ///< totals [bits x4]
-    std::int64_t master = 0;
-    std::int64_t start = 0;         ///< master's origin of a cam that it starts
-    std::optional<int> delay = {};  ///< samples of recalculation that it waits for, once sampled
-    bool late = false;              ///< it waited (warning 8)
-
-    void visit(StateArchive& archive);
-  };
   /// The terminals of the record; nullptr or line 0 where the .CNF says X.X or X.
   struct Terminals {
     std::array<const Counter*, 2> master = {};  ///< A and B

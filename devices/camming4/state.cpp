@@ -38,7 +38,7 @@ void Cam::visit(StateArchive& archive) {
 }
 
 void Recalculation::visit(StateArchive& archive) { STATE(archive, of_each_, left_); }
-void Camming4::Capture::visit(StateArchive& archive) { STATE(archive, slave, master, start, delay, late); }
+void Capture::visit(StateArchive& archive) { STATE(archive, slave, master, start, delay, late); }
 void Camming4::visit(StateArchive& archive) {
   AnaloguePositioner::visit(archive);
   STATE(archive, master_, master_quota_, master_resolution_, master_frequency_, master_window_ms_,
