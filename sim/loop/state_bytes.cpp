@@ -21,17 +21,18 @@ constexpr std::uint32_t format = 1;
 struct Begin {
   char mark[8];
   std::uint32_t format;
-  std::uint32_t plain;  // 1: the run draws nothing
-  std::uint64_t size;   // of all
-  std::uint64_t sum;    // over what follows
+  std::uint32_t unused;
+  std::uint64_t size;  // of all
+  std::uint64_t sum;   // over what follows
   // Of the head.
   std::int64_t time;
   std::int64_t every;
   std::uint64_t journal;
   std::uint64_t journal_sum;
+  std::uint64_t plain;  // 1: the run draws nothing
 };
 constexpr std::size_t unsummed = offsetof(Begin, time);
-static_assert(sizeof(Begin) == 64 && mark.size() == sizeof Begin::mark);
+static_assert(sizeof(Begin) == 72 && mark.size() == sizeof Begin::mark);
 
 std::string digest(std::string_view text) {
   Fingerprint hash;
@@ -90,8 +91,8 @@ StateArchive::Bytes begun_state(StateOrigin origin) {
 }
 
 void seal(StateArchive::Bytes& state, const StateHead& head) {
-  Begin begin{{},        format,     head.plain ? 1U : 0U, state.size(),    0,
-              head.time, head.every, head.journal,         head.journal_sum};
+  Begin begin{{},           format,           0,         state.size(), 0, head.time, head.every,
+              head.journal, head.journal_sum, head.plain};
   std::ranges::copy(mark, begin.mark);
   std::memcpy(state.data(), &begin, sizeof begin);
   begin.sum = StateArchive::sum_of(std::span(state).subspan(unsummed));
@@ -105,7 +106,7 @@ OpenedState open_state(std::span<const std::byte> bytes, std::span<const std::by
   if (std::string_view(begin.mark, sizeof begin.mark) != mark) throw BadState("it is no state of drycut");
   if (begin.format != format)
     throw BadState(fmt::format("it is a state of format {}, this drycut has {}", begin.format, format));
-  if (begin.plain > 1) throw BadState("it was changed");
+  if (begin.unused != 0) throw BadState("it was changed");
   if (begin.size != bytes.size()) throw BadState("it is cut short, or something stands behind it");
   if (begin.sum != StateArchive::sum_of(bytes.subspan(unsummed))) throw BadState("it was changed");
   OpenedState opened{{{}, begin.time, begin.every, begin.journal, begin.journal_sum, begin.plain == 1}, {}};

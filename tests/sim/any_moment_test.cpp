@@ -254,9 +254,11 @@ TEST(AnyMoment, NoByteMayBeAnother) {
   const auto kept = line.simulation->save();
   const auto before = line.members();
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    auto bad = kept;
-    bad[i] ^= std::byte{0x10};
-    ASSERT_NE(refusal(*line.simulation, bad), "") << "byte " << i;
+    for (const auto bit : {std::byte{0x10}, std::byte{0x01}}) {
+      auto bad = kept;
+      bad[i] ^= bit;
+      ASSERT_NE(refusal(*line.simulation, bad), "") << "byte " << i;
+    }
   }
   for (const std::size_t size :
        {std::size_t{0}, std::size_t{7}, std::size_t{31}, std::size_t{32}, kept.size() - 1})

@@ -244,6 +244,19 @@ double largest_metric(const Trials& spread) {
   return largest;
 }
 
+/// "; checks ignored, 1 of 7 failed with these values"; "" where they count.
+std::string ignored_text(const Tuning& tuning) {
+  if (!tuning.study.ignore_checks) return "";
+  std::size_t failed = 0;
+  std::size_t all = 0;
+  for (const auto& run : tuning.runs_after)
+    for (const auto& check : run.outcome.checks) {
+      ++all;
+      if (!check.passed) ++failed;
+    }
+  return fmt::format("; checks ignored (--ignore-checks), {} of {} failed with these values", failed, all);
+}
+
 }  // namespace
 
 std::string miss_text(const Tuning& tuning) {
@@ -318,23 +331,6 @@ std::string summary_text(const Tuning& tuning) {
   if (const auto ends = at_the_ends(tuning); !ends.empty()) text += "\n" + ends;
   return text + "\n" + patch_text(tuning);
 }
-
-namespace {
-
-/// "; checks ignored, 1 of 7 failed with these values"; "" where they count.
-std::string ignored_text(const Tuning& tuning) {
-  if (!tuning.study.ignore_checks) return "";
-  std::size_t failed = 0;
-  std::size_t all = 0;
-  for (const auto& run : tuning.runs_after)
-    for (const auto& check : run.outcome.checks) {
-      ++all;
-      if (!check.passed) ++failed;
-    }
-  return fmt::format("; checks ignored (--ignore-checks), {} of {} failed with these values", failed, all);
-}
-
-}  // namespace
 
 record::Verdict verdict_of(const Tuning& tuning) {
   const auto& after = tuning.after();
