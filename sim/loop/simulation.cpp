@@ -396,6 +396,7 @@ std::vector<Reading> Simulation::controller_values() {
 
 void Simulation::run_to_end(const std::function<void(Time)>& progress) {
   constexpr int steps_between_reports = 2000;
+  if (keep_plain_) shutter_->close();  // states want rows and events, and no poses
   begin();
   int countdown = steps_between_reports;
   const auto next_after = [&](Time now) { return keep_ ? (now / keep_every_ + 1) * keep_every_ : never; };

@@ -79,7 +79,7 @@ RunLeft RunFolder::run(const scenario::Scenario& scenario, loop::Simulation& sim
   std::optional<loop::KeptStates> states;
   if (request.states) {
     states.emplace(files_, *request.states, request.most_states, request.from);
-    simulation.keep_states(*request.states, !request.pictures, [&] { states->keep(simulation); });
+    simulation.keep_states(*request.states, !is_drawn, [&] { states->keep(simulation); });
   }
   using Clock = std::chrono::steady_clock;
   const auto begun = Clock::now();
