@@ -171,11 +171,21 @@ void OutputFolder::write_manifest(const std::set<std::string>& names) {
   listed_ = names;
 }
 
-void OutputFolder::take_back(const std::string& name) {
-  remove({name});
+void OutputFolder::take_back(const std::vector<std::string>& names) {
+  remove({names.begin(), names.end()});
   auto staying = listed_;
-  staying.erase(name);
+  for (const auto& name : names) staying.erase(name);
   write_manifest(staying);
+}
+
+// The manifest keeps the old name until it is next written whole: that nothing lies there does no harm.
+fs::path OutputFolder::reuse(const std::string& file, const std::string& name) {
+  std::error_code error;
+  fs::rename(folder_ / file, folder_ / name, error);
+  require(!error, "write", folder_ / name, error);
+  listed_.erase(file);
+  list({name});
+  return folder_ / name;
 }
 
 void OutputFolder::begin(const std::vector<std::string>& kept) {

@@ -34,8 +34,11 @@ class OutputFolder {
   /// Throws likewise.
   void finish();
 
-  /// Removes one file that it has, and no longer lists it. Throws likewise.
-  void take_back(const std::string& name);
+  /// Removes files that it has, and no longer lists them. Throws likewise.
+  void take_back(const std::vector<std::string>& names);
+  /// Calls a file that it has, and that nobody wants any more, by the name of one about to be written into
+  /// it; returns its path. Nothing else lies under that name. Throws likewise.
+  std::filesystem::path reuse(const std::string& file, const std::string& name);
 
   /// A file about to be written, as "trace.csv" or "plots/motion.png": lists it in the manifest, makes its
   /// folder and returns its path. Throws std::runtime_error if it cannot be listed, or if something that is

@@ -57,7 +57,7 @@ void take_back_results(const std::filesystem::path& out) {
   Problems not_ours;
   OutputFolder folder(out, "runs", {junit_file}, not_ours);
   if (!not_ours.empty() || !folder.listed().contains(junit_file)) return;
-  folder.take_back(junit_file);
+  folder.take_back({junit_file});
   fmt::print(stderr, "{} of an earlier run is removed: nothing has run\n", (out / junit_file).string());
 }
 

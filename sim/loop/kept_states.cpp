@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -60,6 +59,17 @@ void write_all(int file, std::span<const std::byte> bytes) {
 
 }  // namespace
 
+struct KeptStates::File {
+  explicit File(const fs::path& path)
+      : descriptor(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)) {
+    if (descriptor < 0) fail();
+  }
+  ~File() { close(descriptor); }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  int descriptor;
+};
+
 std::optional<KeptMoment> kept_moment(const fs::path& run, Time until, std::vector<std::string>& damaged) {
   std::vector<std::string> names;
   std::error_code none;
@@ -93,18 +103,18 @@ KeptStates::KeptStates(OutputFolder& folder, Time every, std::size_t most, const
     journal_.bytes = from->journal;
     return;
   }
-  for (const auto& name : std::set(folder.listed())) {
+  std::vector<std::string> later;
+  for (const auto& name : folder.listed()) {
     if (!name.starts_with(states_folder) || !name.ends_with(ending)) continue;
     if (name > from->name)
-      folder.take_back(name);
+      later.push_back(name);
     else
       kept_.push_back({name, time_of(name) / every_});
   }
+  folder.take_back(later);
 }
 
-KeptStates::~KeptStates() {
-  if (file_ >= 0) close(file_);
-}
+KeptStates::~KeptStates() = default;
 
 void KeptStates::keep(Simulation& simulation) {
   if (!trouble_.empty()) return;
@@ -114,17 +124,18 @@ void KeptStates::keep(Simulation& simulation) {
     constexpr std::uintmax_t moments_ahead = 8;
     if (fs::space(folder_.path()).available < moments_ahead * (journal_.bytes.size() + state.size()))
       throw std::runtime_error(std::strerror(ENOSPC));
-    if (file_ < 0) {
-      file_ = open(folder_.add(journal_name).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (!file_) {
+      file_ = std::make_unique<File>(folder_.add(journal_name));
       const auto begin = static_cast<off_t>(journal_.begin);
-      if (file_ < 0 || ftruncate(file_, begin) != 0 || lseek(file_, begin, SEEK_SET) != begin) fail();
+      if (ftruncate(file_->descriptor, begin) != 0 || lseek(file_->descriptor, begin, SEEK_SET) != begin)
+        fail();
     }
     // The journal first: a state whose journal is not there is none.
-    write_all(file_, journal_.bytes);
+    write_all(file_->descriptor, journal_.bytes);
     journal_.begin += journal_.bytes.size();
     journal_.bytes.clear();
     const auto name = name_of(simulation.time());
-    write_file(folder_.add(name), {reinterpret_cast<const char*>(state.data()), state.size()});
+    write(name, state);
     kept_.push_back({name, simulation.time() / every_});
     thin();
   } catch (const std::exception& error) {
@@ -135,11 +146,28 @@ void KeptStates::keep(Simulation& simulation) {
   }
 }
 
+// Under its own name from the start: who is killed meanwhile leaves one that its sum shows to be damaged.
+void KeptStates::write(const std::string& name, std::span<const std::byte> state) {
+  const bool again = !spare_.empty();
+  const auto path = again ? folder_.reuse(spare_.back(), name) : folder_.add(name);
+  if (again) spare_.pop_back();
+  const File file(path);
+  write_all(file.descriptor, state);
+  if (again && ftruncate(file.descriptor, static_cast<off_t>(state.size())) != 0) fail();
+}
+
+const std::string& KeptStates::finish() {
+  if (!spare_.empty()) folder_.take_back(std::exchange(spare_, {}));
+  return trouble_;
+}
+
 void KeptStates::give_up() {
-  if (file_ >= 0) close(std::exchange(file_, -1));
+  file_.reset();
+  auto names = std::exchange(spare_, {});
+  for (auto& kept : std::exchange(kept_, {})) names.push_back(std::move(kept.name));
+  names.emplace_back(journal_name);
   try {
-    for (const auto& [name, number] : std::exchange(kept_, {})) folder_.take_back(name);
-    folder_.take_back(journal_name);
+    folder_.take_back(names);
   } catch (const std::exception&) {  // they stay where they are
   }
 }
@@ -147,7 +175,7 @@ void KeptStates::give_up() {
 // All but the last two lie on the stride, which doubles where they are still too many.
 void KeptStates::thin() {
   const auto take_back = [&](std::size_t i) {
-    folder_.take_back(kept_[i].name);
+    spare_.push_back(std::move(kept_[i].name));
     kept_.erase(kept_.begin() + static_cast<std::ptrdiff_t>(i));
   };
   const auto drop = [&] {

@@ -1,6 +1,8 @@
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,13 +45,15 @@ class KeptStates {
   KeptStates& operator=(const KeptStates&) = delete;
 
   void keep(Simulation& simulation);
-  /// Why nothing more is kept, "" = it is.
-  [[nodiscard]] const std::string& trouble() const { return trouble_; }
+  /// After the last. Why not all was kept, "" = it was.
+  const std::string& finish();
 
  private:
+  void write(const std::string& name, std::span<const std::byte> state);
   void thin();
   void give_up();
 
+  struct File;  ///< one that is written into as it is
   struct Kept {
     std::string name;
     Time number;  ///< of its moment
@@ -57,9 +61,10 @@ class KeptStates {
   OutputFolder& folder_;
   Time every_;
   std::size_t most_;
-  int file_ = -1;  ///< the journal
+  std::unique_ptr<File> file_;  ///< the journal
   StateArchive::Journal journal_;
   std::vector<Kept> kept_;
+  std::vector<std::string> spare_;  ///< files of moments that went: to make and remove one takes longer
   Time stride_ = 1;
   std::string trouble_;
 };

@@ -90,7 +90,7 @@ RunLeft RunFolder::run(const scenario::Scenario& scenario, loop::Simulation& sim
       simulation.stop(fmt::format("interrupted at {} s; what was recorded until then is kept",
                                   record::seconds_text(now)));
   });
-  if (states) left.states_lost = states->trouble();
+  if (states) left.states_lost = states->finish();
   if (request.strict && !outcome.warnings().empty() && outcome.failure.empty())
     outcome.checks.push_back(no_warnings(outcome));
   left.simulating = std::chrono::duration<double>(Clock::now() - begun).count();
