@@ -55,6 +55,7 @@ inline constexpr CodeRow code_rows[] = {
     {"cam.value", "A value of a cam table cannot be read", "It is no number, or of the wrong kind.", "Write it as the line shows."},
     {"check.alone-fails", "Nothing is amiss but one check", "Its limit, or its expression, may be the slip.", "Look at the check first, then at what it measures."},
     {"check.far-limit", "The limit of a check is a thousand times what came", "It may have the wrong unit.", "Correct the limit, or take the check for what it is."},
+    {"check.first-fails", "Nothing tells why the checks failed; this one did first", "What went wrong shows in it before it shows in the others.", "Look at this check first, then at what it measures; drycut why --good compares with a run that is sound."},
     {"check.judged-nothing", "A check passed without judging anything", "Its condition was false at every instant or event.", "Correct the condition or the times of the check, or take the check out."},
     {"check.never-held", "A check held at no instant of the run", "Its expression looks at the wrong value, unit or limit.", "Compare it with what the line says that its names were."},
     {"cluster.not-there", "Nobody is there to run on", "The scheduler, the partition, the folder or Python's client is missing.", "Start it, name another, or run without --on."},

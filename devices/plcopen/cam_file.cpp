@@ -130,7 +130,7 @@ class CamReader {
   }
 
   void take(const std::string& name, const Word& value) {
-    CamFileLimits& limits = cam_.limits;
+    CamFileLimits& limits = cam_.table.limits;
     constexpr double most = 1e12;
     if (name == "name") cam_.table.name = value.text;
     if (name == "id") cam_.table.id = static_cast<std::uint16_t>(reader_.whole(value, 1, 65535).value_or(1));
@@ -305,7 +305,8 @@ std::optional<CamFile> parse_cam_csv(std::string_view text, const std::string& f
 void CamFile::visit(StateArchive& archive) {
   STATE(archive, table.file, table.name, table.id, table.type, table.interpolation, table.values,
         table.places, interpolation, endless, master_modulo, master_modulo_given, slave_modulo, periodic,
-        master_unit, slave_unit, limits.velocity, limits.acceleration, limits.jerk, limits.travel, header);
+        master_unit, slave_unit, table.limits.velocity, table.limits.acceleration, table.limits.jerk,
+        table.limits.travel, header);
 }
 
 }  // namespace drycut::devices::plcopen

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "devices/cam/law.hpp"
+#include "devices/cam/table.hpp"
 #include "devices/plcopen/errors.hpp"
 
 namespace drycut::devices::plcopen {
@@ -39,6 +40,15 @@ struct TableType {
 /// The types 1..7; nullptr if `number` is none of them. Type 6 is the maker's own and has no columns.
 const TableType* table_type(int number);
 
+/// What a slave may do, as far as a file says it, in mm or deg and s; positions in 0.1 um or 0.0001 deg.
+struct CamFileLimits {
+  std::optional<double> velocity;      ///< maxvel
+  std::optional<double> acceleration;  ///< maxacc
+  std::optional<double> jerk;          ///< maxjerk
+  CamTravel travel;                    ///< minpos, maxpos
+  bool operator==(const CamFileLimits&) const = default;
+};
+
 /// A cam table in memory: a file's contents.
 struct McCamTable {
   std::string file;  ///< its file's name, by which MC_CamTableSelect finds it; may be empty
@@ -48,6 +58,7 @@ struct McCamTable {
   Interpolation interpolation = Interpolation::table_defined;  ///< the header's; table_defined = it has none
   std::vector<double> values;                                  ///< line by line
   std::vector<int> places = {};  ///< of its lines in its file; empty = it came of none
+  CamFileLimits limits = {};     ///< for the slave as the table has it; the kernel does not know them
 
   [[nodiscard]] int columns() const;
   [[nodiscard]] std::size_t lines() const;

@@ -48,15 +48,6 @@ class TableReader : private Complaints {
 /// there is one.
 std::optional<McCamTable> parse_tab(std::string_view text, const std::string& file, Problems& problems);
 
-/// What a slave may do, as far as a file says it, in mm or deg and s; positions in 0.1 um or 0.0001 deg.
-struct CamFileLimits {
-  std::optional<double> velocity;      ///< maxvel
-  std::optional<double> acceleration;  ///< maxacc
-  std::optional<double> jerk;          ///< maxjerk
-  CamTravel travel;                    ///< minpos, maxpos
-  bool operator==(const CamFileLimits&) const = default;
-};
-
 /// A cam as a file, for use without a controller: the table and the axes that it is meant for.
 struct CamFile {
   static constexpr std::string_view kind = "mc_camin";
@@ -69,7 +60,6 @@ struct CamFile {
   bool periodic = true;              ///< StartMode F_PERIODIC
   std::string master_unit = "deg";   ///< or "mm": what the master's increments are 10000 to one of
   std::string slave_unit = "deg";
-  CamFileLimits limits;
   int header = 1;  ///< line of the header, or of the first row's columns
   bool operator==(const CamFile&) const = default;
   void visit(StateArchive& archive);

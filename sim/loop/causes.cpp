@@ -78,6 +78,13 @@ std::optional<Finding> of_check(const std::vector<record::CheckResult>& checks) 
   return {};
 }
 
+/// Nothing went wrong by itself: something has not come.
+bool only_missing(const std::vector<record::CheckResult>& checks) {
+  return std::all_of(checks.begin(), checks.end(), [](const record::CheckResult& check) {
+    return check.passed || check.deadline || !check.failed_at;
+  });
+}
+
 bool found_nothing(const std::vector<record::CheckResult>& checks) {
   return std::any_of(checks.begin(), checks.end(),
                      [](const record::CheckResult& check) { return !check.passed && check.idle; });
@@ -140,13 +147,14 @@ void Causes::sample(Time now) {
   }
 }
 
-std::optional<Finding> Causes::state_that_stands(double now) const {
+std::optional<Finding> Causes::state_that_stands(double now, double until) const {
   constexpr double long_enough = 1;  // [s]
   constexpr double at_work = 1.5;    // times what it has stood before: it may be about to go on
   const State* latest = nullptr;
   for (const auto& state : states_)
     if (state.changed > 0 && (latest == nullptr || state.changed > latest->changed)) latest = &state;
-  if (latest == nullptr || now - latest->changed < std::max(long_enough, at_work * latest->longest))
+  if (latest == nullptr || latest->changed > until ||
+      now - latest->changed < std::max(long_enough, at_work * latest->longest))
     return {};
   return Finding{"loop.state-stands"_code, fmt::format("{} stands at {:g} since {:.6g} s", latest->name,
                                                        latest->last, latest->changed)};
@@ -268,7 +276,7 @@ std::optional<Causes::Cause> Causes::cause_of(const std::vector<record::CheckRes
     return Cause{Link::because, known.contradictions.front()}.with(then_error());
   for (const auto& [at, found] : known.astray)
     if (at <= failed_at.value_or(ever) && first_error(at) == nullptr) return Cause{Link::because, found};
-  if (const auto* error = first_error(ever); !failed_at && error == nullptr && !known.hindrances.empty()) {
+  if (only_missing(checks) && first_error(failed_at.value_or(ever)) == nullptr && !known.hindrances.empty()) {
     const auto& first = known.hindrances.front();
     return faults_.empty()
                ? Cause{Link::because, first}.with(last_set(sets_, checks))

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -41,8 +42,9 @@ class Causes : public record::Observer {
   [[nodiscard]] std::optional<Finding> of(const std::vector<record::CheckResult>& checks,
                                           const Known& known) const;
   /// "gbPhase stands at 1 since 0.31 s": the state that changed last, if it has not for a long time;
-  /// nothing = there is none.
-  [[nodiscard]] std::optional<Finding> state_that_stands(double now) const;
+  /// nothing = there is none, or it has stood since after `until` only.
+  [[nodiscard]] std::optional<Finding> state_that_stands(
+      double now, double until = std::numeric_limits<double>::infinity()) const;
   /// The first time that a plant ran into its end stop; nullptr = none did.
   [[nodiscard]] const record::Alarm* first_stop() const { return stop_ ? &*stop_ : nullptr; }
   /// The machine whose clamps or blade first took hold of what ran at another speed, and its plug; "" = none.

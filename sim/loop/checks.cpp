@@ -480,8 +480,10 @@ record::CheckResult Checks::result(State& state, Time end) {
     // Once it held, what is left is time.
     result.margin.reset();
     result.used.reset();
+    const auto given_up = check.within ? check.from + *check.within : end;
+    result.deadline = check.within.has_value();
+    if (!state.held_at && given_up < end) result.failed_at = seconds(given_up);
     if (state.held_at && check.within) {
-      result.deadline = true;
       result.margin = seconds(check.from + *check.within) - *state.held_at;
       if (*check.within > 0) result.used = (*state.held_at - seconds(check.from)) / seconds(*check.within);
       result.unit = "s";

@@ -90,7 +90,7 @@ void Directions::tell(const Axis& axis, Time now) {
           : loop.forward
               ? fmt::format("it counts the wrong way, or forward and backward are swapped ({})", loop.remedy)
               : fmt::format("positive feedback, it counts or turns the wrong way ({})", loop.remedy);
-  found_.push_back({seconds(now), {"loop.axis-astray"_code, std::move(text)}});
+  found_.push_back({seconds(*axis.begun), {"loop.axis-astray"_code, std::move(text)}});
 }
 
 void Directions::visit(StateArchive& archive) {

@@ -463,9 +463,35 @@ std::optional<Finding> joined(const std::vector<Finding>& findings) {
   return all;
 }
 
+/// The last instant [s] at which a check that failed could still have held.
+double looked_until(const record::Outcome& outcome) {
+  double until = 0;
+  for (const auto& check : outcome.checks)
+    if (!check.passed)
+      until = std::max(until, check.deadline && check.failed_at ? *check.failed_at : seconds(outcome.end));
+  return until;
+}
+
+/// Where nothing tells why: what failed first, or alone.
+Finding what_failed_first(const std::vector<record::CheckResult>& checks) {
+  std::vector<const record::CheckResult*> failed;
+  for (const auto& check : checks)
+    if (!check.passed) failed.push_back(&check);
+  if (failed.size() == 1)
+    return {"check.alone-fails"_code, fmt::format("while nothing but check '{}' is amiss", failed[0]->name),
+            Finding::Role::cause};
+  const auto* first = *std::ranges::min_element(failed, {}, [](const auto* check) {
+    return check->failed_at.value_or(std::numeric_limits<double>::infinity());
+  });
+  return {"check.first-fails"_code,
+          fmt::format("check '{}' first{}", first->name,
+                      first->failed_at ? fmt::format(", at {:.6g} s", *first->failed_at) : ""),
+          Finding::Role::cause};
+}
+
 }  // namespace
 
-Causes::Known Simulation::known(const CamJudgement& cams) {
+Causes::Known Simulation::known(const CamJudgement& cams, double until) {
   Causes::Known known;
   known.contradictions = contradictions_;
   for (const auto& cam : cams.doubts)
@@ -504,13 +530,14 @@ Causes::Known Simulation::known(const CamJudgement& cams) {
   std::optional<Finding> standing;
   if (controller_) {
     const auto waits = waits_of(*controller_, time_);
-    standing = joined(waits.texts);
-    if (waits.all) known.standing.emplace(waits.since, *standing);
+    const bool waited = waits.since <= until;
+    if (waited) standing = joined(waits.texts);
+    if (waits.all && waited) known.standing.emplace(waits.since, *standing);
     const auto open = without_loop(*controller_);
     if (!standing && open) standing = open->what;
     if (!standing) {
-      auto signs = standing_ ? standing_->texts(time_) : std::vector<Finding>();
-      if (auto state = causes_.state_that_stands(seconds(time_))) signs.push_back(std::move(*state));
+      auto signs = standing_ ? standing_->texts(time_, until) : std::vector<Finding>();
+      if (auto state = causes_.state_that_stands(seconds(time_), until)) signs.push_back(std::move(*state));
       standing = joined(signs);
     }
     if (open && moves(open->axis)) known.contradictions.push_back(open->what);
@@ -595,18 +622,10 @@ record::Outcome Simulation::outcome() {
   outcome.add(warnings, Finding::Role::warning);
   outcome.alarms = causes_.alarms();
   if (outcome.failure.empty() && !outcome.passed()) {
-    auto known = this->known(cams);
+    auto known = this->known(cams, looked_until(outcome));
     if (!missed) known.hindrances.clear();  // only ratings, or what no check asks about
     auto cause = causes_.of(outcome.checks, known);
-    // A single check that fails is the first suspect itself.
-    const auto failed = [](const record::CheckResult& check) { return !check.passed; };
-    const auto& checks = outcome.checks;
-    if (!cause && std::count_if(checks.begin(), checks.end(), failed) == 1)
-      cause = Finding("check.alone-fails"_code,
-                      fmt::format("while nothing but check '{}' is amiss",
-                                  std::find_if(checks.begin(), checks.end(), failed)->name),
-                      Finding::Role::cause);
-    if (cause) outcome.findings.push_back(std::move(*cause));
+    outcome.findings.push_back(cause ? std::move(*cause) : what_failed_first(outcome.checks));
     if (auto sign = remarks_->signs().sentence(outcome)) outcome.findings.push_back(std::move(*sign));
   }
   return outcome;

@@ -168,8 +168,8 @@ class Simulation {
 
   void compare_with_machine();
   void look_after_program();
-  /// What the run knows besides of why it failed.
-  [[nodiscard]] Causes::Known known(const CamJudgement& cams);
+  /// What the run knows besides of why it failed by `until` [s].
+  [[nodiscard]] Causes::Known known(const CamJudgement& cams, double until);
   /// Of the parameters that the program has set.
   [[nodiscard]] std::vector<Finding> contradicting_parameters() const;
   /// What may be a slip in a run that was sound else: tasks that ended at once, values set in vain.

@@ -95,7 +95,7 @@ void Standing::sample(Time now) {
     }
 }
 
-std::vector<Finding> Standing::texts(Time now) const {
+std::vector<Finding> Standing::texts(Time now, double until) const {
   std::vector<Finding> texts;
   for (const auto& count : counts_)
     if (count.counter->count == count.first)
@@ -106,7 +106,7 @@ std::vector<Finding> Standing::texts(Time now) const {
   for (const auto& output : outputs_)
     states.push_back(fmt::format("{} {}", output.plug, output.last ? "on" : "off"));
   const auto long_enough = std::max(stays, static_cast<Time>(at_work * static_cast<double>(longest_)));
-  const bool stand = worked_ > 0 && now - worked_ >= long_enough;
+  const bool stand = worked_ > 0 && seconds(worked_) <= until && now - worked_ >= long_enough;
   if (!never && !stand) return texts;  // they work
   if (never) texts.push_back(*never);
   for (const auto& lamp : lamps_)

@@ -20,8 +20,9 @@ class Standing : public record::Observer {
   void visit(StateArchive& archive) override;
 
   /// What tells of a machine that stands at `now`, a phrase each: "2.CNT02 (tube.wheel) counted nothing",
-  /// "panel.too_long is on since 3.406 s", "never seen on: saw.clamp (2.OUT02)".
-  [[nodiscard]] std::vector<Finding> texts(Time now) const;
+  /// "panel.too_long is on since 3.406 s", "never seen on: saw.clamp (2.OUT02)". That it has stopped counts
+  /// where it was by `until` [s].
+  [[nodiscard]] std::vector<Finding> texts(Time now, double until) const;
 
   /// "never seen on: saw.home (X10)": of the machine's switches that a program reads; nothing = all were.
   [[nodiscard]] std::optional<Finding> never_on() const;

@@ -154,6 +154,10 @@ std::string verdict_text(const record::Outcome& outcome) {
   if (failed > 0)
     return fmt::format("{} of {} checks failed{}{}{}", failed, outcome.checks.size(),
                        outcome.cause().empty() ? "" : ", ", outcome.cause(), warned);
+  const auto idle = std::ranges::count_if(outcome.checks, &record::CheckResult::judged_nothing);
+  if (idle > 0)
+    return fmt::format("{} of {} checks passed, {} judged nothing{}", outcome.checks.size() - idle,
+                       outcome.checks.size(), idle, warned);
   return (outcome.checks.size() == 1 ? "the one check passed"
                                      : fmt::format("all {} checks passed", outcome.checks.size())) +
          warned;

@@ -235,6 +235,8 @@ TEST(Causes, TheStateThatChangedLastIsToldOnceItStandsForASecond) {
   causes.sample(2500 * millisecond);
   EXPECT_FALSE(causes.state_that_stands(3));
   EXPECT_EQ(causes.state_that_stands(3.5).value().text, "gbStep stands at 5 since 2.5 s");
+  EXPECT_TRUE(causes.state_that_stands(3.5, 2.5));
+  EXPECT_FALSE(causes.state_that_stands(3.5, 2.4)) << "what failed then failed while it worked";
 }
 
 TEST(Causes, AStateThatHasStoodAsLongBeforeIsAtWork) {

@@ -356,6 +356,47 @@ TEST(WhyItFailed, OfAMachineThatWorksNothingStands) {
   EXPECT_EQ(outcome.cause(), "while nothing but check 'cut length' is amiss");
 }
 
+std::string code_of_cause(const record::Outcome& outcome) {
+  for (const auto& finding : outcome.findings)
+    if (finding.role == Finding::Role::cause) return finding.code;
+  return "";
+}
+
+TEST(WhyItFailed, WhatStandsOnlySinceACheckWasGivenUpIsNoCause) {
+  const auto outcome = outcome_of_line("vertical_press_inverter_qmove.yaml",
+                                       {{"variables.tours", "1"}, {"checks.all tours done.within", "8 s"}});
+  EXPECT_EQ(code_of_cause(outcome), "check.alone-fails") << outcome.cause();
+  const auto failed = std::ranges::find(outcome.checks, false, &record::CheckResult::passed);
+  ASSERT_NE(failed, outcome.checks.end());
+  EXPECT_TRUE(failed->deadline);
+  EXPECT_EQ(failed->failed_at, 8);
+}
+
+TEST(WhyItFailed, WhereNothingTellsWhyWhatFailedFirstIsNamed) {
+  const auto outcome =
+      outcome_of(lines.parent_path() / "backlash_load_encoder.yaml", {{"plants.axis.gap", "10 mm"}});
+  EXPECT_EQ(code_of_cause(outcome), "check.first-fails") << outcome.cause();
+  EXPECT_THAT(outcome.cause(), ContainsRegex("^check 'follows' first, at 0[.][01][0-9]+ s$"));
+}
+
+// The table's own limits count in a run, too, though the kernel does not know them.
+TEST(WhyItFailed, ACamThatLeavesTheLimitsOfItsFileIsTold) {
+  TestFolder folder;
+  std::ifstream shipped(lines / "cams/saw.csv");
+  const std::string cam(std::istreambuf_iterator<char>(shipped), {});
+  const auto line = lines / "flying_saw_plcopen.yaml";
+  const auto warned = [&](const char* from, const char* to) {
+    folder.file("saw.csv", replaced(cam, from, to));
+    const auto file =
+        folder.file("line.yaml", "extends: " + line.string() +
+                                     "\ncontroller: {plcopen: {tables: [{file: saw.csv, id: 1}]}}\n");
+    return codes(outcome_of(file, {{"scene.duration", "6 s"}}).findings);
+  };
+  EXPECT_THAT(warned("# maxvel: 1200", "# maxvel: 1100"), Not(testing::Contains(StartsWith("cam."))));
+  EXPECT_THAT(warned("# maxpos: 3500000", "# maxpos: 350000"), testing::Contains("cam.travel"));
+  EXPECT_THAT(warned("# maxvel: 1200", "# maxvel: 120"), testing::Contains("cam.limit"));
+}
+
 TEST(WhyItFailed, AnAxisThatCountsAnotherWayThanTheMachineGoesIsTold) {
   const std::vector<scenario::Override> one = {{"variables.tours", "1"}, {"scene.duration", "6 s"}};
   auto scale = one;

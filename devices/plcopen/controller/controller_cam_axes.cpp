@@ -1,4 +1,5 @@
 // The cams of the axes as a simulation compares them with their laws.
+#include <algorithm>
 #include <cmath>
 
 #include "devices/plcopen/controller/controller.hpp"
@@ -63,9 +64,14 @@ std::shared_ptr<const devices::CamTable> PlcopenController::cam_table(int number
   held.periodic = cam.periodic;
   held.master_unit = unit(link.master.number);
   held.slave_unit = unit(number);
-  // The kernel's speeds are 1000 to a mm/s or deg/s, its accelerations 1.
-  held.limits.velocity = slave.parameters().vb_max / 1000;
-  held.limits.acceleration = slave.parameters().a_max;
+  // The axis' own limits as the table has it, before it is scaled, and what its file says besides. The
+  // kernel's speeds are 1000 to a mm/s or deg/s, its accelerations 1.
+  const double scaling = std::abs(cam.slave_scaling);
+  const auto limit = [&](std::optional<double>& least, double of_axis) {
+    least = std::min(least.value_or(of_axis / scaling), of_axis / scaling);
+  };
+  limit(held.table.limits.velocity, slave.parameters().vb_max / 1000);
+  limit(held.table.limits.acceleration, slave.parameters().a_max);
   return std::make_shared<const devices::CamTable>(std::move(held));
 }
 

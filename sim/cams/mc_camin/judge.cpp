@@ -288,7 +288,7 @@ class CamInJudge {
 }  // namespace
 
 devices::plcopen::CamFileLimits limits_of(const CamInRun& run, const CamDuty& duty) {
-  CamFileLimits limits = run.cam.limits;
+  CamFileLimits limits = run.cam.table.limits;
   if (duty.max_velocity) limits.velocity = duty.max_velocity;
   if (duty.max_acceleration) limits.acceleration = duty.max_acceleration;
   return limits;

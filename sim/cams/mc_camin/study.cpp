@@ -300,10 +300,10 @@ std::string file_of(CamFile& cam, const std::string& file) {
       cam.master_modulo, cam.slave_modulo,
       endless[static_cast<std::size_t>(static_cast<int>(cam.endless) + 1)], cam.periodic ? "yes" : "no",
       cam.master_unit, cam.slave_unit);
-  for (const auto& [key, limit] : {std::pair{"maxvel", cam.limits.velocity},
-                                   {"maxacc", cam.limits.acceleration},
-                                   {"minpos", cam.limits.travel.least},
-                                   {"maxpos", cam.limits.travel.most}})
+  for (const auto& [key, limit] : {std::pair{"maxvel", cam.table.limits.velocity},
+                                   {"maxacc", cam.table.limits.acceleration},
+                                   {"minpos", cam.table.limits.travel.least},
+                                   {"maxpos", cam.table.limits.travel.most}})
     if (limit) text += fmt::format("# {}: {}\n", key, *limit);
   if (tab)
     text += fmt::format(

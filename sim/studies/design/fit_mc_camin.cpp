@@ -104,8 +104,8 @@ DeviceCam played(const DesignedCam& cam, const DesignJob& job, const CubicRows& 
   if (job.speed) {
     const double units_a_metre = increment / slave_unit * 1000;  // mm or deg
     made.duty.master_speed = *job.speed * 1000;
-    if (job.max_velocity) file.limits.velocity = *job.max_velocity * units_a_metre;
-    if (job.max_acceleration) file.limits.acceleration = *job.max_acceleration * units_a_metre;
+    if (job.max_velocity) file.table.limits.velocity = *job.max_velocity * units_a_metre;
+    if (job.max_acceleration) file.table.limits.acceleration = *job.max_acceleration * units_a_metre;
   }
   made.notes.push_back(fmt::format("{} cubics of {}, {} of them synchronous (POLYNOM_3_KOEFF)",
                                    rows.all * job.blades, length_text(width), rows.synchronous * job.blades));

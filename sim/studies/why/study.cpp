@@ -51,7 +51,8 @@ void tell_run(const FailedRun& run, const FailedCheck& check, const loop::Signs*
   found.check = check.name;
   // That nothing else is amiss is no answer.
   const bool told = std::ranges::none_of(run.outcome.findings, [](const Finding& finding) {
-    return finding.role == Finding::Role::cause && finding.code == "check.alone-fails";
+    return finding.role == Finding::Role::cause &&
+           (finding.code == "check.alone-fails" || finding.code == "check.first-fails");
   });
   if (told) found.because = run.outcome.cause();
   if (const auto* result = find_check(run.outcome, check.name)) {
