@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/text.hpp"
+#include "sim/cams/judged.hpp"
 #include "sim/loop/simulation.hpp"
 #include "tests/findings.hpp"
 #include "tests/sim/studies/tune/bench.hpp"
@@ -364,12 +365,12 @@ std::string code_of_cause(const record::Outcome& outcome) {
 
 TEST(WhyItFailed, WhatStandsOnlySinceACheckWasGivenUpIsNoCause) {
   const auto outcome = outcome_of_line("vertical_press_inverter_qmove.yaml",
-                                       {{"variables.tours", "1"}, {"checks.all tours done.within", "8 s"}});
+                                       {{"variables.tours", "2"}, {"checks.all tours done.within", "11 s"}});
   EXPECT_EQ(code_of_cause(outcome), "check.alone-fails") << outcome.cause();
   const auto failed = std::ranges::find(outcome.checks, false, &record::CheckResult::passed);
   ASSERT_NE(failed, outcome.checks.end());
   EXPECT_TRUE(failed->deadline);
-  EXPECT_EQ(failed->failed_at, 8);
+  EXPECT_EQ(failed->failed_at, 11);
 }
 
 TEST(WhyItFailed, WhereNothingTellsWhyWhatFailedFirstIsNamed) {
@@ -390,7 +391,13 @@ TEST(WhyItFailed, ACamThatLeavesTheLimitsOfItsFileIsTold) {
     const auto file =
         folder.file("line.yaml", "extends: " + line.string() +
                                      "\ncontroller: {plcopen: {tables: [{file: saw.csv, id: 1}]}}\n");
-    return codes(outcome_of(file, {{"scene.duration", "6 s"}}).findings);
+    Problems problems;
+    const auto scenario = scenario::read_scenario(file, {{"scene.duration", "6 s"}}, problems);
+    Simulation simulation(scenario, problems);
+    simulation.follow_cams(cams::cam_judgement, false);
+    auto told = codes(simulation.run().findings);
+    for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
+    return told;
   };
   EXPECT_THAT(warned("# maxvel: 1200", "# maxvel: 1100"), Not(testing::Contains(StartsWith("cam."))));
   EXPECT_THAT(warned("# maxpos: 3500000", "# maxpos: 350000"), testing::Contains("cam.travel"));

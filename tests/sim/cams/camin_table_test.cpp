@@ -24,7 +24,7 @@ TEST(CamInTable, ATabFileTellsItsAxesInComments) {
   EXPECT_EQ(cam.interpolation, Interpolation::poly5_line);
   EXPECT_EQ(cam.endless, Endless::negative);
   EXPECT_EQ(cam.master_modulo, 8'000'000);
-  EXPECT_EQ(cam.limits.acceleration, 50);
+  EXPECT_EQ(cam.table.limits.acceleration, 50);
   EXPECT_THAT(cam.table.places, ElementsAre(10, 11));
   EXPECT_TRUE(cam.periodic);
 }
@@ -37,8 +37,8 @@ TEST(CamInTable, SettingsHaveTheirDefaults) {
   EXPECT_EQ(cam.slave_modulo, 3'600'000);
   EXPECT_EQ(cam.master_unit, "deg");
   EXPECT_EQ(cam.slave_unit, "deg");
-  EXPECT_FALSE(cam.limits.velocity || cam.limits.acceleration || cam.limits.jerk || cam.limits.travel.least ||
-               cam.limits.travel.most);
+  EXPECT_FALSE(cam.table.limits.velocity || cam.table.limits.acceleration || cam.table.limits.jerk || cam.table.limits.travel.least ||
+               cam.table.limits.travel.most);
   EXPECT_EQ(camin::table("# slave_modulo: 0\nslave\n1\n").slave_unit, "mm");
   EXPECT_EQ(camin::table("# slave_modulo: 0\n# slave_unit: deg\nslave\n1\n").slave_unit, "deg");
 }
@@ -53,11 +53,11 @@ TEST(CamInTable, EverySettingIsTaken) {
   EXPECT_EQ(cam.slave_modulo, 20'000);
   EXPECT_FALSE(cam.periodic);
   EXPECT_EQ(cam.master_unit + cam.slave_unit, "mmmm");
-  EXPECT_EQ(cam.limits.velocity, 1.5);
-  EXPECT_EQ(cam.limits.acceleration, 2.5);
-  EXPECT_EQ(cam.limits.jerk, 3.5);
-  EXPECT_EQ(cam.limits.travel.least, -4);
-  EXPECT_EQ(cam.limits.travel.most, 5);
+  EXPECT_EQ(cam.table.limits.velocity, 1.5);
+  EXPECT_EQ(cam.table.limits.acceleration, 2.5);
+  EXPECT_EQ(cam.table.limits.jerk, 3.5);
+  EXPECT_EQ(cam.table.limits.travel.least, -4);
+  EXPECT_EQ(cam.table.limits.travel.most, 5);
 }
 
 TEST(CamInTable, AllThatIsWrongWithACsvIsToldAtOnce) {
