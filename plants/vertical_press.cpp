@@ -1,6 +1,7 @@
 #include "plants/vertical_press.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "base/state_archive.hpp"
 #include "base/units.hpp"
@@ -75,11 +76,13 @@ void VerticalPress::watch_for_sag(double h) {
     return;
   }
   resting_ += h;
-  if (sagged_ || resting_ < sag_after || ram().speed > -sag_speed) return;
+  // By the motor: a ram that is loaded while it rests gives way on its screw, and swings.
+  const double let_down = rotor().speed / data_.gear.ratio * data_.lead / (2 * std::numbers::pi);
+  if (sagged_ || resting_ < sag_after || let_down > -sag_speed) return;
   sagged_ = true;
   happened({"sag",
             1,
-            {{"speed", ram().speed * units::millimetres, "mm/s"},
+            {{"speed", let_down * units::millimetres, "mm/s"},
              {"position", ram().position * units::millimetres, "mm"}}});
 }
 
@@ -158,7 +161,9 @@ std::vector<EventType> VerticalPress::event_types() {
        "force"},
       {"sag",
        {{"speed", "mm/s"}, {"position", "mm"}},
-       "the ram goes down 0.5 s after drive and brake were told to hold it: once each time",
+       "the motor lets the ram down 0.5 s after drive and brake were told to hold it: speed by the motor and "
+       "place as "
+       "that is seen, once each time",
        Severity::error}};
   AxisDrive::offer_events(types);
   return types;

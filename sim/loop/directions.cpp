@@ -88,7 +88,9 @@ void Directions::tell(const Axis& axis, Time now) {
                           record::seconds_text(*axis.begun), record::seconds_text(now));
   text += !axis.swapped.empty() ? axis.swapped
           : loop.forward
-              ? fmt::format("it counts the wrong way, or forward and backward are swapped ({})", loop.remedy)
+              ? fmt::format(
+                    "it counts the wrong way, forward and backward are swapped ({}), or its load drives it",
+                    loop.remedy)
               : fmt::format("positive feedback, it counts or turns the wrong way ({})", loop.remedy);
   found_.push_back({seconds(*axis.begun), {"loop.axis-astray"_code, std::move(text)}});
 }

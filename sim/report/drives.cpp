@@ -13,7 +13,7 @@ namespace drycut::sim::report {
 namespace {
 
 std::string grade_text(const record::DriveFigure& figure, bool judged) {
-  const auto* word = !figure.judged || !judged ? "not judged,"
+  const auto* word = !figure.judged || !judged ? (figure.share > 1 ? "over, not judged," : "not judged,")
                      : figure.share > 1        ? "FAIL"
                      : figure.share > 0.9      ? "close,"
                                                : "PASS";
@@ -92,7 +92,8 @@ renders::ReportTable drive_table(const std::vector<record::DriveVerdict>& verdic
   renders::ReportTable table{
       "Drives and their ratings", {"drive", "", "value", "limit", "used"}, {}, false, true};
   for (const auto& verdict : verdicts) {
-    auto name = verdict.drive + "\n" + verdict.cycles;
+    auto name = fmt::format("{}\n{}{}", verdict.drive, verdict.cycles,
+                            judged ? "" : "\njudging is off\n(drives: judge)");
     for (const auto& figure : verdict.figures) {
       table.rows.push_back(
           {{name, fmt::format("{}\n{}", figure.name, figure.window),
@@ -100,8 +101,8 @@ renders::ReportTable drive_table(const std::vector<record::DriveVerdict>& verdic
             fmt::format("{:.4g} {}", figure.rating, figure.unit), grade_text(figure, judged)}});
       name.clear();
     }
-    table.rows.push_back(
-        {{"", "load over rotor inertia", fmt::format("{:.3g}", verdict.inertia_ratio), "", ""}});
+    table.rows.push_back({{"", "load over rotor inertia\nas the scenario begins",
+                           fmt::format("{:.3g}", verdict.inertia_ratio), "", ""}});
     table.rows.push_back(
         {{"", "energy a cycle, from the mains", fmt::format("{:.4g} J", verdict.energy), "", ""}});
     if (!verdict.trips.empty())

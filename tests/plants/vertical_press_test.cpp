@@ -22,6 +22,22 @@ TEST(VerticalPress, StandsOnItsBrakeFromTheFirstStep) {
   EXPECT_TRUE(press.events.empty());
 }
 
+// The screw gives way by 150 kg g / 100 N/um and swings; motor and brake hold.
+TEST(VerticalPress, ARestingRamThatIsLoadedDoesNotSag) {
+  Press press{VerticalPressDefinition()};
+  press.run(1);
+  const double before = press.read("position");
+  press.set("load", 150);
+  double fastest = 0;
+  for (int i = 0; i < 1000; ++i) {
+    press.step();
+    fastest = std::min(fastest, press.read("speed"));
+  }
+  EXPECT_LT(fastest, -1.5) << "mm/s";
+  EXPECT_NEAR(press.read("position") - before, -150 * gravity / 1e8 * 1000, 2e-3);
+  EXPECT_TRUE(press.events.empty());
+}
+
 TEST(VerticalPress, GoesUpAndDownAtThePresetSpeeds) {
   for (const char* kind : {"inverter", "contactors"})
     for (const int direction : {1, -1})
