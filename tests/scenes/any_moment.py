@@ -19,7 +19,9 @@ SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
 
 
 def call(drycut, *arguments):
-    done = subprocess.run([drycut, *map(str, arguments)], capture_output=True, text=True, errors="replace")
+    # From where no scene lies below: who resumes a run tells its scenario by the whole path, as `check` does.
+    done = subprocess.run([drycut, *map(str, arguments)], capture_output=True, text=True, errors="replace",
+                          cwd=tempfile.gettempdir())
     if done.returncode not in (0, 1, 3):
         raise RuntimeError(f"status {done.returncode} of {' '.join(map(str, arguments))}: {done.stdout}{done.stderr}")
     return done
