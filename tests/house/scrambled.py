@@ -39,7 +39,8 @@ def build(folder):
     """The scrambled program, without what it is not asked for."""
     subprocess.run(["cmake", "-S", HOUSE, "-B", folder, "-DDRYCUT_SCRAMBLE=ON", "-DCMAKE_BUILD_TYPE=Release",
                     "-DBUILD_TESTING=OFF", "-DDRYCUT_PYTHON=OFF"], check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["cmake", "--build", folder, "--target", "drycut", "--parallel"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["cmake", "--build", folder, "--target", "drycut", "--parallel",
+                    str(os.cpu_count())], check=True, stdout=subprocess.DEVNULL)
     return folder / "drycut"
 
 

@@ -194,7 +194,7 @@ TunePlan plan_tuning(const TuneRequest& request, std::vector<scenario::Override>
 RunSplit split_of(const TuneRequest& request, const TunePlan& plan) {
   const int set = plan.study.runs_of_a_trial();
   RunSplit split;
-  split.present = set;
+  split.present = start_of(plan) ? set : 2 * set + 1;
   split.pictures = 2 * static_cast<int>(plan.study.cases.size());
   const int left = std::max(0, request.budget - split.present - split.pictures);
   if (!plan.spread.empty()) split.spread = std::clamp(left * 3 / 10 / set, 1, request.spread_runs) * set;
@@ -204,6 +204,27 @@ RunSplit split_of(const TuneRequest& request, const TunePlan& plan) {
   split.search = std::max(set, left - split.spread - split.around);
   return split;
 }
+
+namespace {
+
+/// Values that the program sets are known once it has run. Given to it from the start they should come to the
+/// same: else it does something else where they are given, and no trial is a comparison.
+void place_present(const TunePlan& plan, Trials& trials, Tuning& tuning) {
+  constexpr double alike = 0.01;
+  const auto point = set_by_program(plan.study, plan.vary, plan.present);
+  if (!point) return;
+  for (std::size_t i = 0; i < point->size(); ++i) tuning.present[i].value = (*point)[i];
+  const auto& given = trials.at(trials.run("present", {*point})[0]).verdict;
+  if (given.stopped || tuning.before.stopped) return;
+  if (std::abs(given.metric - tuning.before.metric) > alike * std::abs(tuning.before.metric)) {
+    tuning.unlike = given.metric;
+    return;
+  }
+  tuning.start = point;
+  tuning.before = given;
+}
+
+}  // namespace
 
 std::vector<std::string> Tuned::lost() const {
   auto lost = trials->lost();
@@ -227,10 +248,11 @@ Tuned tune(const TunePlan& plan, const TuneRequest& request, const cluster::Work
                 .spread_asked = request.spread_runs};
 
   // The present values first: nothing worse is to take their place.
-  tuning.before =
-      tuning.start ? trials->at(trials->run("present", {*tuning.start})[0]).verdict : measure(study, {});
-  const int in_present = tuning.before.runs;
-  const int aside = tuning.start ? 0 : in_present;  // runs that `trials` do not count
+  const bool known = tuning.start.has_value();
+  tuning.before = known ? trials->at(trials->run("present", {*tuning.start})[0]).verdict : measure(study, {});
+  const int aside = known ? 0 : tuning.before.runs + 1;  // runs that `trials` do not count
+  if (!known) place_present(plan, *trials, tuning);
+  const int in_present = aside + trials->runs();
   search(*trials, trials->runs() + split.search, request.seed);
   const int in_search = trials->runs() + aside - in_present;
   tuning.unmeasurable = is_unmeasurable(*trials);

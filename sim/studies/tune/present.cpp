@@ -65,4 +65,23 @@ PresentValue present_of(TunedParameter& parameter, const Study& study, const Stu
   return {value, setter_of(parameter.path, study, entry, value.has_value())};
 }
 
+std::optional<Point> set_by_program(const Study& study, const TunedParameters& parameters,
+                                    const std::vector<PresentValue>& present) {
+  const auto& entry = study.cases.front();
+  Problems problems;
+  const auto scenario = scenario::read_scenario_text(entry.text, entry.file, study.set, problems);
+  loop::Simulation simulation(scenario, problems);
+  if (!problems.empty()) return {};
+  simulation.keep_nothing();
+  simulation.run();
+  Point point;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto preset = preset_name(parameters[i].path);
+    const auto reading = preset ? simulation.names().reading(preset->value) : std::nullopt;
+    if (!present[i].value && !reading) return {};
+    point.push_back(present[i].value ? *present[i].value : reading->read());
+  }
+  return point;
+}
+
 }  // namespace drycut::sim::studies

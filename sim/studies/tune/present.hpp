@@ -23,4 +23,9 @@ struct PresentValue {
 PresentValue present_of(TunedParameter& parameter, const Study& study, const Study::Case& entry,
                         const scenario::Scenario& scenario);
 
+/// The present values with those that only the program sets, as the first scenario has them when its run
+/// ends, which is one simulated run; nothing where one of them cannot be read.
+std::optional<Point> set_by_program(const Study& study, const TunedParameters& parameters,
+                                    const std::vector<PresentValue>& present);
+
 }  // namespace drycut::sim::studies

@@ -92,7 +92,7 @@ ReportTable reasons_table(const Tuning& tuning) {
   for (const auto& trial : tuning.trials.trials()) count(trial.verdict);
   if (tuning.spread != nullptr)
     for (const auto& trial : tuning.spread->trials()) count(trial.verdict);
-  ReportTable table{"Why there is no number", {"trials", "reason"}, {}};
+  ReportTable table{"Why trials do not count", {"trials", "reason"}, {}};
   for (const auto& [reason, times] : told) table.rows.push_back({{fmt::format("{}", times), reason}});
   return table;
 }
@@ -272,6 +272,14 @@ std::string miss_text(const Tuning& tuning) {
     text = "No values could be run to the end: " + after.note;
   else if (!after.feasible())
     text = "No values met all limits. Closest: " + reason_text(after);
+  if (tuning.unlike)
+    text += fmt::format(
+        "{}Where {} given as the program sets {}, {} is {:.6g}{} and not {}: the program does something else "
+        "then, and no trial is a comparison with the values before; tune what it leaves out, too, or let it "
+        "set the rest always",
+        text.empty() ? "" : ". ", tuning.present.size() == 1 ? "the value is" : "the values are",
+        tuning.present.size() == 1 ? "it" : "them", tuning.study.minimise, *tuning.unlike,
+        with_space(tuning.study.metric_unit), metric_text(tuning.before));
   if (!tuning.stays) return text;
   return text + fmt::format("{}The present values stay: none of {} that were tried is better",
                             text.empty() ? "" : ". ",

@@ -21,9 +21,10 @@ struct Tuning {
   std::vector<PresentValue> present;  ///< of the values before
   Verdict before = {};
   std::size_t best = 0;
-  std::optional<Point> start = {};  ///< the present values, if all are known: the first of `trials`
-  bool stays = false;               ///< the present values are the answer
-  bool unmeasurable = false;        ///< ended at the first loop that was measured
+  std::optional<Point> start = {};    ///< the present values, if all are known: the first of `trials`
+  std::optional<double> unlike = {};  ///< the metric where values are given that the program sets, if another
+  bool stays = false;                 ///< the present values are the answer
+  bool unmeasurable = false;          ///< ended at the first loop that was measured
   std::vector<Slice> slices = {};
   const Trials* spread = nullptr;         ///< trials of the tuned values over spread parameters
   std::vector<KeptRun> runs_before = {};  ///< one a scenario

@@ -61,7 +61,7 @@ TEST_F(TuneCommand, WhereNothingKeepsTheLimitsTheClosestMayBeThePresentValues) {
   EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("# There is nothing to change\n"));
 }
 
-TEST_F(TuneCommand, ValuesThatTheProgramSetsStayUnderThatName) {
+TEST_F(TuneCommand, ValuesThatTheProgramSetsAreThoseOfItsRun) {
   at_rest();
   std::string own = scenario;
   own.replace(own.find(", AxisX.feedfw: 900"), 19, "");
@@ -70,8 +70,26 @@ TEST_F(TuneCommand, ValuesThatTheProgramSetsStayUnderThatName) {
   options.vary = {feedfw + "=700..900"};
   ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_THAT(out, testing::StartsWith("The present values stay"));
-  EXPECT_THAT(out, testing::ContainsRegex(feedfw + " .1/1000. +700..900 +not known +program +as before\n"));
+  EXPECT_THAT(out, testing::ContainsRegex(feedfw + " .1/1000. +700..900 +1000 +program +1000\n"));
   EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("# There is nothing to change\n"));
+}
+
+// Where a gain is given the program leaves the feed forward alone, too: all trials are without.
+TEST_F(TuneCommand, AProgramThatDoesSomethingElseWhereAValueIsGivenIsTold) {
+  at_rest();
+  std::string own = scenario;
+  own.replace(own.find(", set: {"), own.find("}}\nwiring") - own.find(", set: {") + 1, "");
+  test_folder.file("axis.yaml", own);
+  test_folder.file("axis.mod", "IF AxisX:pgain EQ 0\nAxisX:pgain = 10\nAxisX:feedfw = 1000\nENDIF\n" +
+                                   std::string(program));
+  options.vary = {pgain + "=5..15"};
+  run();
+  EXPECT_THAT(out, HasSubstr("no trial is a comparison with the values before"));
+  EXPECT_THAT(out, testing::ContainsRegex(pgain + " .1/1000. +5..15 +10 +program +as before\n"));
+  EXPECT_THAT(out, HasSubstr(": present values 3, search "));
+  options.vary.push_back(feedfw + "=900..1000");
+  run();
+  EXPECT_THAT(out, Not(HasSubstr("no trial is a comparison")));
 }
 
 TEST_F(TuneCommand, TablesSayUnitsRangesAndWhoSetTheValue) {
