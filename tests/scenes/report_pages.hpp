@@ -60,7 +60,7 @@ inline std::vector<Page> pages() {
        false},
       {"tune",
        {{"tune", "SCENES/rotary_knife_short.yaml", "--from", "2 s", "--set", "scene.duration=3 s", "--vary",
-         "controller.qmove.set.AxisX.pgain=1..100", "--minimise", "rms(AxisX.follerr)", "--budget", "4",
+         "controller.qmove.set.AxisX.pgain=1..100", "--minimise", "rms(AxisX.follerr)", "--budget", "6",
          "--ignore-checks", "--out", "OUT/tune"}},
        "tune/report.html",
        "",
