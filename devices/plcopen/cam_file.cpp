@@ -143,8 +143,8 @@ class CamReader {
     if (name == "maxvel") limits.velocity = reader_.real(value, 1e-9, most);
     if (name == "maxacc") limits.acceleration = reader_.real(value, 1e-9, most);
     if (name == "maxjerk") limits.jerk = reader_.real(value, 1e-9, most);
-    if (name == "minpos") limits.travel.least = reader_.real(value, -most, most);
-    if (name == "maxpos") limits.travel.most = reader_.real(value, -most, most);
+    if (name == "minpos") limits.least = reader_.real(value, -most, most);
+    if (name == "maxpos") limits.most = reader_.real(value, -most, most);
     if (name == "interpolation") take_interpolation(value);
   }
 
@@ -306,7 +306,7 @@ void CamFile::visit(StateArchive& archive) {
   STATE(archive, table.file, table.name, table.id, table.type, table.interpolation, table.values,
         table.places, interpolation, endless, master_modulo, master_modulo_given, slave_modulo, periodic,
         master_unit, slave_unit, table.limits.velocity, table.limits.acceleration, table.limits.jerk,
-        table.limits.travel, header);
+        table.limits.least, table.limits.most, header);
 }
 
 }  // namespace drycut::devices::plcopen

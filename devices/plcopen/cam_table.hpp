@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "devices/cam/law.hpp"
-#include "devices/cam/table.hpp"
 #include "devices/plcopen/errors.hpp"
 
 namespace drycut::devices::plcopen {
@@ -45,7 +44,8 @@ struct CamFileLimits {
   std::optional<double> velocity;      ///< maxvel
   std::optional<double> acceleration;  ///< maxacc
   std::optional<double> jerk;          ///< maxjerk
-  CamTravel travel;                    ///< minpos, maxpos
+  std::optional<double> least;         ///< minpos
+  std::optional<double> most;          ///< maxpos
   bool operator==(const CamFileLimits&) const = default;
 };
 

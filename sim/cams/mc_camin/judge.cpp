@@ -94,13 +94,13 @@ class CamInJudge {
   }
 
   void judge_travel() {
-    if (!limits_.travel.is_given()) return;
+    const devices::CamTravel travel{limits_.least, limits_.most};
+    if (!travel.is_given()) return;
     const auto [low, high] = reach_of(run_.law.pieces);
     const std::string unit = increments_of(unit_);
     const bool beyond = std::any_of(run_.law.pieces.begin(), run_.law.pieces.end(),
                                     [](const CamPiece& piece) { return std::abs(overshoot_of(piece)) > 1; });
-    for (const TravelFault& fault :
-         travel_faults(limits_.travel, low, high, {"minpos", "maxpos", unit, "", beyond}))
+    for (const TravelFault& fault : travel_faults(travel, low, high, {"minpos", "maxpos", unit, "", beyond}))
       add("cam.travel"_code, Grade::limit, "", fault.text, fault.remedy);
   }
 

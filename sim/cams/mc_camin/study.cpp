@@ -302,8 +302,8 @@ std::string file_of(CamFile& cam, const std::string& file) {
       cam.master_unit, cam.slave_unit);
   for (const auto& [key, limit] : {std::pair{"maxvel", cam.table.limits.velocity},
                                    {"maxacc", cam.table.limits.acceleration},
-                                   {"minpos", cam.table.limits.travel.least},
-                                   {"maxpos", cam.table.limits.travel.most}})
+                                   {"minpos", cam.table.limits.least},
+                                   {"maxpos", cam.table.limits.most}})
     if (limit) text += fmt::format("# {}: {}\n", key, *limit);
   if (tab)
     text += fmt::format(

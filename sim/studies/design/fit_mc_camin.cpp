@@ -117,9 +117,9 @@ DeviceCam played(const DesignedCam& cam, const DesignJob& job, const CubicRows& 
   made.figures = figures_of(study.course.law, 0, job.length / increment, increment, slave_unit, job);
   // Where the carriage turns round is as exact as the cam was found: its travel begins there.
   if (job.max_travel) {
-    auto& travel = made.table.as<devices::plcopen::CamFile>().table.limits.travel;
-    travel.least = std::floor(made.figures.low / increment);
-    travel.most = std::ceil((made.figures.low + *job.max_travel) / increment);
+    auto& limits = made.table.as<devices::plcopen::CamFile>().table.limits;
+    limits.least = std::floor(made.figures.low / increment);
+    limits.most = std::ceil((made.figures.low + *job.max_travel) / increment);
   }
   return made;
 }

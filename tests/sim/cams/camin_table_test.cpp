@@ -37,8 +37,8 @@ TEST(CamInTable, SettingsHaveTheirDefaults) {
   EXPECT_EQ(cam.slave_modulo, 3'600'000);
   EXPECT_EQ(cam.master_unit, "deg");
   EXPECT_EQ(cam.slave_unit, "deg");
-  EXPECT_FALSE(cam.table.limits.velocity || cam.table.limits.acceleration || cam.table.limits.jerk || cam.table.limits.travel.least ||
-               cam.table.limits.travel.most);
+  EXPECT_FALSE(cam.table.limits.velocity || cam.table.limits.acceleration || cam.table.limits.jerk ||
+               cam.table.limits.least || cam.table.limits.most);
   EXPECT_EQ(camin::table("# slave_modulo: 0\nslave\n1\n").slave_unit, "mm");
   EXPECT_EQ(camin::table("# slave_modulo: 0\n# slave_unit: deg\nslave\n1\n").slave_unit, "deg");
 }
@@ -56,8 +56,8 @@ TEST(CamInTable, EverySettingIsTaken) {
   EXPECT_EQ(cam.table.limits.velocity, 1.5);
   EXPECT_EQ(cam.table.limits.acceleration, 2.5);
   EXPECT_EQ(cam.table.limits.jerk, 3.5);
-  EXPECT_EQ(cam.table.limits.travel.least, -4);
-  EXPECT_EQ(cam.table.limits.travel.most, 5);
+  EXPECT_EQ(cam.table.limits.least, -4);
+  EXPECT_EQ(cam.table.limits.most, 5);
 }
 
 TEST(CamInTable, AllThatIsWrongWithACsvIsToldAtOnce) {
