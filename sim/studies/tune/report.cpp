@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "base/text.hpp"
 #include "renders/report.hpp"
 #include "sim/report/report.hpp"
 #include "sim/studies/tune/patch.hpp"
