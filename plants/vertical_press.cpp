@@ -1,7 +1,6 @@
 #include "plants/vertical_press.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "base/state_archive.hpp"
 #include "base/units.hpp"
@@ -77,7 +76,7 @@ void VerticalPress::watch_for_sag(double h) {
   }
   resting_ += h;
   // By the motor: a ram that is loaded while it rests gives way on its screw, and swings.
-  const double let_down = rotor().speed / data_.gear.ratio * data_.lead / (2 * std::numbers::pi);
+  const double let_down = rotor().speed / data_.gear.ratio * data_.lead / units::turn;
   if (sagged_ || resting_ < sag_after || let_down > -sag_speed) return;
   sagged_ = true;
   happened({"sag",
@@ -162,8 +161,7 @@ std::vector<EventType> VerticalPress::event_types() {
       {"sag",
        {{"speed", "mm/s"}, {"position", "mm"}},
        "the motor lets the ram down 0.5 s after drive and brake were told to hold it: speed by the motor and "
-       "place as "
-       "that is seen, once each time",
+       "place as that is seen, once each time",
        Severity::error}};
   AxisDrive::offer_events(types);
   return types;

@@ -172,6 +172,7 @@ void OutputFolder::write_manifest(const std::set<std::string>& names) {
 }
 
 void OutputFolder::take_back(const std::vector<std::string>& names) {
+  if (names.empty()) return;
   remove({names.begin(), names.end()});
   auto staying = listed_;
   for (const auto& name : names) staying.erase(name);

@@ -60,8 +60,7 @@ void write_all(int file, std::span<const std::byte> bytes) {
 }  // namespace
 
 struct KeptStates::File {
-  explicit File(const fs::path& path)
-      : descriptor(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)) {
+  explicit File(const fs::path& path) : descriptor(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)) {
     if (descriptor < 0) fail();
   }
   ~File() { close(descriptor); }
@@ -157,7 +156,7 @@ void KeptStates::write(const std::string& name, std::span<const std::byte> state
 }
 
 const std::string& KeptStates::finish() {
-  if (!spare_.empty()) folder_.take_back(std::exchange(spare_, {}));
+  folder_.take_back(std::exchange(spare_, {}));
   return trouble_;
 }
 

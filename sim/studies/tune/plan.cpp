@@ -145,6 +145,23 @@ std::optional<Point> start_of(const TunePlan& plan) {
   return point;
 }
 
+/// Values that the program sets are known once it has run. Given to it from the start they should come to the
+/// same: else it does something else where they are given, and no trial is a comparison.
+void place_present(const TunePlan& plan, Trials& trials, Tuning& tuning) {
+  constexpr double alike = 0.01;
+  const auto point = set_by_program(plan.study, plan.vary, plan.present);
+  if (!point) return;
+  for (std::size_t i = 0; i < point->size(); ++i) tuning.present[i].value = (*point)[i];
+  const auto& given = trials.at(trials.run("present", {*point})[0]).verdict;
+  if (given.stopped || tuning.before.stopped) return;
+  if (std::abs(given.metric - tuning.before.metric) > alike * std::abs(tuning.before.metric)) {
+    tuning.unlike = given.metric;
+    return;
+  }
+  tuning.start = point;
+  tuning.before = given;
+}
+
 void check_budget(const TuneRequest& request, const TunePlan& plan, Problems& problems) {
   const auto split = split_of(request, plan);
   if (split.sum() <= request.budget) return;
@@ -204,27 +221,6 @@ RunSplit split_of(const TuneRequest& request, const TunePlan& plan) {
   split.search = std::max(set, left - split.spread - split.around);
   return split;
 }
-
-namespace {
-
-/// Values that the program sets are known once it has run. Given to it from the start they should come to the
-/// same: else it does something else where they are given, and no trial is a comparison.
-void place_present(const TunePlan& plan, Trials& trials, Tuning& tuning) {
-  constexpr double alike = 0.01;
-  const auto point = set_by_program(plan.study, plan.vary, plan.present);
-  if (!point) return;
-  for (std::size_t i = 0; i < point->size(); ++i) tuning.present[i].value = (*point)[i];
-  const auto& given = trials.at(trials.run("present", {*point})[0]).verdict;
-  if (given.stopped || tuning.before.stopped) return;
-  if (std::abs(given.metric - tuning.before.metric) > alike * std::abs(tuning.before.metric)) {
-    tuning.unlike = given.metric;
-    return;
-  }
-  tuning.start = point;
-  tuning.before = given;
-}
-
-}  // namespace
 
 std::vector<std::string> Tuned::lost() const {
   auto lost = trials->lost();
