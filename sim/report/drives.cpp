@@ -93,7 +93,7 @@ renders::ReportTable drive_table(const std::vector<record::DriveVerdict>& verdic
       "Drives and their ratings", {"drive", "", "value", "limit", "used"}, {}, false, true};
   for (const auto& verdict : verdicts) {
     auto name = fmt::format("{}\n{}{}", verdict.drive, verdict.cycles,
-                            judged ? "" : "\njudging is off\n(drives: judge)");
+                            judged ? "" : "; judging is off (drives: judge)");
     for (const auto& figure : verdict.figures) {
       table.rows.push_back(
           {{name, fmt::format("{}\n{}", figure.name, figure.window),
