@@ -96,6 +96,9 @@ class TellsMotorLoad {
   /// What it went into in the last step of `h` seconds.
   [[nodiscard]] virtual MotorLoad motor_load(double h) const = 0;
 
+  TellsMotorLoad(const TellsMotorLoad&) = delete;
+  TellsMotorLoad& operator=(const TellsMotorLoad&) = delete;
+
   void keep_motor_loads() { kept_ = std::make_unique<Kept>(); }
   /// A sample a step since the start; nullptr where nobody asked.
   [[nodiscard]] const Kept* motor_loads() const { return kept_.get(); }
@@ -104,8 +107,6 @@ class TellsMotorLoad {
 
  protected:
   TellsMotorLoad() = default;
-  TellsMotorLoad(const TellsMotorLoad&) = delete;
-  TellsMotorLoad& operator=(const TellsMotorLoad&) = delete;
 
   /// At the end of each step.
   void tell_motor_load(double h) {

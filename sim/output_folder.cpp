@@ -265,7 +265,7 @@ fs::path OutputFolder::add(const std::string& subfolder, const std::vector<std::
     return subfolder.empty() ? name : fmt::format("{}/{}", subfolder, name);
   };
   const bool waits = !aside_.empty() && !(names.size() == 1 && kept_.contains(inside(names[0])));
-  const auto place = folder_ / (waits ? aside_ : "") / subfolder;
+  auto place = folder_ / (waits ? aside_ : "") / subfolder;
   std::error_code error;
   fs::create_directories(place, error);
   require(!error, "make", place, error);
