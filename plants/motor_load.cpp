@@ -5,10 +5,9 @@
 namespace drycut::plants {
 
 void TellsMotorLoad::Kept::take(const Sample& sample) {
-  constexpr std::size_t most_kept = 100'000;
-  if (samples.size() == 2 * most_kept) {
-    samples.erase(samples.begin(), samples.begin() + most_kept);
-    left_out += most_kept;
+  if (samples.size() == 2 * fewest) {
+    samples.erase(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(fewest));
+    left_out += fewest;
   }
   samples.push_back(sample);
 }

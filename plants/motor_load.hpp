@@ -69,7 +69,7 @@ struct MotorLoad {
 }
 
 /// A plant with a drive that can say what its motor's torque goes into. It does so where it is asked to
-/// before the run, every step; of a long run the last 100 000 steps are kept, twice as many at most.
+/// before the run, every step; of a long run the last steps are kept.
 class TellsMotorLoad {
  public:
   /// In single precision: a minute of steps of 100 us are 14 MB.
@@ -82,7 +82,8 @@ class TellsMotorLoad {
     float speed;
   };
   struct Kept {
-    std::vector<Sample> samples;
+    std::size_t fewest = 0;  ///< that are always there, if the run had them; twice as many at most
+    std::vector<Sample> samples = {};
     std::size_t left_out = 0;  ///< earlier ones
     void take(const Sample& sample);
     // A log of them.
@@ -99,7 +100,7 @@ class TellsMotorLoad {
   TellsMotorLoad(const TellsMotorLoad&) = delete;
   TellsMotorLoad& operator=(const TellsMotorLoad&) = delete;
 
-  void keep_motor_loads() { kept_ = std::make_unique<Kept>(); }
+  void keep_motor_loads(std::size_t fewest) { kept_ = std::make_unique<Kept>(Kept{.fewest = fewest}); }
   /// A sample a step since the start; nullptr where nobody asked.
   [[nodiscard]] const Kept* motor_loads() const { return kept_.get(); }
   /// The same: no part of the machine's state, megabytes for whoever writes a report after it.

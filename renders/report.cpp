@@ -154,15 +154,15 @@ void write_facts(ReportPage& page, const std::vector<ReportRow>& facts) {
 }
 
 /// Those that failed come first.
-void write_checks(ReportPage& page, const std::vector<ReportCheck>& checks) {
-  if (checks.empty()) return;
-  page.heading("Checks");
+void write_checks(ReportPage& page, const Report& report) {
+  if (report.checks.empty()) return;
+  page.heading(report.checks_title);
   page +=
       "<div class=\"scroll checks\">\n<table "
       "class=\"checks\">\n<thead><tr><th>result</th><th>check</th><th>expected</th><th>limit used, "
       "margin</th></tr></thead>\n<tbody>\n";
   for (const bool passed : {false, true}) {
-    for (const ReportCheck& check : checks) {
+    for (const ReportCheck& check : report.checks) {
       if (check.passed != passed) continue;
       page += fmt::format(R"(<tr class="{0}"><td><span class="badge {0}">{1}</span></td><td>{2})",
                           check.nothing ? "doubt" : state(check.passed),
@@ -353,7 +353,7 @@ void write_report(const Report& report, const std::filesystem::path& file) {
   write_keys(page, report.keys);
   write_facts(page, report.facts);
   const std::size_t top = page.text.size();
-  write_checks(page, report.checks);
+  write_checks(page, report);
   write_notes(page, report.notes);
   for (const ReportTable& table : report.summary) write_table(page, table);
   for (const ReportText& text : report.texts) write_text(page, text);

@@ -75,6 +75,7 @@ struct Report {
   Prose verdict;     ///< "all 5 checks passed", "2 of 5 checks failed", "the simulation stopped: ..."
   std::vector<ReportKey> keys = {};
   std::vector<ReportRow> facts;  ///< label, value: duration, step, seed, versions
+  Prose checks_title = "Checks";  ///< of which run, where there are several
   std::vector<ReportCheck> checks;
   std::vector<std::string> notes = {};  ///< what a reader should know besides, behind the checks
   std::vector<ReportTable> summary;     ///< what is read before the pictures: a comparison

@@ -269,6 +269,7 @@ record::DriveVerdict DriveJudge::verdict(Drive drive) const {
         Goes::not_with_it, false, verdict.cycles);
   verdict.inertia_ratio = drive.load_inertia / ratings.rotor_inertia;
   verdict.energy = whole ? stage.totals().from_mains : drive.energy / drive.counted;
+  verdict.energy_cycles = whole ? 0 : static_cast<int>(drive.counted);
   verdict.trips = drive.trips;
   for (const auto& figure : verdict.figures)
     if (figure.judged && figure.share > good)

@@ -58,7 +58,8 @@ struct DriveVerdict {
   std::vector<DriveFigure> figures;
   double inertia_ratio = 0;        ///< load over rotor
   int alike = 1;                   ///< drives that do the same: all figures are those of one
-  double energy = 0;               ///< from the mains, mean of a cycle [J]
+  double energy = 0;               ///< from the mains, mean of a cycle; where none is known, of the run [J]
+  int energy_cycles = 0;           ///< of so many cycles; 0: none is known
   bool steady = false;             ///< a steady cycle was found: what the drive bears for ever is known
   std::vector<std::string> trips;  ///< "tripped by overload at 3.2 s", "pulled out at 3.2 s"
   /// When the torque limit acted outside of what is judged: "twice, 0.12 s in all, first at 0.8 s"; "" =
@@ -88,6 +89,7 @@ struct DriveVerdict {
     archive("inertia_ratio", self.inertia_ratio);
     archive("alike", self.alike);
     archive("energy", self.energy);
+    archive("energy_cycles", self.energy_cycles);
     archive("steady", self.steady);
     archive("trips", self.trips);
     archive("limit_elsewhere", self.limit_elsewhere);

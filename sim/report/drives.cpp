@@ -103,8 +103,11 @@ renders::ReportTable drive_table(const std::vector<record::DriveVerdict>& verdic
     }
     table.rows.push_back({{"", "load over rotor inertia\nas the scenario begins",
                            fmt::format("{:.3g}", verdict.inertia_ratio), "", ""}});
-    table.rows.push_back(
-        {{"", "energy a cycle, from the mains", fmt::format("{:.4g} J", verdict.energy), "", ""}});
+    const auto of = verdict.energy_cycles == 0   ? std::string("whole run")
+                    : verdict.energy_cycles == 1 ? "the one cycle"
+                                                 : fmt::format("mean of {} cycles", verdict.energy_cycles);
+    table.rows.push_back({{"", fmt::format("energy from the mains\n{}", of),
+                           fmt::format("{:.4g} J", verdict.energy), "", ""}});
     if (!verdict.trips.empty())
       table.rows.push_back({{"", "trips", fmt::format("{}", fmt::join(verdict.trips, ", ")), "none",
                              judged ? "FAIL" : "not judged"}});

@@ -58,7 +58,7 @@ RunLeft RunFolder::run(const scenario::Scenario& scenario, loop::Simulation& sim
                        const PartMeshes& meshes, const RunRequest& request, RunResult& result) {
   const bool is_drawn = request.pictures || request.gltf;
   simulation.follow_cams(cams::cam_judgement, request.pictures);
-  if (request.pictures) follow_torques(simulation);
+  if (request.pictures) follow_torques(scenario, simulation);
   if (!is_drawn && !request.in_memory && !request.states) simulation.keep_nothing();
   std::filesystem::path hdf5;
   if (scenario.record.format == scenario::RecordSection::Format::csv) {

@@ -389,9 +389,14 @@ class DriveSplitter {
 
 }  // namespace
 
-void follow_torques(loop::Simulation& simulation) {
+void follow_torques(const scenario::Scenario& scenario, loop::Simulation& simulation) {
+  // Two cycles hold a whole one, wherever they begin. A step takes 24 bytes.
+  constexpr std::size_t usual = 100'000;
+  constexpr std::size_t most = 2'000'000;
+  const auto two_cycles = static_cast<std::size_t>(2 * scenario.drives.cycle / scenario.scene.step);
+  const auto fewest = std::clamp(two_cycles, usual, most);
   for (const auto& [name, plant] : simulation.plants())
-    if (auto* const tells = dynamic_cast<plants::TellsMotorLoad*>(plant)) tells->keep_motor_loads();
+    if (auto* const tells = dynamic_cast<plants::TellsMotorLoad*>(plant)) tells->keep_motor_loads(fewest);
 }
 
 std::vector<TorqueSplit> torque_splits(const scenario::Scenario& scenario,

@@ -30,8 +30,9 @@ struct TorqueSplit {
   Part torque;              ///< of the motor, all of them together
 };
 
-/// Before the run: its plants keep what the torques of their motors go into, every step.
-void follow_torques(loop::Simulation& simulation);
+/// Before the run: its plants keep what the torques of their motors go into, every step of the last 10 s or
+/// more, a machine cycle of up to 100 s among them where `drives` names one.
+void follow_torques(const scenario::Scenario& scenario, loop::Simulation& simulation);
 /// Of each drive that turned. The cycles are the last ten or fewer, as long as each other to 1 %: from cut to
 /// cut of the drive's plant, or as drives.cycle says. The cam is that of the controller's axis whose position
 /// is the motor's; its acceleration is that of the table's exact law under the master as it ran. What is left

@@ -507,7 +507,7 @@ TEST(State, OfTheLoadsOfAMotorIsApart) {
   WebDefinition web;
   Machine line(definition, &web);
   auto& knife = static_cast<RotaryKnife&>(*line.plant);
-  knife.keep_motor_loads();
+  knife.keep_motor_loads(100);
   line.reference(1);
   line.run(0.01);
   Bytes state;
@@ -521,7 +521,7 @@ TEST(State, OfTheLoadsOfAMotorIsApart) {
   auto& its = static_cast<RotaryKnife&>(*other.plant);
   auto restoring = StateArchive::restoring(state.data(), state.size());
   its.visit_all(restoring);  // of one that keeps none
-  its.keep_motor_loads();
+  its.keep_motor_loads(100);
   auto restoring_loads = StateArchive::restoring(number, journal.bytes);
   restoring_loads.log("loads", *its.motor_loads());
   ASSERT_EQ(its.motor_loads()->samples.size(), 100U);

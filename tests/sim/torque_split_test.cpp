@@ -31,7 +31,7 @@ struct SplitRun {
     if (problems.empty()) simulation = std::make_unique<loop::Simulation>(scenario, problems);
     if (!problems.empty()) throw std::runtime_error(to_string(problems.front()));
     simulation->follow_cams();
-    follow_torques(*simulation);
+    follow_torques(scenario, *simulation);
     simulation->run();
     splits = torque_splits(scenario, *simulation);
   }
@@ -169,6 +169,16 @@ TEST(TorqueSplits, HaveTheWeightOfAnInclinedAxis) {
   const auto* const gravity = part_of(split, "gravity");
   ASSERT_NE(gravity, nullptr);
   EXPECT_NEAR(gravity->rms, 20 * 9.80665 * 0.5 * 0.02 / (2 * std::numbers::pi), 1e-4);
+}
+
+// A cycle that is longer than what is kept by default: it is split whole.
+TEST(TorqueSplits, HoldAWholeCycleHoweverLong) {
+  const auto run = SplitRun::text(
+      "scene: {duration: 50 s}\ndrives: {cycle: 22 s}\nplants:\n  a: {type: linear_axis, inclination: 30 deg}\n");
+  ASSERT_EQ(run.splits.size(), 1U);
+  EXPECT_EQ(run.splits.front().cycles, 1U);
+  EXPECT_NEAR(run.splits.front().begin, 22, 1e-3);
+  EXPECT_NEAR(run.splits.front().end, 44, 1e-3);
 }
 
 // Guides that hold a ram as it turns round are friction, and no load.

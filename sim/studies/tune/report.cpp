@@ -346,7 +346,7 @@ record::Verdict verdict_of(const Tuning& tuning) {
   record::Verdict verdict;
   verdict.title = "Tuning: " + tuning.study.minimise;
   for (const auto& entry : tuning.study.cases) verdict.scenarios.push_back(entry.file.generic_string());
-  verdict.judge(after.feasible() && !tuning.unmeasurable);
+  verdict.judge(after.feasible() && !tuning.unmeasurable && !tuning.unlike);
   if (after.stopped) verdict.stopped();
   auto first = miss_text(tuning);
   if (!first.empty()) first += ". ";
@@ -371,6 +371,8 @@ void write_tuning_report(const Tuning& tuning, OutputFolder& folder) {
   if (const auto pushes = pushes_text(tuning); !pushes.empty()) report.facts.push_back({{"pushes", pushes}});
   if (const auto ends = at_the_ends(tuning); !ends.empty()) report.facts.push_back({{"ranges", ends}});
   report::add_overrides(tuning.study.set, report);
+  report.checks_title =
+      tuning.stays ? "Checks of the run with the present values" : "Checks of the run with the values found";
   for (const auto& run : tuning.runs_after) {
     report::add_checks(run.outcome.checks, report);
     report.scenario_expanded += run.expanded;

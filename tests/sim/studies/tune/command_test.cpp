@@ -83,7 +83,7 @@ TEST_F(TuneCommand, AProgramThatDoesSomethingElseWhereAValueIsGivenIsTold) {
   test_folder.file("axis.mod", "IF AxisX:pgain EQ 0\nAxisX:pgain = 10\nAxisX:feedfw = 1000\nENDIF\n" +
                                    std::string(program));
   options.vary = {pgain + "=5..15"};
-  run();
+  EXPECT_EQ(run(), cli::check_failed);
   EXPECT_THAT(out, HasSubstr("no trial is a comparison with the values before"));
   EXPECT_THAT(out, testing::ContainsRegex(pgain + " .1/1000. +5..15 +10 +program +as before\n"));
   EXPECT_THAT(out, HasSubstr(": present values 3, search "));
