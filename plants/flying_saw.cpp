@@ -165,7 +165,9 @@ void FlyingSaw::visit(StateArchive& archive) {
         last_slant_, last_pinch_);
 }
 
-std::vector<DriveOfPlant> FlyingSaw::drives() { return servo_.drives(load_inertia(data_)); }
+std::vector<DriveOfPlant> FlyingSaw::drives() {
+  return servo_.drives(load_inertia(data_), efficiency(data_));
+}
 
 MotorLoad FlyingSaw::motor_load(double h) const {
   return screw_.motor_load(servo_.amplifier().torque(), 0, h);

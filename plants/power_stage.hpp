@@ -147,12 +147,32 @@ std::vector<PlantDefinition::Objection> power_objections(const std::string& grou
 /// The rms current I of a motor and what it loses by it. A servo motor's follows its torque; that of an
 /// induction motor what its rotor loses, which is torque times slip:
 /// I^2 = no_load^2 + torque^2 per_torque_squared + rotor loss per_rotor_loss.
+/// A servo motor's grows faster above its rated torque, where its sheet has currents for more torque.
 struct MotorCurrent {
+  struct Point {
+    double torque = 0;   ///< [N m]
+    double current = 0;  ///< rms [A]
+  };
   double per_torque_squared = 0;  ///< [A2/N2m2]
-  double per_rotor_loss = 0;      ///< [A2/W]
-  double no_load = 0;             ///< [A]
-  double resistance = 1;          ///< loss in the cold windings (20 degC) over I^2 [ohm]
-  double rated_rotor_loss = 0;    ///< at stall torque [W]
+  /// Rated, at standstill, largest, with straight lines between them; rated.torque 0: there are none.
+  Point rated = {};
+  Point stall = {};
+  Point peak = {};
+  double per_rotor_loss = 0;    ///< [A2/W]
+  double no_load = 0;           ///< [A]
+  double resistance = 1;        ///< loss in the cold windings (20 degC) over I^2 [ohm]
+  double rated_rotor_loss = 0;  ///< at stall torque [W]
+
+  [[nodiscard]] bool bends() const { return rated.torque > 0; }
+  /// By the points of a motor that bends, beyond the last one on its line [A].
+  [[nodiscard]] double amperes(double torque) const;
+  /// The inverse [N m].
+  [[nodiscard]] double torque_of(double amperes) const;
+  /// What the square of the current has more than the torque's square says [A2].
+  [[nodiscard]] double more_squared(double torque) const {
+    const double current = amperes(torque);
+    return current * current - torque * torque * per_torque_squared;
+  }
 };
 
 /// What a drive has done since the start.
@@ -229,6 +249,7 @@ class PowerStage {
     } else {
       sum_.work += step.torque * speed * h;
       sum_.torque_squared += step.torque * step.torque * h;
+      if (current_.bends()) sum_.more_current += current_.more_squared(step.torque) * h;
       sum_.travel += std::abs(speed) * h;
       sum_.rotor_loss += step.rotor_loss * h;
       if (step.energised) sum_.energised += h;
@@ -314,6 +335,7 @@ class PowerStage {
   struct Sum {
     double work = 0;
     double torque_squared = 0;
+    double more_current = 0;  // [A2 s]
     double travel = 0;
     double rotor_loss = 0;
     double energised = 0;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "plants/efficiency.hpp"
 #include "plants/pulse_servo.hpp"
 #include "plants/servo_drive.hpp"
 
@@ -43,8 +44,8 @@ class ServoAxis {
   [[nodiscard]] const std::optional<PulseServo>& pulses() const { return pulses_; }  ///< where it takes them
 
   /// For Plant::drives(), with what it turns, seen at the motor [kg m2].
-  [[nodiscard]] std::vector<DriveOfPlant> drives(double load_inertia) {
-    return {{"servo", &amplifier_.power(), load_inertia}};
+  [[nodiscard]] std::vector<DriveOfPlant> drives(double load_inertia, const Efficiency& through) {
+    return {{"servo", &amplifier_.power(), load_inertia, through.driving}};
   }
 
   // What it adds to a plant's lists.

@@ -39,8 +39,10 @@ struct KnownMargin {
 };
 
 KnownMargin known_phase(const studies::LoopResult& result) {
-  if (!studies::loop_doubts(result).empty()) return {{}, "what was measured is not to be trusted"};
-  return {result.margins.phase, "it lies outside these frequencies"};
+  if (const auto phase = result.known_phase()) return {phase, ""};
+  return {{},
+          studies::loop_doubts(result).empty() ? "it lies outside these frequencies"
+                                               : "what was measured is not to be trusted"};
 }
 
 /// With play the least of all amplitudes counts.
@@ -103,8 +105,7 @@ std::string judged_text(const Judged& judged) {
 void write(const BodeOptions& options, const scenario::Scenario& scenario, const studies::LoopResult& result,
            const studies::LimitCycle* cycle, const record::Verdict& verdict,
            const std::vector<record::CheckResult>& checks, OutputFolder* folder) {
-  if (folder != nullptr)
-    studies::write_bode_report(result, cycle, verdict, checks, scenario, *folder);
+  if (folder != nullptr) studies::write_bode_report(result, cycle, verdict, checks, scenario, *folder);
   if (folder != nullptr && !result.sweep.points.empty())
     write_file(folder->add("bode.csv"), bode_csv(result));
   if (folder != nullptr) record::write_verdict(verdict, *folder);

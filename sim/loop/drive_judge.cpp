@@ -81,8 +81,8 @@ DriveJudge::DriveJudge(const scenario::Scenario& scenario, const std::vector<Nam
     : judged_(scenario.drives.judge), cycle_(scenario.drives.cycle) {
   for (const auto& [name, plant] : plants)
     for (const auto& drive : plant->drives()) {
-      drives_.push_back(
-          {name, drive.name, drive.stage, drive.load_inertia, drive.alike, DriveCycles(seconds(cycle_))});
+      drives_.push_back({name, drive.name, drive.stage, drive.load_inertia, drive.efficiency, drive.alike,
+                         DriveCycles(seconds(cycle_))});
       const auto monitor = fmt::format("{}.{}.mains_ok", name, drive.name);
       drives_.back().tells_mains =
           std::any_of(scenario.wiring.begin(), scenario.wiring.end(),
@@ -268,6 +268,7 @@ record::DriveVerdict DriveJudge::verdict(Drive drive) const {
     add("time at the torque limit, worst cycle", worst.saturated_once * percent, percent, "%",
         Goes::not_with_it, false, verdict.cycles);
   verdict.inertia_ratio = drive.load_inertia / ratings.rotor_inertia;
+  verdict.efficiency = drive.efficiency;
   verdict.energy = whole ? stage.totals().from_mains : drive.energy / drive.counted;
   verdict.energy_cycles = whole ? 0 : static_cast<int>(drive.counted);
   verdict.trips = drive.trips;

@@ -88,6 +88,7 @@ class DriveJudge : public record::Observer {
     std::string name;
     plants::PowerStage* stage = nullptr;
     double load_inertia = 0;
+    double efficiency = 1;
     int alike = 1;
     DriveCycles cycles;
     int counted = 0;                           ///< cycles

@@ -57,6 +57,7 @@ struct DriveVerdict {
   plants::DriveRatings ratings;
   std::vector<DriveFigure> figures;
   double inertia_ratio = 0;        ///< load over rotor
+  double efficiency = 1;           ///< of all between motor and load; 1: no losses are counted
   int alike = 1;                   ///< drives that do the same: all figures are those of one
   double energy = 0;               ///< from the mains, mean of a cycle; where none is known, of the run [J]
   int energy_cycles = 0;           ///< of so many cycles; 0: none is known
@@ -87,6 +88,7 @@ struct DriveVerdict {
     archive("cycles", self.cycles);
     archive("figures", self.figures);
     archive("inertia_ratio", self.inertia_ratio);
+    archive("efficiency", self.efficiency);
     archive("alike", self.alike);
     archive("energy", self.energy);
     archive("energy_cycles", self.energy_cycles);

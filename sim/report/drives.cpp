@@ -103,6 +103,10 @@ renders::ReportTable drive_table(const std::vector<record::DriveVerdict>& verdic
     }
     table.rows.push_back({{"", "load over rotor inertia\nas the scenario begins",
                            fmt::format("{:.3g}", verdict.inertia_ratio), "", ""}});
+    table.rows.push_back({{"", "efficiency from motor to load",
+                           verdict.efficiency < 1 ? fmt::format("{:.3g}", verdict.efficiency)
+                                                  : std::string("1: no losses of gear or screw are counted"),
+                           "", ""}});
     const auto of = verdict.energy_cycles == 0   ? std::string("whole run")
                     : verdict.energy_cycles == 1 ? "the one cycle"
                                                  : fmt::format("mean of {} cycles", verdict.energy_cycles);

@@ -199,6 +199,15 @@ std::optional<std::string> wire_of(const scenario::Scenario& scenario, const Loo
   return prepared.excited->bus().analogue_wires()[prepared.plan->wire].plug;
 }
 
+std::optional<AtFrequency> LoopResult::known_phase() const {
+  if (!margins.phase || !sweep.failure.empty() || sweep.loop != Sweep::Loop::closed) return {};
+  const auto doubtful = [&](const BodePoint& point) {
+    return point.frequency <= 2 * margins.phase->frequency &&
+           (point.silent || point.saturated || !(point.doubt() <= bode_error_limit));
+  };
+  return std::ranges::any_of(sweep.points, doubtful) ? std::nullopt : margins.phase;
+}
+
 std::optional<AtFrequency> LoopResult::least_gain() const {
   if (play.empty()) return margins.gain;
   if (!hunting || !hunting->failure.empty()) return {};

@@ -77,6 +77,9 @@ struct LoopResult {
   std::string play;                          ///< of the plant at the wire: "axis.gap 0.4 mm", "" = none
   std::optional<HuntingPoint> hunting;       ///< where there is play, if it was asked for
 
+  /// The phase margin, if it is known: the loop is sound, and up to twice the crossover all answers are to be
+  /// trusted. What does not answer above that is another matter.
+  [[nodiscard]] std::optional<AtFrequency> known_phase() const;
   /// The least gain margin over all amplitudes, if it is known: with play an oscillation may keep itself up
   /// at less gain than one sine shows.
   [[nodiscard]] std::optional<AtFrequency> least_gain() const;

@@ -82,14 +82,21 @@ std::string hunting_text(const LoopResult& result) {
 /// What the loop is judged by: name and value in words; `why_not`: what follows "not known".
 std::vector<renders::ReportRow> margin_rows(const LoopResult& result, const std::string& why_not) {
   const auto& margins = result.margins;
-  if (!loop_doubts(result).empty()) return {{{"margins", "not known" + why_not}}};
+  const auto phase_text = [&] {
+    return fmt::format("{:.1f} deg at the crossover of {}", margins.phase->value,
+                       hertz_text(margins.phase->frequency));
+  };
+  if (!loop_doubts(result).empty()) {
+    if (!result.known_phase()) return {{{"margins", "not known" + why_not}}};
+    return {
+        {{"phase margin", fmt::format("{}, with a sine of {:.3g} V", phase_text(), result.plan.amplitude)}},
+        {{"other margins", "not known" + why_not}}};
+  }
   const std::string absent = "not between these frequencies";
   const auto factor = [](const AtFrequency& margin) { return std::pow(10, margin.value / 20); };
   std::vector<renders::ReportRow> rows;
   const auto row = [&](const char* name, std::string value) { rows.push_back({{name, std::move(value)}}); };
-  row("phase margin", margins.phase ? fmt::format("{:.1f} deg at the crossover of {}", margins.phase->value,
-                                                  hertz_text(margins.phase->frequency))
-                                    : "no crossover between these frequencies");
+  row("phase margin", margins.phase ? phase_text() : "no crossover between these frequencies");
   row("gain margin", margins.gain ? fmt::format("{:.2f} dB at {}: unstable from {:.3g} times the gain on",
                                                 margins.gain->value, hertz_text(margins.gain->frequency),
                                                 factor(*margins.gain))
@@ -373,8 +380,8 @@ renders::Plot bode_plot(const LoopResult& result, const std::string& name) {
   if (!table.speed.gain.empty()) draw("speed loop", table.speed, table.speed.gain.front());
   plot.panels = {gain, phase};
   const auto margins = loop_doubts(result).empty() ? result.margins : Margins{};
-  if (margins.phase)
-    plot.marks.push_back({margins.phase->frequency, fmt::format("margin {:.1f}°", margins.phase->value)});
+  if (const auto phase = result.known_phase())
+    plot.marks.push_back({phase->frequency, fmt::format("margin {:.1f}°", phase->value)});
   if (margins.gain)
     plot.marks.push_back({margins.gain->frequency, fmt::format("margin {:.1f} dB", margins.gain->value)});
   if (plot.marks.size() == 2 && plot.marks[0].x > plot.marks[1].x) std::swap(plot.marks[0], plot.marks[1]);
