@@ -171,10 +171,11 @@ void PowerStage::settle(double h) {
   totals_.fed_squared += fed * seconds;
   totals_.torque_squared += sum_.torque_squared;
   totals_.travel += sum_.travel;
-  const double torque = std::abs(torque_);
+  const double torque = std::abs(sum_.torque);
   peaks_.torque = std::max(peaks_.torque, torque);
-  peaks_.speed = std::max(peaks_.speed, std::abs(speed_));
-  const double available = torque_ * speed_ > 0 ? ratings_.peak(speed_) : ratings_.peak_torque;
+  peaks_.speed = std::max(peaks_.speed, sum_.speed);
+  const double available =
+      sum_.torque * sum_.speed_then > 0 ? ratings_.peak(sum_.speed_then) : ratings_.peak_torque;
   peaks_.i2t = std::max(peaks_.i2t, i2t_);
   peaks_.winding = std::max(peaks_.winding, heat_.winding());
   if (torque > 0) peaks_.share = std::max(peaks_.share, available > 0 ? torque / available : 1);
@@ -230,7 +231,8 @@ void DrivePeaks::visit(StateArchive& archive) { STATE(archive, torque, speed, sh
 void PowerStage::Step::visit(StateArchive& archive) { STATE(archive, torque, rotor_loss, asked, energised); }
 
 void PowerStage::Sum::visit(StateArchive& archive) {
-  STATE(archive, work, torque_squared, more_current, travel, rotor_loss, energised);
+  STATE(archive, work, torque_squared, more_current, torque, speed_then, speed, travel, rotor_loss,
+        energised);
 }
 
 void PowerStage::Saturation::visit(StateArchive& archive) { STATE(archive, on, begin, end, asked); }

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -255,6 +256,11 @@ class PowerStage {
       if (step.energised) sum_.energised += h;
       torque_ = step.torque;
       speed_ = speed;
+      if (std::abs(torque_) > std::abs(sum_.torque)) {
+        sum_.torque = torque_;
+        sum_.speed_then = speed;
+      }
+      sum_.speed = std::max(sum_.speed, std::abs(speed));
     }
     if (step.asked > 1) saturate(step.asked, h);
     if (++steps_ >= every_) settle(h);
@@ -336,6 +342,9 @@ class PowerStage {
     double work = 0;
     double torque_squared = 0;
     double more_current = 0;  // [A2 s]
+    double torque = 0;        // of the largest size [N m], and the speed then [rad/s]
+    double speed_then = 0;
+    double speed = 0;  // largest size [rad/s]
     double travel = 0;
     double rotor_loss = 0;
     double energised = 0;

@@ -72,6 +72,9 @@ struct DriveVerdict {
   /// from one run: friction and load stay, the rest of the torque goes with the speed. 1 where all are; 0
   /// where friction and load alone are too much.
   double advised = 1;
+  /// Begin and end of the last ten of the cycles, or fewer; of the stretch that is judged where there are none
+  /// [s].
+  std::vector<std::pair<double, double>> last_cycles;
   // Of every record instant or cycle, for pictures and for sizing.
   std::vector<std::pair<double, double>> cycle_points;  ///< mean size of speed [rad/s], rms torque [N m]
   std::vector<std::pair<double, double>> points;        ///< speed [rad/s] and torque [N m] at record instants
@@ -99,6 +102,7 @@ struct DriveVerdict {
     archive("warnings", self.warnings);
     archive("advised", self.advised);
     archive("ratings", self.ratings);
+    archive("last_cycles", self.last_cycles);
     archive("cycle_points", self.cycle_points);
     archive("points", self.points);
   }

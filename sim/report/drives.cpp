@@ -40,7 +40,7 @@ renders::Curve peak_curve(const plants::DriveRatings& ratings, bool both_ways) {
   std::vector<double> corners = {0, ratings.rated_speed, ratings.max_speed};
   if (both_ways) corners.insert(corners.begin(), {-ratings.max_speed, -ratings.rated_speed});
   renders::Curve curve;
-  curve.label = "peak torque";
+  curve.label = ratings.works_at_limit ? "pull-out torque" : "peak torque";
   const auto add = [&](double speed, double torque) {
     curve.x.push_back(speed * units::rpm);
     curve.y.push_back(torque);
@@ -103,10 +103,11 @@ renders::ReportTable drive_table(const std::vector<record::DriveVerdict>& verdic
     }
     table.rows.push_back({{"", "load over rotor inertia\nas the scenario begins",
                            fmt::format("{:.3g}", verdict.inertia_ratio), "", ""}});
-    table.rows.push_back({{"", "efficiency from motor to load",
-                           verdict.efficiency < 1 ? fmt::format("{:.3g}", verdict.efficiency)
-                                                  : std::string("1: no losses of gear or screw are counted"),
-                           "", ""}});
+    table.rows.push_back(
+        {{"",
+          fmt::format("efficiency from motor to load{}",
+                      verdict.efficiency < 1 ? "" : "\nno losses of gear or screw are counted"),
+          fmt::format("{:.3g}", verdict.efficiency), "", ""}});
     const auto of = verdict.energy_cycles == 0   ? std::string("whole run")
                     : verdict.energy_cycles == 1 ? "the one cycle"
                                                  : fmt::format("mean of {} cycles", verdict.energy_cycles);

@@ -199,14 +199,23 @@ std::optional<std::string> wire_of(const scenario::Scenario& scenario, const Loo
   return prepared.excited->bus().analogue_wires()[prepared.plan->wire].plug;
 }
 
-std::optional<AtFrequency> LoopResult::known_phase() const {
-  if (!margins.phase || !sweep.failure.empty() || sweep.loop != Sweep::Loop::closed) return {};
-  const auto doubtful = [&](const BodePoint& point) {
-    return point.frequency <= 2 * margins.phase->frequency &&
+namespace {
+
+/// `margin`, if the loop is sound and all answers up to `times` its frequency are to be trusted.
+std::optional<AtFrequency> if_known(const Sweep& sweep, const std::optional<AtFrequency>& margin,
+                                    double times) {
+  if (!margin || !sweep.failure.empty() || sweep.loop != Sweep::Loop::closed) return {};
+  const auto is_doubtful = [&](const BodePoint& point) {
+    return point.frequency <= times * margin->frequency &&
            (point.silent || point.saturated || !(point.doubt() <= bode_error_limit));
   };
-  return std::ranges::any_of(sweep.points, doubtful) ? std::nullopt : margins.phase;
+  return std::ranges::any_of(sweep.points, is_doubtful) ? std::nullopt : margin;
 }
+
+}  // namespace
+
+std::optional<AtFrequency> LoopResult::known_phase() const { return if_known(sweep, margins.phase, 2); }
+std::optional<AtFrequency> LoopResult::known_gain() const { return if_known(sweep, margins.gain, 1.1); }
 
 std::optional<AtFrequency> LoopResult::least_gain() const {
   if (play.empty()) return margins.gain;
@@ -272,7 +281,8 @@ std::vector<Finding> loop_doubts(const LoopResult& result) {
   tell("bode.no-answer"_code,
        result.terminal +
            " does not answer: the motion stays in play or stiction; a larger --amplitude would answer, but "
-           "it hides the play: see drycut bode --limit-cycle",
+           "it hides the play" +
+           (result.hunting ? ", for which the pushes count" : ": see drycut bode --limit-cycle"),
        [](const BodePoint& point) { return point.silent; });
   tell("bode.lost"_code,
        fmt::format(

@@ -80,6 +80,8 @@ struct LoopResult {
   /// The phase margin, if it is known: the loop is sound, and up to twice the crossover all answers are to be
   /// trusted. What does not answer above that is another matter.
   [[nodiscard]] std::optional<AtFrequency> known_phase() const;
+  /// The gain margin of this sine likewise.
+  [[nodiscard]] std::optional<AtFrequency> known_gain() const;
   /// The least gain margin over all amplitudes, if it is known: with play an oscillation may keep itself up
   /// at less gain than one sine shows.
   [[nodiscard]] std::optional<AtFrequency> least_gain() const;

@@ -88,9 +88,13 @@ std::vector<renders::ReportRow> margin_rows(const LoopResult& result, const std:
   };
   if (!loop_doubts(result).empty()) {
     if (!result.known_phase()) return {{{"margins", "not known" + why_not}}};
-    return {
-        {{"phase margin", fmt::format("{}, with a sine of {:.3g} V", phase_text(), result.plan.amplitude)}},
-        {{"other margins", "not known" + why_not}}};
+    const auto of_sine = fmt::format(", with a sine of {:.3g} V", result.plan.amplitude);
+    std::vector<renders::ReportRow> known = {{{"phase margin", phase_text() + of_sine}}};
+    if (const auto gain = result.known_gain())
+      known.push_back({{"gain margin", fmt::format("{:.2f} dB at {}{}", gain->value,
+                                                   hertz_text(gain->frequency), of_sine)}});
+    known.push_back({{"other margins", "not known" + why_not}});
+    return known;
   }
   const std::string absent = "not between these frequencies";
   const auto factor = [](const AtFrequency& margin) { return std::pow(10, margin.value / 20); };
@@ -202,7 +206,7 @@ renders::ReportTable amplitude_table(const LimitCycle& cycle) {
       "Gain margin over the amplitude of the sine", {"amplitude", "gain margin", "times the gain"}, {}};
   for (const auto& margin : cycle.margins)
     table.rows.push_back({{fmt::format("{:.3g} V", margin.amplitude()),
-                           margin.gain ? fmt::format("{:.2f} dB", margin.gain->value) : "unknown",
+                           margin.gain ? fmt::format("{:.2f} dB", margin.gain->value) : "no answer",
                            margin.gain ? fmt::format("{:.3g}", factor_of(*margin.gain)) : ""}});
   return table;
 }
@@ -306,6 +310,7 @@ void write_bode_report(const LoopResult& result, const LimitCycle* cycle, const 
         {{"left out", fmt::format("{} where the answer is noise (error above {:.0f} %); bode.csv has "
                                   "them",
                                   counted(static_cast<std::int64_t>(lost), "point"), bode_lost * 100)}});
+  if (result.sweep.faded_from > 0) report.facts.push_back({{"ends there", faded_text(result)}});
   if (!known(result).empty()) {
     report.summary = {
         {"Margins",
