@@ -79,6 +79,7 @@ class AxisDrive {
   // What it adds to a plant's lists.
   void offer_ports(std::vector<Port>& ports);
   void offer_channels(std::vector<Channel>& channels) const;
+  void offer_settings(std::vector<Setting>& settings);
   void offer_faults(std::vector<Fault>& faults);
   static void offer_events(std::vector<EventType>& types);
 

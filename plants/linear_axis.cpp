@@ -98,12 +98,14 @@ std::vector<Channel> LinearAxis::channels() {
 }
 
 std::vector<Setting> LinearAxis::settings() {
-  return {{"force",
-           "N",
-           [this](double v) { outer_force_ = v; },
-           [this] { return outer_force_; },
-           "force of the process on the carriage, positive in positive direction",
-           {-1e6, 1e6, false}}};
+  std::vector<Setting> settings = {{"force",
+                                    "N",
+                                    [this](double v) { outer_force_ = v; },
+                                    [this] { return outer_force_; },
+                                    "force of the process on the carriage, positive in positive direction",
+                                    {-1e6, 1e6, false}}};
+  drive_.offer_settings(settings);
+  return settings;
 }
 
 std::vector<DriveOfPlant> LinearAxis::drives() {

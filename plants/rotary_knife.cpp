@@ -167,6 +167,12 @@ std::vector<Channel> RotaryKnife::channels() {
   return channels;
 }
 
+std::vector<Setting> RotaryKnife::settings() {
+  std::vector<Setting> settings;
+  servo_.offer_settings(settings);
+  return settings;
+}
+
 std::vector<EventType> RotaryKnife::event_types() {
   EventType cut = {
       "cut",

@@ -64,6 +64,7 @@ class RotaryKnife : public Plant, public TellsMotorLoad {
   std::vector<Port> ports() override;
   [[nodiscard]] std::optional<PlugScale> scale_of(std::string_view port) const override;
   std::vector<Channel> channels() override;
+  std::vector<Setting> settings() override;
   std::vector<Fault> faults() override;
   std::vector<EventType> event_types() override;
   std::vector<DriveOfPlant> drives() override;

@@ -51,6 +51,7 @@ class ServoAxis {
   // What it adds to a plant's lists.
   void offer_ports(std::vector<Port>& ports);
   void offer_channels(std::vector<Channel>& channels) const;
+  void offer_settings(std::vector<Setting>& settings) { amplifier_.offer_settings(settings); }
   void offer_faults(std::vector<Fault>& faults);
   static void offer_events(std::vector<EventType>& types);
   /// What happened to it since it was asked last.

@@ -138,8 +138,9 @@ double ServoDrive::convert(double volts) const {
 double ServoDrive::speed_loop(double speed, double h) {
   const double gain = loop_gain(data_);
   const double error = filtered_ - speed;
-  double wanted = gain * error + integral_ + ahead_;
-  if (filters_.any()) wanted = filters_.pass(wanted, h);
+  wanted_ = gain * error + integral_ + ahead_;
+  if (filters_.any()) wanted_ = filters_.pass(wanted_, h);
+  const double wanted = wanted_ + test_torque_;
   // With less voltage the motor has its torque up to less speed. Braking it has it at any.
   const double as_rated = speed / power_.speed_share();
   double limit = std::abs(as_rated) > data_.rated_speed && wanted * speed > 0
@@ -215,7 +216,7 @@ void ServoDrive::coast(Shaft& rotor, double h) {
 // They begin afterwards from a motor of `speed` that is asked for nothing.
 void ServoDrive::end_loops(double speed) {
   commanded_ = speed;
-  integral_ = acceleration_ = ahead_ = 0;
+  integral_ = acceleration_ = ahead_ = wanted_ = 0;
   filters_.clear();
   saturated_ = false;
 }
@@ -224,6 +225,15 @@ void ServoDrive::release(Shaft& rotor) {
   filtered_ = rotor.speed;
   end_loops(rotor.speed);
   give(0, rotor);
+}
+
+void ServoDrive::offer_settings(std::vector<Setting>& settings) {
+  settings.push_back({"servo.test_torque",
+                      "N m",
+                      [this](double v) { test_torque_ = v; },
+                      [this] { return test_torque_; },
+                      "test signal: torque added to what the speed loop asks for",
+                      {-1e5, 1e5, false}});
 }
 
 void ServoDrive::offer_faults(std::vector<Fault>& faults, const std::string& component) {
@@ -268,7 +278,8 @@ void ServoDrive::Faults::visit(StateArchive& archive) {
 
 void ServoDrive::visit(StateArchive& archive) {
   STATE(archive, reference, enable, power_, random_, converted_, filtered_, integral_, commanded_,
-        acceleration_, ahead_, filters_, torque_, saturated_, asked_, energised_, enabled_before_, faults_);
+        acceleration_, ahead_, filters_, wanted_, test_torque_, torque_, saturated_, asked_, energised_,
+        enabled_before_, faults_);
 }
 
 Parameters servo_parameters(ServoData& data, const ServoSources& from) {

@@ -99,7 +99,9 @@ class ServoDrive {
 
   /// The amplifier drives the motor: enabled and not tripped.
   [[nodiscard]] bool enabled() const { return enable.level && !faults_.disabled && !power_.tripped(); }
-  [[nodiscard]] double torque() const { return torque_; }             ///< on the rotor [N m]
+  [[nodiscard]] double torque() const { return torque_; }  ///< on the rotor [N m]
+  /// What the speed loop asks for, through its filters, before test signal and limit [N m].
+  [[nodiscard]] double asked() const { return wanted_; }
   [[nodiscard]] double speed_reference() const { return filtered_; }  ///< after the filter [rad/s]
   [[nodiscard]] double volts() const { return converted_; }           ///< as converted [V]
   [[nodiscard]] bool saturated() const { return saturated_; }         ///< the torque limit acts
@@ -107,6 +109,8 @@ class ServoDrive {
   [[nodiscard]] PowerStage& power() { return power_; }  ///< the electrical side
   [[nodiscard]] const PowerStage& power() const { return power_; }
 
+  /// Its test signal, `servo.test_torque`.
+  void offer_settings(std::vector<Setting>& settings);
   /// Faults for a plant's list, under the component name `component`. A value of 0 clears each of them.
   void offer_faults(std::vector<Fault>& faults, const std::string& component);
   /// Those of them that do not need the analogue input.
@@ -143,6 +147,8 @@ class ServoDrive {
   double acceleration_ = 0;  // of it, filtered [rad/s2]
   double ahead_ = 0;         // torque for it [N m]
   TorqueFilters filters_;
+  double wanted_ = 0;       // [N m]
+  double test_torque_ = 0;  // [N m]
   double torque_ = 0;
   bool saturated_ = false;
   double asked_ = 0;  // torque over what the limit let through

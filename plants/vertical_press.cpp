@@ -103,21 +103,23 @@ std::vector<Channel> VerticalPress::channels() {
 }
 
 std::vector<Setting> VerticalPress::settings() {
-  return {{"load",
-           "kg",
-           [this](double v) {
-             data_.load = v;
-             parameters_changed();
-           },
-           [this] { return data_.load; },
-           "what the ram carries besides itself",
-           {0, 1e6, false}},
-          {"force",
-           "N",
-           [this](double v) { outer_force_ = v; },
-           [this] { return outer_force_; },
-           "force of the process on the ram, positive upwards",
-           {-1e7, 1e7, false}}};
+  std::vector<Setting> settings = {{"load",
+                                    "kg",
+                                    [this](double v) {
+                                      data_.load = v;
+                                      parameters_changed();
+                                    },
+                                    [this] { return data_.load; },
+                                    "what the ram carries besides itself",
+                                    {0, 1e6, false}},
+                                   {"force",
+                                    "N",
+                                    [this](double v) { outer_force_ = v; },
+                                    [this] { return outer_force_; },
+                                    "force of the process on the ram, positive upwards",
+                                    {-1e7, 1e7, false}}};
+  drive_.offer_settings(settings);
+  return settings;
 }
 
 std::vector<DriveOfPlant> VerticalPress::drives() {

@@ -90,7 +90,7 @@ std::optional<SweepPlan> plan_of(const LoopRequest& request, const scenario::Sce
   SweepPlan plan;
   plan.wire = *wire;
   plan.speed = choose_speed(request, at_wire.plug, simulation, problems);
-  plan.at = time_of(request).value_or(scenario.scene.duration);
+  plan.at = start_of(scenario, request);
   plan.step = scenario.scene.step;
   plan.sampling = std::max(simulation.output_period(at_wire.terminal), plan.step);
   plan.amplitude = request.amplitude;
@@ -143,6 +143,10 @@ Preparation prepare(const scenario::Scenario& scenario, const LoopRequest& reque
 }
 
 }  // namespace
+
+Time start_of(const scenario::Scenario& scenario, const LoopRequest& request) {
+  return time_of(request).value_or(scenario.scene.duration);
+}
 
 std::string hertz_text(double frequency) { return fmt::format("{:.4g} Hz", frequency); }
 

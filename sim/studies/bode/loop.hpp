@@ -94,6 +94,8 @@ inline constexpr double bode_lost = 0.5;
 
 /// Numbers of the request that no scenario allows, by the names of the options.
 void check_request(const LoopRequest& request, Problems& problems);
+/// When the measurement begins: --at, else the end of the scenario.
+Time start_of(const scenario::Scenario& scenario, const LoopRequest& request);
 /// What of the request does not fit the scenario.
 void check_loop(const scenario::Scenario& scenario, const LoopRequest& request, Problems& problems);
 /// The same with the controller's compute_time set to 0 besides, where the scenario has one.
