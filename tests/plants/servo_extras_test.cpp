@@ -1,5 +1,5 @@
 // What a servo drive and its motor have beside loops and limits: filters of the torque, torque given ahead,
-// cogging and ripple, currents of a sheet; and the smoothing of a pulse train. Against closed forms.
+// cogging and ripple, currents of a sheet. Against closed forms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,8 +7,6 @@
 #include <cmath>
 #include <complex>
 
-#include "plants/pulse_servo.hpp"
-#include "plants/servo_axis.hpp"
 #include "plants/servo_drive.hpp"
 #include "tests/plants/plants_lookup.hpp"
 
@@ -66,12 +64,12 @@ TEST(TorqueFilters, ANotchThatStepsCannotMakeIsRefused) {
 }
 
 /// A servo on a load that is rigidly its rotor, without noise of its converter.
-struct Axis {
+struct FreeAxis {
   ServoData data;
   World world;
   Shaft& rotor;
   ServoDrive servo;
-  explicit Axis(ServoData d)
+  explicit FreeAxis(ServoData d)
       : data(d),
         rotor(world.add_shaft({.name = "rotor", .inertia = d.rotor_inertia * (1 + d.inertia_ratio)})),
         servo(d, world.random("servo")) {}
@@ -93,7 +91,7 @@ TEST(ServoDrive, TorqueGivenAheadLeavesNothingToTheLoop) {
   for (const double ahead : {0.0, 1.0}) {
     ServoData data = fine();
     data.torque_forward = ahead;
-    Axis axis(data);
+    FreeAxis axis(data);
     const double slope = 10;  // [V/s]
     for (int i = 0; i < 4000; ++i) axis.step(slope * i * h);
     const double acceleration = slope / 10 * data.speed_at_10v;
@@ -102,7 +100,7 @@ TEST(ServoDrive, TorqueGivenAheadLeavesNothingToTheLoop) {
     // An integral that must make a torque T grows by Kp / Ti of the error: at its end the error is 0 in both
     // cases, on the way it is not. 60 ms into the ramp:
     EXPECT_NEAR(behind, 0, 0.02 * acceleration * 1e-3);
-    Axis young(data);
+    FreeAxis young(data);
     double most = 0;
     for (int i = 0; i < 600; ++i) {
       young.step(slope * i * h);
@@ -118,7 +116,7 @@ TEST(ServoDrive, TorqueGivenAheadLeavesNothingToTheLoop) {
 
 /// Half of what `read` swings by while the motor turns once.
 template <class Read>
-double swing(Axis& axis, double volts, Read read) {
+double swing(FreeAxis& axis, double volts, Read read) {
   for (int i = 0; i < 20'000; ++i) axis.step(volts);
   double low = read();
   double high = low;
@@ -137,7 +135,7 @@ TEST(ServoDrive, CoggingMakesTheSpeedSwing) {
   data.cogging_periods = 20;
   data.speed_gain = 1;
   data.integral_time = 10;
-  Axis axis(data);
+  FreeAxis axis(data);
   axis.rotor.speed = 0.3 * data.speed_at_10v;  // 10 turns a second
   const double expected = 0.05 / (axis.rotor.inertia * 20 * 0.3 * data.speed_at_10v);
   EXPECT_NEAR(swing(axis, 3, [&] { return axis.rotor.speed; }), expected, 0.01 * expected);
@@ -149,11 +147,11 @@ TEST(ServoDrive, RippleGoesWithTheTorque) {
   data.torque_ripple_periods = 24;
   data.speed_gain = 1;
   data.integral_time = 10;
-  Axis axis(data);
+  FreeAxis axis(data);
   axis.rotor.speed = 0.3 * data.speed_at_10v;
   EXPECT_LT(swing(axis, 3, [&] { return axis.rotor.speed; }), 1e-4);
   // Held at 4 N m, by hand.
-  Axis held(data);
+  FreeAxis held(data);
   double low = 1e9;
   double high = -1e9;
   for (int i = 0; i < 20'000; ++i) {
@@ -233,59 +231,6 @@ TEST(MotorCurrent, ThoseThatContradictAreTold) {
   found = servo_objections(data, data.rotor_inertia * 5, h);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].parameter, "servo.peak_current");
-}
-
-/// A pulse servo on its rotor, fed at an even rate.
-struct PulseAxis {
-  ServoAxisData data;
-  World world;
-  Shaft& rotor;
-  ServoAxis servo;
-  double sent = 0;
-  explicit PulseAxis(const ServoAxisData& d)
-      : data(d),
-        rotor(world.add_shaft(
-            {.name = "rotor", .inertia = d.servo.rotor_inertia * (1 + d.servo.inertia_ratio)})),
-        servo(d, rotor, world.random("servo")) {}
-  void step(double rate) {
-    std::vector<Port> ports;
-    servo.offer_ports(ports);
-    const auto before = std::llround(std::floor(sent));
-    sent += rate;
-    for (const Port& port : ports) {
-      if (port.name == "servo.pulses")
-        std::get<PulsePort*>(port.plug)->pulses += std::llround(std::floor(sent)) - before;
-      if (port.name == "servo.direction") std::get<CommandPort*>(port.plug)->level = true;
-    }
-    servo.drive(rotor, h);
-    world.step(h);
-    servo.sense(rotor);
-  }
-};
-
-// Whole pulses at 0.4 a step: what a feed forward makes of them is torque that no cam asks for. Smoothed it
-// is the less, the command comes later by its time, and it ends on the very count.
-TEST(PulseServo, SmoothingTakesTheStepsOutOfTheTorque) {
-  double torque[2] = {};
-  for (const bool smooth : {false, true}) {
-    ServoAxisData data;
-    data.kind = "pulses";
-    data.pulses.feed_forward = 1;
-    data.pulses.feed_forward_filter = 0;
-    data.pulses.smoothing = smooth ? 10e-3 : 0;
-    PulseAxis axis(data);
-    double squares = 0;
-    for (int i = 0; i < 20'000; ++i) {
-      axis.step(0.4);
-      if (i >= 10'000) squares += std::pow(axis.servo.amplifier().torque(), 2);
-    }
-    torque[smooth ? 1 : 0] = std::sqrt(squares / 10'000);
-    const double behind = 8000.0 / 10000 - axis.rotor.revolutions();
-    EXPECT_NEAR(behind, smooth ? 10e-3 * 0.4 / h / 10000 : 0, 3e-4) << smooth;
-    for (int i = 0; i < 10'000; ++i) axis.step(0);
-    EXPECT_NEAR(axis.rotor.revolutions(), 0.8, 1e-5);
-  }
-  EXPECT_LT(torque[1], torque[0] / 20);
 }
 
 }  // namespace
