@@ -99,7 +99,7 @@ TEST(ServoDrive, TorqueGivenAheadLeavesNothingToTheLoop) {
     const double behind = axis.servo.speed_reference() - axis.rotor.speed;
     // An integral that must make a torque T grows by Kp / Ti of the error: at its end the error is 0 in both
     // cases, on the way it is not. 60 ms into the ramp:
-    EXPECT_NEAR(behind, 0, 0.02 * acceleration * 1e-3);
+    EXPECT_NEAR(behind, -acceleration * h, 1e-3 * acceleration * h);  // it is that of the step before
     FreeAxis young(data);
     double most = 0;
     for (int i = 0; i < 600; ++i) {
@@ -114,43 +114,36 @@ TEST(ServoDrive, TorqueGivenAheadLeavesNothingToTheLoop) {
   }
 }
 
-/// Half of what `read` swings by while the motor turns once.
-template <class Read>
-double swing(FreeAxis& axis, double volts, Read read) {
-  for (int i = 0; i < 20'000; ++i) axis.step(volts);
-  double low = read();
+/// Half of what the speed of a motor that coasts swings by in a turn of 0.1 s.
+double swing(const ServoData& data) {
+  FreeAxis axis(data);
+  axis.servo.enable.level = false;
+  axis.rotor.speed = turn / 0.1;
+  double low = axis.rotor.speed;
   double high = low;
-  for (int i = 0; i < 10'000; ++i) {
-    axis.step(volts);
-    low = std::min(low, read());
-    high = std::max(high, read());
+  for (int i = 0; i < 1'000; ++i) {
+    axis.step(0);
+    low = std::min(low, axis.rotor.speed);
+    high = std::max(high, axis.rotor.speed);
   }
   return (high - low) / 2;
 }
 
-// Behind a loop that hardly answers the speed swings by T / (J N w).
+// T / (J N w), without current too.
 TEST(ServoDrive, CoggingMakesTheSpeedSwing) {
   ServoData data = fine();
   data.cogging = 0.05;
   data.cogging_periods = 20;
-  data.speed_gain = 1;
-  data.integral_time = 10;
-  FreeAxis axis(data);
-  axis.rotor.speed = 0.3 * data.speed_at_10v;  // 10 turns a second
-  const double expected = 0.05 / (axis.rotor.inertia * 20 * 0.3 * data.speed_at_10v);
-  EXPECT_NEAR(swing(axis, 3, [&] { return axis.rotor.speed; }), expected, 0.01 * expected);
+  const double expected = 0.05 / (data.rotor_inertia * (1 + data.inertia_ratio) * 20 * turn / 0.1);
+  EXPECT_NEAR(swing(data), expected, 0.01 * expected);
 }
 
 TEST(ServoDrive, RippleGoesWithTheTorque) {
   ServoData data = fine();
   data.torque_ripple = 0.02;
   data.torque_ripple_periods = 24;
-  data.speed_gain = 1;
-  data.integral_time = 10;
-  FreeAxis axis(data);
-  axis.rotor.speed = 0.3 * data.speed_at_10v;
-  EXPECT_LT(swing(axis, 3, [&] { return axis.rotor.speed; }), 1e-4);
-  // Held at 4 N m, by hand.
+  EXPECT_LT(swing(data), 1e-12);
+  // Held still, and turned by hand.
   FreeAxis held(data);
   double low = 1e9;
   double high = -1e9;

@@ -47,14 +47,14 @@ Curve curve_of(const std::vector<BodePoint>& points) {
   return curve;
 }
 
-/// The largest factor of gain [dB] with which no frequency above the loop's best phase comes nearer than the
-/// margins: |L| < 1 where the phase is within 40 deg of -180 or beyond, 8 dB less where it is beyond.
+/// The largest factor of gain [dB] with which no frequency comes nearer than the margins, from where the
+/// phase has first left them on: |L| < 1 where it is within 40 deg of -180 or beyond, 8 dB less where it is
+/// beyond.
 double most_gain(const Curve& curve) {
   const auto& [gains, angles] = curve;
-  // Below the best phase the integral time bends the phase; more gain is no danger there.
+  // At low frequencies the integral time bends the phase; more gain is no danger there.
   std::size_t best = 0;
-  for (std::size_t i = 1; i < angles.size() && angles[i] > -180; ++i)
-    if (angles[i] > angles[best]) best = i;
+  while (best < angles.size() && angles[best] < -180 + kept_phase_margin) ++best;
   double most = 60;
   for (std::size_t i = best; i < gains.size(); ++i) {
     if (angles[i] < -180) most = std::min(most, -gains[i] - kept_gain_margin);
