@@ -284,7 +284,10 @@ class PowerStage {
   [[nodiscard]] const MotorHeat& heat() const { return heat_; }
   [[nodiscard]] const DriveTotals& totals() const { return totals_; }
   [[nodiscard]] const DrivePeaks& peaks() const { return peaks_; }
-  void forget_peaks() { peaks_ = {}; }
+  void forget_peaks() {
+    peaks_ = {};
+    sum_.torque = sum_.speed_then = sum_.speed = 0;
+  }
   /// Time in which mains_ok was off, for a phase or more than 15 % of the voltage was missing [s].
   [[nodiscard]] double without_mains() const { return without_mains_; }
   /// Temperature of the winding with these means for ever [K]: current squared [A2], loss in the rotor [W].

@@ -99,7 +99,7 @@ std::vector<PlantDefinition::Objection> servo_objections(const ServoData& data, 
                      "it is above servo.peak_torque", "at most servo.peak_torque"});
   if (has_currents(data)) {
     const ServoData known = electrical(data);
-    if (known.stall_torque >= data.rated_torque && known.stall_current < known.rated_current)
+    if (known.stall_torque >= data.rated_torque && known.stall_current < known.rated_current * (1 - 1e-9))
       found.push_back({"plant.parameters-contradict"_code, "servo.stall_current",
                        "it is below servo.rated_current, at no less torque", "at least servo.rated_current"});
     if (known.peak_current <= std::max(known.stall_current, known.rated_current))

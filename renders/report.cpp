@@ -277,7 +277,7 @@ void write_rows(ReportPage& page, const ReportTable& table) {
     return column < numbers.size() && numbers[column] ? " class=\"number\"" : "";
   };
   // Verdicts are read whole, as checks are.
-  page += table.verdicts ? std::string("<div class=\"scroll checks\">\n<table class=\"checks verdicts\">\n")
+  page += table.verdicts ? std::string("<div class=\"scroll checks\">\n<table class=\"checks\">\n")
                          : scroll_box(table.title) + "<table>\n";
   std::string head;
   for (std::size_t i = 0; i < table.headings.size(); ++i) {

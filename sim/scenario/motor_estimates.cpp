@@ -115,11 +115,13 @@ void MotorTable::estimate_servo() {
   if (!given_.contains("stall_torque")) motor.stall_torque = 0;
   const auto rest = plants::electrical(motor);
   estimate("stall_torque", rest.stall_torque, "the rated torque: at standstill most motors have more");
-  const bool sheet = plants::has_currents(motor);
-  estimate("stall_current", sheet ? rounded("stall_current", rest.stall_current) : 0,
-           "in proportion to the rated current");
-  estimate("peak_current", sheet ? rounded("peak_current", rest.peak_current, 3, true) : 0,
-           "a quarter more than in proportion to the rated current: iron saturates");
+  if (plants::has_currents(motor)) {
+    if (rest.stall_torque > motor.rated_torque)
+      estimate("stall_current", rounded("stall_current", rest.stall_current),
+               "in proportion to the rated current");
+    estimate("peak_current", rounded("peak_current", rest.peak_current, 3, true),
+             "a quarter more than in proportion to the rated current: iron saturates");
+  }
   estimate("winding_resistance", rounded("winding_resistance", rest.winding_resistance),
            "6 % of the rated power is lost in it");
   // A rounded torque constant would ask for a little more than the plate's.
