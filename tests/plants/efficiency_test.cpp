@@ -7,6 +7,7 @@
 
 #include "plants/flying_saw.hpp"
 #include "plants/linear_axis.hpp"
+#include "plants/rotary_axis.hpp"
 #include "plants/rotary_knife.hpp"
 #include "plants/vertical_press.hpp"
 #include "tests/plants/plants_lookup.hpp"
@@ -74,6 +75,15 @@ TEST(Efficiency, OfTheKnifesGear) {
   Machine machine(knife, &web);
   expect_torques(machine, static_cast<RotaryKnife&>(*machine.plant).rotor(),
                  knife.data.drive.servo.rotor_inertia, knife.data.drum_inertia / 25, {0.9, 0.85});
+}
+
+TEST(Efficiency, OfATablesGear) {
+  RotaryAxisDefinition axis;
+  axis.data.motor_friction = axis.data.friction = {};
+  axis.data.gear.efficiency = {0.9, 0.85};
+  Machine machine(axis);
+  expect_torques(machine, static_cast<RotaryAxis&>(*machine.plant).rotor(),
+                 axis.data.drive.servo.rotor_inertia, axis.data.inertia / 100, {0.9, 0.85});
 }
 
 TEST(Efficiency, OfARackUnderTheSaw) {
