@@ -121,8 +121,10 @@ TEST(RotaryAxis, TakesAnyDriveOfAnAxis) {
     definition.data.drive.kind = kind;
     definition.data.drive.brake.torque = 20;
     EXPECT_TRUE(definition.objections(h).empty()) << kind;
-    Table table(RotaryAxisDefinition(definition), std::string(kind) == "servo");
+    Machine table(definition);
     EXPECT_EQ(table.plant->drives().size(), 1U);
+    table.run(0.1);
+    EXPECT_EQ(table.world.failure(), "");
   }
 }
 

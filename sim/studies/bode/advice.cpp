@@ -48,14 +48,18 @@ Curve curve_of(const std::vector<BodePoint>& points) {
 }
 
 /// The largest factor of gain [dB] with which no frequency comes nearer than the margins, from where the
-/// phase has first left them on: |L| < 1 where it is within 40 deg of -180 or beyond, 8 dB less where it is
-/// beyond.
+/// phase has first left them on: |L| < 1 where it is within 40 deg of -180 or beyond; 8 dB less where it is
+/// beyond, and at the last frequency, for nothing is known of what comes after it.
 double most_gain(const Curve& curve) {
+  constexpr double least = -60;
+  const double largest = 20 * std::log10(largest_factor);
   const auto& [gains, angles] = curve;
   // At low frequencies the integral time bends the phase; more gain is no danger there.
   std::size_t best = 0;
   while (best < angles.size() && angles[best] < -180 + kept_phase_margin) ++best;
-  double most = 60;
+  if (gains.empty()) return 0;
+  if (best == angles.size()) return least;
+  double most = std::min(largest, -gains.back() - kept_gain_margin);
   for (std::size_t i = best; i < gains.size(); ++i) {
     if (angles[i] < -180) most = std::min(most, -gains[i] - kept_gain_margin);
     if (angles[i] < -180 + kept_phase_margin) most = std::min(most, -gains[i]);
@@ -71,8 +75,20 @@ double most_gain(const Curve& curve) {
   return most;
 }
 
-double most_with(const SpeedLoop& loop, const plants::TorqueFilterData& filters) {
-  return most_gain(curve_of(points_with(loop, filters)));
+/// The same for who chooses filters: none that costs the loop more phase at the gain in force than may be, or
+/// any of its gain margin.
+double most_with(const SpeedLoop& loop, const Margins& present, const plants::TorqueFilterData& filters) {
+  const auto points = points_with(loop, filters);
+  const auto margins = margins_of(points);
+  const auto short_of = [](const std::optional<AtFrequency>& now, const std::optional<AtFrequency>& before,
+                           double less) {
+    return before ? std::max(0.0, before->value - less - (now ? now->value : before->value)) : 0;
+  };
+  // Steep, so that the search finds back.
+  constexpr double steep = 10;
+  const double over =
+      short_of(margins.phase, present.phase, most_cost) + short_of(margins.gain, present.gain, 0);
+  return most_gain(curve_of(points)) - steep * over;
 }
 
 /// A kind of filter with its values as numbers from 0 to 1.
@@ -85,13 +101,16 @@ double between(double low, double high, double share) { return low * std::pow(hi
 
 plants::NotchData notch_of(const SpeedLoop& loop, const std::vector<double>& x, std::size_t at) {
   const double highest = std::min(0.2 / loop.step, loop.points.back().frequency);
-  return {between(10, highest, x[at]), between(0.03, 0.7, x[at + 1]), between(0.1, 2, x[at + 2])};
+  return {between(10, highest, x[at]), between(0.03, 0.7, x[at + 1]), between(0.1, 1, x[at + 2])};
 }
 
 /// The best of a family: every corner of a grid, then downhill from the best.
-FilterChoice best_of(const SpeedLoop& loop, const Family& family, std::vector<double> start) {
-  const auto value = [&](const std::vector<double>& x) { return most_with(loop, family.filters(x)); };
-  if (start.empty()) {
+FilterChoice best_of(const SpeedLoop& loop, const Margins& present, const Family& family) {
+  const auto value = [&](const std::vector<double>& x) {
+    return most_with(loop, present, family.filters(x));
+  };
+  std::vector<double> start;
+  {
     const int sides = family.values == 1 ? 60 : 24;
     std::vector<double> x(family.values, 0);
     double best = -1e9;
@@ -148,7 +167,7 @@ std::string margin_text(const std::optional<AtFrequency>& margin, const char* un
 std::vector<std::string> cells_of(const FilterAdvice& advice, const FilterChoice& choice) {
   return {filter_text(choice.filters), margin_text(choice.margins.gain, "dB"),
           margin_text(choice.margins.phase, "deg"),
-          fmt::format("{:.3g} rad/s", choice.factor * advice.loop.speed_gain)};
+          fmt::format("{:.0f} rad/s", choice.factor * advice.loop.speed_gain)};
 }
 
 renders::ReportTable table_of(const FilterAdvice& advice) {
@@ -167,6 +186,12 @@ std::string sentence_of(const FilterAdvice& advice) {
   const auto& loop = advice.loop;
   if (!loop.failure.empty()) return "the simulation stopped: " + loop.failure;
   if (loop.points.empty()) return "the speed loop does not answer";
+  if (advice.present.factor > 0.999 * largest_factor)
+    return fmt::format(
+        "{}: nothing limits its speed_gain up to {:g} times; where dry friction or play holds the motor, "
+        "measure "
+        "it in motion (--at)",
+        loop.drive, largest_factor);
   const auto& best = advice.choices.front();
   if (!advice.worth())
     return fmt::format("{}: no filter lets its speed_gain go up by more than 1 dB", loop.drive);
@@ -174,7 +199,7 @@ std::string sentence_of(const FilterAdvice& advice) {
     const auto& before = advice.present.margins.gain;
     const auto& after = best.margins.gain;
     return before && after ? fmt::format("{:+.1f} dB of gain margin", after->value - before->value)
-                           : "a loop that no gain upsets";
+                           : "no gain margin between these frequencies";
   };
   const auto cost = [&]() -> std::string {
     const auto& before = advice.present.margins.phase;
@@ -182,7 +207,7 @@ std::string sentence_of(const FilterAdvice& advice) {
     return before && after ? fmt::format("{:+.1f} deg of phase margin", after->value - before->value)
                            : "no phase margin to compare";
   };
-  return fmt::format("{}: {}; {}, {}; speed_gain up to {:.3g} rad/s in place of {:.3g}", loop.drive,
+  return fmt::format("{}: {}; {}, {}; speed_gain up to {:.0f} rad/s in place of {:.0f}", loop.drive,
                      filter_text(best.filters), gained(), cost(), best.factor * loop.speed_gain,
                      advice.present.factor * loop.speed_gain);
 }
@@ -284,13 +309,14 @@ FilterAdvice advise(SpeedLoop measured) {
   const Family notch = {3, [&](const std::vector<double>& x) {
                           return plants::TorqueFilterData{0, {notch_of(loop, x, 0), no_notch()}};
                         }};
-  advice.choices = {best_of(loop, low_pass, {}), best_of(loop, notch, {})};
+  advice.choices = {best_of(loop, advice.present.margins, low_pass),
+                    best_of(loop, advice.present.margins, notch)};
   // A second one beside the first.
   const auto first = advice.choices[1].filters.notches[0];
   const Family second = {3, [&](const std::vector<double>& x) {
                            return plants::TorqueFilterData{0, {first, notch_of(loop, x, 0)}};
                          }};
-  advice.choices.push_back(best_of(loop, second, {}));
+  advice.choices.push_back(best_of(loop, advice.present.margins, second));
   // What takes more filters must gain for it.
   constexpr double for_another = 1.122;
   const auto merit = [](const FilterChoice& choice) {
@@ -330,8 +356,9 @@ std::optional<SpeedLoop> measure_speed_loop(const scenario::Scenario& scenario, 
     if (!twins.advance(0)) break;
   constexpr double lowest = 2;
   constexpr double window = 0.5;
+  constexpr int points = 180;  // a resonance has some in its width
   const auto tones = plan_tones(request.from.value_or(lowest), request.to.value_or(0.25 / measured.step),
-                                request.points, scenario.scene.step, window);
+                                std::max(request.points, points), scenario.scene.step, window);
   for (const auto& tone : tones) {
     BodePoint point;
     point.frequency = tone.frequency(scenario.scene.step);
@@ -341,7 +368,9 @@ std::optional<SpeedLoop> measure_speed_loop(const scenario::Scenario& scenario, 
   }
   measured.failure = excited.failure().empty() ? still.failure() : excited.failure();
   std::erase_if(measured.points, [](const BodePoint& point) {
-    return !std::isfinite(std::abs(point.open_loop)) || !(point.doubt() <= bode_error_limit);
+    constexpr double silent = 1e-5;  // it sticks
+    const double answer = std::abs(point.open_loop);
+    return !std::isfinite(answer) || answer < silent || !(point.doubt() <= bode_error_limit);
   });
   return measured;
 }

@@ -29,6 +29,9 @@ struct SpeedLoop {
 /// What a loop may be given: the largest gain that keeps both.
 inline constexpr double kept_gain_margin = 8;    // [dB]
 inline constexpr double kept_phase_margin = 40;  // [deg]
+/// What a filter may cost at the gain in force, and how much more gain is looked for at most.
+inline constexpr double most_cost = 10;  // [deg]
+inline constexpr double largest_factor = 30;
 
 /// One choice of filters.
 struct FilterChoice {
@@ -51,7 +54,7 @@ FilterChoice judged_with(const SpeedLoop& loop, const plants::TorqueFilterData& 
 FilterAdvice advise(SpeedLoop loop);
 
 /// Measures the speed loop of the drive that --wire names, or of the only servo, from `request`'s time on,
-/// with its number of points from 2 Hz to a quarter of the steps' frequency; a sine of 5 % of rated torque.
+/// at 180 points or more from 2 Hz to a quarter of the steps' frequency; a sine of 5 % of rated torque.
 /// nullopt and problems if the request does not fit.
 std::optional<SpeedLoop> measure_speed_loop(const scenario::Scenario& scenario, const LoopRequest& request,
                                             Problems& problems,

@@ -128,7 +128,7 @@ std::string pushes_text(const Tuning& tuning) {
   auto text =
       fmt::format("{}: pushed at rest by {} to {} V it {}; it hunts {}", played->play, least_push,
                   largest_push, from <= 1 ? "goes on hunting" : "comes to rest again", hunts_from_text(from));
-  if (tuning.trials.loop_runs() > 0)
+  if (tuning.study.needs_loop)
     text += fmt::format("; phase margins hold for a sine of {:.3g} V only", tuning.study.loop.amplitude);
   if (tuning.spread == nullptr) return text;
   double least = std::numeric_limits<double>::infinity();

@@ -28,7 +28,7 @@ SpeedLoop two_masses(double gain) {
   const double motor = 5e-3;
   const double load = 2e-2;
   const double stiffness = 3000;
-  const double damping = 0.3;
+  const double damping = 1.5;
   for (int i = 0; i < 240; ++i) {
     const double f = 2 * std::pow(1000.0, i / 239.0);
     const std::complex<double> s(0, turn * f);
@@ -48,20 +48,28 @@ TEST(FilterAdvice, IsWithinTwoPercentOfTheBestOfAFineGrid) {
   const auto loop = two_masses(150);
   const auto advice = advise(loop);
   ASSERT_EQ(advice.choices.size(), 3U);
+  // What may be advised: 10 deg of phase are not too much, no gain margin is lost.
+  const auto allowed = [&](const plants::TorqueFilterData& filters) {
+    const auto choice = judged_with(loop, filters);
+    const auto& present = advice.present.margins;
+    return choice.margins.phase->value >= present.phase->value - most_cost &&
+                   choice.margins.gain->value >= present.gain->value
+               ? choice.factor
+               : 0;
+  };
   for (const auto& choice : advice.choices) {
     const auto& [low_pass, notches] = choice.filters;
     double best = 0;
     if (low_pass > 0) {
-      for (int i = 0; i <= 2000; ++i)
-        best = std::max(best, judged_with(loop, {1e-4 * std::pow(200, i / 2000.0), {}}).factor);
+      for (int i = 0; i <= 2000; ++i) best = std::max(best, allowed({1e-4 * std::pow(200, i / 2000.0), {}}));
     } else if (notches[1].frequency == 0) {
       for (int i = 0; i <= 120; ++i)
         for (int j = 0; j <= 8; ++j)
           for (int k = 0; k <= 8; ++k) {
             const plants::NotchData notch = {10 * std::pow(200, i / 120.0),
                                              0.03 * std::pow(0.7 / 0.03, j / 8.0),
-                                             0.1 * std::pow(20, k / 8.0)};
-            best = std::max(best, judged_with(loop, {0, {notch, {}}}).factor);
+                                             0.1 * std::pow(10, k / 8.0)};
+            best = std::max(best, allowed({0, {notch, {}}}));
           }
     } else {
       continue;  // what a second one adds to the first
@@ -85,7 +93,7 @@ TEST(FilterAdvice, TheLargestGainKeepsBothMarginsAndNoMoreDoes) {
   EXPECT_TRUE(over.gain->value < kept_gain_margin || over.phase->value < kept_phase_margin);
 }
 
-// A loop that no gain upsets wants no filter.
+// A loop that no gain upsets, as far as it is known, wants no filter.
 TEST(FilterAdvice, NothingIsWorthALoopWithoutResonance) {
   auto loop = two_masses(150);
   for (auto& point : loop.points) {
@@ -100,7 +108,6 @@ struct SpeedLoopOfAnAxis : CommandTest {
     folder.file("axis.yaml", bode_axis::Folder::screw());
     options.scenario = folder.path / "axis.yaml";
     options.advise = true;
-    options.loop.points = 80;
     for (const auto* rubs : {"motor_friction.coulomb=0 N m", "motor_friction.viscous=0 N m s/rad",
                              "carriage_friction.coulomb=0 N", "carriage_friction.viscous=0 N s/m"})
       options.set.push_back(std::string("plants.axis.") + rubs);
@@ -128,11 +135,11 @@ struct SpeedLoopOfAnAxis : CommandTest {
 // PI, filters, lag, inertia.
 TEST_F(SpeedLoopOfAnAxis, IsThatOfTheStepsInClosedForm) {
   for (const auto* set :
-       {"mass=0.001 kg", "gear.stiffness=1 N m/rad", "gear.damping=0 N m s/rad", "stop.stiffness=1 N/m",
+       {"mass=0.001 kg", "gear.stiffness=0.1 N m/rad", "gear.damping=0 N m s/rad", "stop.stiffness=1 N/m",
         "stop.damping=0 N s/m", "servo.torque_filter=0.3 ms", "servo.notch1.frequency=400 Hz"})
     options.set.push_back(std::string("plants.axis.") + set);
   const auto loop = measured();
-  ASSERT_GT(loop.points.size(), 70U);
+  ASSERT_GT(loop.points.size(), 150U);
   constexpr double h = 1e-4;
   const double inertia = 46.8e-4 + 3e-4;
   const double gain = 1.1 * 46.8e-4 * 250;
@@ -151,7 +158,7 @@ TEST_F(SpeedLoopOfAnAxis, IsThatOfTheStepsInClosedForm) {
 // What it says of a filter is what is measured with the filter: 0.1 dB and 0.5 deg.
 TEST_F(SpeedLoopOfAnAxis, WithTheAdvisedFilterIsAsPredicted) {
   for (const auto* set :
-       {"gear.stiffness=150 N m/rad", "gear.damping=0.02 N m s/rad", "mass=40 kg", "servo.inertia_ratio=1.2"})
+       {"gear.stiffness=150 N m/rad", "gear.damping=0.1 N m s/rad", "mass=40 kg", "servo.inertia_ratio=1.2"})
     options.set.push_back(std::string("plants.axis.") + set);
   const auto advice = advise(measured());
   ASSERT_TRUE(advice.worth());
@@ -167,15 +174,17 @@ TEST_F(SpeedLoopOfAnAxis, WithTheAdvisedFilterIsAsPredicted) {
   }
   const auto after = judged_with(measured(), best.filters);
   EXPECT_NEAR(after.factor, best.factor, 0.02 * best.factor);
-  ASSERT_TRUE(after.margins.gain && best.margins.gain);
-  EXPECT_NEAR(after.margins.gain->value, best.margins.gain->value, 0.1);
+  ASSERT_EQ(after.margins.gain.has_value(), best.margins.gain.has_value());
+  if (best.margins.gain) {
+    EXPECT_NEAR(after.margins.gain->value, best.margins.gain->value, 0.1);
+  }
   ASSERT_TRUE(after.margins.phase && best.margins.phase);
   EXPECT_NEAR(after.margins.phase->value, best.margins.phase->value, 0.5);
 }
 
 TEST_F(SpeedLoopOfAnAxis, IsToldWithItsFilterToPaste) {
   for (const auto* set :
-       {"gear.stiffness=150 N m/rad", "gear.damping=0.02 N m s/rad", "mass=40 kg", "servo.inertia_ratio=1.2"})
+       {"gear.stiffness=150 N m/rad", "gear.damping=0.1 N m s/rad", "mass=40 kg", "servo.inertia_ratio=1.2"})
     options.set.push_back(std::string("plants.axis.") + set);
   options.out = folder.path / "results";
   EXPECT_EQ(run(), cli::all_passed) << out << err;
