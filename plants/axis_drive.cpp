@@ -48,6 +48,8 @@ void offer(const ServoDrive& servo, std::vector<Channel>& channels) {
                       "speed reference as the amplifier reads it"});
   channels.push_back({"servo.set_speed", "rpm", [&servo] { return servo.speed_reference() * units::rpm; },
                       "speed reference after offset, drift and filter"});
+  channels.push_back({"servo.asked", "N m", [&servo] { return servo.asked(); },
+                      "torque that the speed loop asks for, before test signal and limit"});
   channels.push_back({"servo.saturated", "", [&servo] { return servo.saturated() ? 1.0 : 0.0; },
                       "1 while the torque limit acts"});
 }
@@ -234,6 +236,10 @@ void AxisDrive::offer_channels(std::vector<Channel>& channels) const {
     std::erase_if(channels, [](const Channel& channel) { return channel.name == "drive.energy"; });
   changeover_.offer_channels(channels);
   if (data_.brake.torque > 0) brake_.offer_channels(channels);
+}
+
+void AxisDrive::offer_settings(std::vector<Setting>& settings) {
+  if (auto* const servo = std::get_if<ServoDrive>(&drive_)) servo->offer_settings(settings);
 }
 
 void AxisDrive::offer_faults(std::vector<Fault>& faults) {

@@ -5,6 +5,7 @@
 
 #include "plants/changeover.hpp"
 #include "plants/contactor_drive.hpp"
+#include "plants/efficiency.hpp"
 #include "plants/holding_brake.hpp"
 #include "plants/inverter.hpp"
 #include "plants/servo_drive.hpp"
@@ -68,16 +69,17 @@ class AxisDrive {
   [[nodiscard]] std::vector<MachineEvent> take_events(const Shaft& rotor);
 
   /// For Plant::drives(), with what it turns, seen at the motor [kg m2].
-  [[nodiscard]] std::vector<DriveOfPlant> drives(double load_inertia) {
+  [[nodiscard]] std::vector<DriveOfPlant> drives(double load_inertia, const Efficiency& through) {
     return {{data_.kind == "shared"  ? "motor"
              : data_.kind == "servo" ? "servo"
                                      : "drive",
-             &power(), load_inertia}};
+             &power(), load_inertia, through.driving}};
   }
 
   // What it adds to a plant's lists.
   void offer_ports(std::vector<Port>& ports);
   void offer_channels(std::vector<Channel>& channels) const;
+  void offer_settings(std::vector<Setting>& settings);
   void offer_faults(std::vector<Fault>& faults);
   static void offer_events(std::vector<EventType>& types);
 

@@ -1,6 +1,7 @@
 #include "plants/axis_objections.hpp"
 
 #include "base/problem.hpp"
+#include "base/units.hpp"
 
 #include <fmt/format.h>
 
@@ -29,10 +30,12 @@ void AxisObjections::pair(std::string_view stiffness, std::string_view damping, 
          fmt::format("{}, or softer, less damped, heavier parts", step_remedy(longest)));
 }
 
-void AxisObjections::gear(const TransmissionData& gear, double motor_inertia, double load_inertia) {
+void AxisObjections::gear(const TransmissionData& given, double motor_inertia, double load_inertia) {
+  const auto gear = with_stiffness(given, motor_inertia, load_inertia);
   pair("gear.stiffness", "gear.damping",
        {gear.stiffness, gear.damping, reduced(motor_inertia * gear.ratio * gear.ratio, load_inertia)},
        fmt::format("motor and {}", what_moves_));
+  add(efficiency_objections(gear.efficiency, "gear."));
 }
 
 void AxisObjections::viscous(std::string_view parameter, const Friction& friction, double inertia,
@@ -47,8 +50,21 @@ void AxisObjections::contact(const std::string& group, const EndStopData& stop, 
 }
 
 void AxisObjections::screw(const ScrewDriveData& data, double motor_inertia) {
-  gear(data.gear, motor_inertia, reflected_inertia(data));
+  gear(data.gear, motor_inertia, behind_gear(data));
+  if (data.nut_stiffness > 0) {
+    const double metre = data.lead / units::turn;  // of travel for a radian of the screw
+    pair("nut.stiffness", "nut.damping",
+         {data.nut_stiffness, data.nut_damping, reduced(data.screw_inertia / (metre * metre), data.mass)},
+         fmt::format("screw and {}", what_moves_));
+    if (data.nut_rigid)
+      object("plant.parameters-contradict"_code, "nut.rigid", "the nut has a stiffness, too",
+             "leave out nut.stiffness or nut.rigid");
+    if (data.screw_inertia <= 0)
+      object("plant.parameters-contradict"_code, "screw_inertia", "a screw between two springs has none",
+             "its inertia, or leave out nut.stiffness");
+  }
   contact("stop", data.stop, data.mass, "end stop");
+  add(efficiency_objections(data.efficiency, ""));
 }
 
 void AxisObjections::guided(std::string_view guides, const ScrewDriveData& data, double motor_inertia) {

@@ -165,7 +165,9 @@ void FlyingSaw::visit(StateArchive& archive) {
         last_slant_, last_pinch_);
 }
 
-std::vector<DriveOfPlant> FlyingSaw::drives() { return servo_.drives(load_inertia(data_)); }
+std::vector<DriveOfPlant> FlyingSaw::drives() {
+  return servo_.drives(load_inertia(data_), efficiency(data_));
+}
 
 MotorLoad FlyingSaw::motor_load(double h) const {
   return screw_.motor_load(servo_.amplifier().torque(), 0, h);
@@ -274,12 +276,14 @@ std::vector<Channel> FlyingSaw::channels() {
 }
 
 std::vector<Setting> FlyingSaw::settings() {
-  return {{"force",
-           "N",
-           [this](double v) { outer_force_ = v; },
-           [this] { return outer_force_; },
-           "force of hoses and cables on the carriage, positive with the line",
-           {-1e6, 1e6, false}}};
+  std::vector<Setting> settings = {{"force",
+                                    "N",
+                                    [this](double v) { outer_force_ = v; },
+                                    [this] { return outer_force_; },
+                                    "force of hoses and cables on the carriage, positive with the line",
+                                    {-1e6, 1e6, false}}};
+  servo_.offer_settings(settings);
+  return settings;
 }
 
 Parameters FlyingSaw::live_parameters() { return live_rows(flying_saw_parameters(data_)); }

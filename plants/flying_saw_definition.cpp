@@ -4,6 +4,7 @@
 #include "base/units.hpp"
 #include "plants/axis_objections.hpp"
 #include "plants/flying_saw.hpp"
+#include "plants/friction_rows.hpp"
 
 namespace drycut::plants {
 
@@ -28,14 +29,6 @@ Parameters mechanics(FlyingSawData& data) {
           "estimate: hard rubber buffer"),
       row("stop.damping", "N s/m", "damping of an end stop", data.stop.damping, 0, 1e7,
           "estimate: 9 % of critical for 60 kg"),
-      live(row("motor_friction.coulomb", "N m", "dry friction of motor and gear", data.motor_friction.coulomb,
-               0, 1e4, "estimate: 1 % of rated torque")),
-      live(row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor",
-               data.motor_friction.viscous, 0, 100, "estimate")),
-      live(row("carriage_friction.coulomb", "N", "dry friction of the guides", data.guide_friction.coulomb, 0,
-               1e6, "estimate: four sealed guide carriages")),
-      live(row("carriage_friction.viscous", "N s/m", "viscous friction of the guides",
-               data.guide_friction.viscous, 0, 1e6, "estimate")),
       row("mismatch_limit", "mm/s",
           "difference of speed at which clamps or blade may take hold of the material", data.mismatch_limit,
           0, 1e5, "estimate: jaws leave marks"),
@@ -78,7 +71,18 @@ Objections objections_to(const WebData& web, const FlyingSawData& saw) {
 
 Parameters flying_saw_parameters(FlyingSawData& data) {
   return joined(
-      mechanics(data), station_parameters(data.station), group("clamp.", clamp_parameters(data.clamp)),
+      mechanics(data), screw_parameters(data, "none is named: losses are not counted"),
+      group("motor_friction.", shaft_friction_parameters(data.motor_friction,
+                                                         {.dry = "dry friction of motor and gear",
+                                                          .viscous = "viscous friction of the motor",
+                                                          .coulomb_from = "estimate: 1 % of rated torque"})),
+      group("carriage_friction.",
+            joined(guide_friction_parameters(data.guide_friction,
+                                             {.dry = "dry friction of the guides",
+                                              .viscous = "viscous friction of the guides",
+                                              .coulomb_from = "estimate: four sealed guide carriages"}),
+                   guide_coefficient_parameters(data))),
+      station_parameters(data.station), group("clamp.", clamp_parameters(data.clamp)),
       group("head.", saw_head_parameters(data.head)), group("blade.", saw_blade_parameters(data.blade)),
       axis_transducer_parameters(data.sensors, {.limits = "10 mm before the stop"}),
       servo_axis_parameters(data.drive, {.inertia_ratio = "the default carriage on the motor",

@@ -7,12 +7,21 @@
 
 namespace drycut::plants {
 
+namespace {
+
+LinearAxisData on_its_slope(LinearAxisData data) {
+  data.guide_weight = std::cos(data.inclination);
+  return data;
+}
+
+}  // namespace
+
 LinearAxis::LinearAxis(const LinearAxisData& data, World& world, const LinearAxis* carrier,
                        LinearAxis* lender)
-    : data_(data),
+    : data_(on_its_slope(data)),
       world_(world),
       carrier_(carrier),
-      screw_(data, "linear axis", data.drive.rotor_inertia(),
+      screw_(data_, "linear axis", data.drive.rotor_inertia(),
              {.name = "linear axis carriage",
               .mass = data.mass,
               .axis = {std::cos(data.inclination) * std::cos(data.heading), std::sin(data.inclination),
@@ -89,15 +98,19 @@ std::vector<Channel> LinearAxis::channels() {
 }
 
 std::vector<Setting> LinearAxis::settings() {
-  return {{"force",
-           "N",
-           [this](double v) { outer_force_ = v; },
-           [this] { return outer_force_; },
-           "force of the process on the carriage, positive in positive direction",
-           {-1e6, 1e6, false}}};
+  std::vector<Setting> settings = {{"force",
+                                    "N",
+                                    [this](double v) { outer_force_ = v; },
+                                    [this] { return outer_force_; },
+                                    "force of the process on the carriage, positive in positive direction",
+                                    {-1e6, 1e6, false}}};
+  drive_.offer_settings(settings);
+  return settings;
 }
 
-std::vector<DriveOfPlant> LinearAxis::drives() { return drive_.drives(load_inertia(data_)); }
+std::vector<DriveOfPlant> LinearAxis::drives() {
+  return drive_.drives(load_inertia(data_), efficiency(data_));
+}
 
 MotorLoad LinearAxis::motor_load(double h) const {
   return screw_.motor_load(drive_.torque(), -data_.mass * units::gravity * std::sin(data_.inclination), h);

@@ -5,11 +5,16 @@
 
 #include "base/problem.hpp"
 #include "plants/axis_objections.hpp"
+#include "plants/friction_rows.hpp"
 #include "plants/linear_axis.hpp"
 
 namespace drycut::plants {
 
 namespace {
+
+constexpr FrictionSources motor_and_screw = {.dry = "dry friction of the motor and the screw's bearings",
+                                             .viscous = "viscous friction of the motor",
+                                             .coulomb_from = "estimate: 1 % of rated torque"};
 
 Parameters mechanics(LinearAxisData& data, const LinearAxisSources& from) {
   return {
@@ -28,18 +33,6 @@ Parameters mechanics(LinearAxisData& data, const LinearAxisSources& from) {
       row("stop.stiffness", "N/m", "stiffness of an end stop", data.stop.stiffness, 1, 1e9,
           "estimate: hard rubber buffer"),
       row("stop.damping", "N s/m", "damping of an end stop", data.stop.damping, 0, 1e7, from.stop_damping),
-      live(row("motor_friction.coulomb", "N m", "dry friction of the motor and the screw's bearings",
-               data.motor_friction.coulomb, 0, 1e4, "estimate: 1 % of rated torque")),
-      live(row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor",
-               data.motor_friction.viscous, 0, 100, "estimate")),
-      live(row("carriage_friction.coulomb", "N", "dry friction of the guides", data.guide_friction.coulomb, 0,
-               1e6, from.coulomb)),
-      live(row("carriage_friction.viscous", "N s/m", "viscous friction of the guides",
-               data.guide_friction.viscous, 0, 1e6, "estimate")),
-      live(row("carriage_friction.breakaway", "N", "what dry friction is more at standstill (Stribeck)",
-               data.guide_friction.breakaway, 0, 1e6, from.breakaway)),
-      row("carriage_friction.stribeck_speed", "mm/s", "speed at which 1/e of it is left",
-          data.guide_friction.stribeck_speed, 1e-3, 1e5, "estimate"),
   };
 }
 
@@ -66,7 +59,16 @@ Parameters picture(LinearAxisData& data) {
 
 Parameters linear_axis_parameters(LinearAxisData& data, const LinearAxisSources& from) {
   return joined(
-      mechanics(data, from), axis_transducer_parameters(data.sensors),
+      mechanics(data, from), screw_parameters(data, "none is named: losses are not counted"),
+      group("motor_friction.", shaft_friction_parameters(data.motor_friction, motor_and_screw)),
+      group(
+          "carriage_friction.",
+          joined(guide_friction_parameters(data.guide_friction, {.dry = "dry friction of the guides",
+                                                                 .viscous = "viscous friction of the guides",
+                                                                 .coulomb_from = from.coulomb,
+                                                                 .breakaway_from = from.breakaway}),
+                 guide_coefficient_parameters(data))),
+      axis_transducer_parameters(data.sensors),
       axis_drive_parameters(data.drive, {.servo = {.inertia_ratio = from.inertia_ratio}}),
       group("gear.",
             transmission_parameters(

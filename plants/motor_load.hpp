@@ -18,7 +18,15 @@ struct Friction {
   double viscous = 0;    ///< per unit of speed
   double breakaway = 0;  ///< what dry friction at standstill is above `coulomb` (Stribeck)
   double stribeck_speed =
-      0;  ///< speed at which 1/e of `breakaway` is left [rad/s or m/s], > 0 with breakaway
+      0;                ///< speed at which 1/e of `breakaway` is left [rad/s or m/s], > 0 with breakaway
+  double backward = 1;  ///< dry friction of a motion backwards over that forwards
+
+  /// Dry friction forwards at a speed.
+  [[nodiscard]] double dry(double speed) const {
+    if (breakaway <= 0) return coulomb;
+    const double ratio = speed / stribeck_speed;
+    return coulomb + breakaway * std::exp(-ratio * ratio);
+  }
 };
 
 /// What else resists the motion like dry friction, in one direction only: a blade in the material.
@@ -33,13 +41,9 @@ struct DryResistance {
 [[nodiscard]] inline double friction_effort(const Friction& friction, double speed, double effort,
                                             double inertia, double h, DryResistance extra = {}) {
   const double viscous = -friction.viscous * speed;
-  double dry = friction.coulomb;
-  if (friction.breakaway > 0) {
-    const double ratio = speed / friction.stribeck_speed;
-    dry += friction.breakaway * std::exp(-ratio * ratio);
-  }
+  const double dry = friction.dry(speed);
   const double stopping = -(speed * inertia / h + effort + viscous);
-  return viscous + std::clamp(stopping, -(dry + extra.forward), dry + extra.backward);
+  return viscous + std::clamp(stopping, -(dry + extra.forward), dry * friction.backward + extra.backward);
 }
 
 /// What the torque of a motor went into in a step, each part seen at the motor and positive where the motor
@@ -58,14 +62,12 @@ struct MotorLoad {
 /// is friction as far as friction goes.
 [[nodiscard]] inline double friction_in(const Friction& friction, double speed, double effort, double inertia,
                                         double h) {
-  double dry = friction.coulomb;
-  if (friction.breakaway > 0) {
-    const double ratio = speed / friction.stribeck_speed;
-    dry += friction.breakaway * std::exp(-ratio * ratio);
-  }
+  const double forward = friction.dry(speed);
+  const double backward = forward * friction.backward;
   const double viscous = friction.viscous * speed;
-  const bool slides = std::abs(speed) * inertia > dry * h;
-  return viscous + (slides ? std::copysign(dry, speed) : std::clamp(effort - viscous, -dry, dry));
+  const bool slides = std::abs(speed) * inertia > (speed > 0 ? forward : backward) * h;
+  if (slides) return viscous + (speed > 0 ? forward : -backward);
+  return viscous + std::clamp(effort - viscous, -backward, forward);
 }
 
 /// A plant with a drive that can say what its motor's torque goes into. It does so where it is asked to

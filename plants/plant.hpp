@@ -374,6 +374,7 @@ struct DriveOfPlant {
   std::string name;         ///< within the plant: "servo", "drive"
   PowerStage* stage;        ///< lives as long as the plant
   double load_inertia = 0;  ///< all that the motor turns but its rotor, seen at the motor [kg m2]
+  double efficiency = 1;    ///< of all between motor and load while it drives; 1: no losses are counted
   int alike = 1;            ///< drives that do the same, of which this is one
 };
 

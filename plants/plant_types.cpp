@@ -4,6 +4,7 @@
 #include "plants/ideal_axis.hpp"
 #include "plants/linear_axis.hpp"
 #include "plants/plant.hpp"
+#include "plants/rotary_axis.hpp"
 #include "plants/rotary_knife.hpp"
 #include "plants/vertical_press.hpp"
 #include "plants/web.hpp"
@@ -28,6 +29,8 @@ const std::vector<PlantType>& plant_types() {
       {"ideal_axis", "an axis without mass: voltage is speed, exactly", define<IdealAxisDefinition>},
       {"linear_axis", "a carriage on a ball screw or belt with servo, end stops and switches",
        define<LinearAxisDefinition>},
+      {"rotary_axis", "what a motor turns without end through a gear: a table, a roller, an indexer",
+       define<RotaryAxisDefinition>},
       {"rotary_knife", "a servo-driven drum with blades that cuts the running web",
        define<RotaryKnifeDefinition>},
       {"vertical_press", "a ram under its weight on a screw, switched by inverter or contactors, with brake",

@@ -30,7 +30,32 @@ double amperes_squared(const MotorCurrent& motor, double torque_squared, double 
          rotor_loss * motor.per_rotor_loss;
 }
 
+// For ever at standstill, as the sheet's temperatures hold for it.
+double stall_squared(const MotorCurrent& motor, double torque) {
+  return amperes_squared(motor, torque * torque, motor.rated_rotor_loss, 1) +
+         (motor.bends() ? motor.more_squared(torque) : 0);
+}
+
+double on_line(const MotorCurrent::Point& from, const MotorCurrent::Point& to, double torque) {
+  if (to.torque <= from.torque) return to.current;
+  return from.current + (to.current - from.current) * (torque - from.torque) / (to.torque - from.torque);
+}
+
 }  // namespace
+
+double MotorCurrent::amperes(double torque) const {
+  const double size = std::abs(torque);
+  if (size <= rated.torque) return rated.current * size / rated.torque;
+  return size <= stall.torque ? on_line(rated, stall, size) : on_line(stall, peak, size);
+}
+
+double MotorCurrent::torque_of(double amperes) const {
+  const auto back = [&](const Point& from, const Point& to) {
+    return on_line({from.current, from.torque}, {to.current, to.torque}, amperes);
+  };
+  if (amperes <= rated.current) return rated.torque * amperes / rated.current;
+  return amperes <= stall.current ? back(rated, stall) : back(stall, peak);
+}
 
 double DriveRatings::continuous(double speed) const {
   return stall_torque + (rated_torque - stall_torque) * std::min(1.0, std::abs(speed) / rated_speed);
@@ -61,9 +86,7 @@ PowerStage::PowerStage(const MotorCurrent& current, const MotorHeatData& heat, c
     : ratings_(ratings),
       amplifier_(amplifier),
       current_(current),
-      heat_(heat,
-            current.resistance * amperes_squared(current, ratings.stall_torque * ratings.stall_torque,
-                                                 current.rated_rotor_loss, 1),
+      heat_(heat, current.resistance * stall_squared(current, ratings.stall_torque),
             current.rated_rotor_loss),
       limit_(heat.temperature_limit) {
   if (link) link_.emplace(*link);
@@ -81,6 +104,7 @@ void PowerStage::feed(const Step& step, const PowerStage& other, double speed, d
   elsewhere_resistance_ = other.heat_.resistance();
   elsewhere_.work += step.torque * speed * h;
   elsewhere_.torque_squared += step.torque * step.torque * h;
+  if (current_.bends()) elsewhere_.more_current += current_.more_squared(step.torque) * h;
   elsewhere_.rotor_loss += step.rotor_loss * h;
   if (step.energised) elsewhere_.energised += h;
   torque_ = speed_ = 0;
@@ -109,7 +133,8 @@ void PowerStage::settle(double h) {
   const double seconds = steps_ * h;
   const double energised = sum_.energised / seconds;
   const double rotor_loss = sum_.rotor_loss / seconds;
-  const double squared = amperes_squared(current_, sum_.torque_squared / seconds, rotor_loss, energised);
+  const double squared = amperes_squared(current_, sum_.torque_squared / seconds, rotor_loss, energised) +
+                         sum_.more_current / seconds;
   loss_ = current_.resistance * squared * heat_.resistance() + rotor_loss;
   heat_.warm(loss_, seconds);
   const double copper = loss_ * seconds;
@@ -119,7 +144,8 @@ void PowerStage::settle(double h) {
   if (elsewhere_resistance_ > 0) {
     const double lost = elsewhere_.rotor_loss / seconds;
     const double theirs =
-        amperes_squared(current_, elsewhere_.torque_squared / seconds, lost, elsewhere_.energised / seconds);
+        amperes_squared(current_, elsewhere_.torque_squared / seconds, lost, elsewhere_.energised / seconds) +
+        elsewhere_.more_current / seconds;
     fed += theirs;
     energy += elsewhere_.work + (current_.resistance * theirs * elsewhere_resistance_ + lost) * seconds;
     energised_at_all = energised_at_all || elsewhere_.energised > 0;
@@ -145,10 +171,11 @@ void PowerStage::settle(double h) {
   totals_.fed_squared += fed * seconds;
   totals_.torque_squared += sum_.torque_squared;
   totals_.travel += sum_.travel;
-  const double torque = std::abs(torque_);
+  const double torque = std::abs(sum_.torque);
   peaks_.torque = std::max(peaks_.torque, torque);
-  peaks_.speed = std::max(peaks_.speed, std::abs(speed_));
-  const double available = torque_ * speed_ > 0 ? ratings_.peak(speed_) : ratings_.peak_torque;
+  peaks_.speed = std::max(peaks_.speed, sum_.speed);
+  const double available =
+      sum_.torque * sum_.speed_then > 0 ? ratings_.peak(sum_.speed_then) : ratings_.peak_torque;
   peaks_.i2t = std::max(peaks_.i2t, i2t_);
   peaks_.winding = std::max(peaks_.winding, heat_.winding());
   if (torque > 0) peaks_.share = std::max(peaks_.share, available > 0 ? torque / available : 1);
@@ -204,7 +231,8 @@ void DrivePeaks::visit(StateArchive& archive) { STATE(archive, torque, speed, sh
 void PowerStage::Step::visit(StateArchive& archive) { STATE(archive, torque, rotor_loss, asked, energised); }
 
 void PowerStage::Sum::visit(StateArchive& archive) {
-  STATE(archive, work, torque_squared, travel, rotor_loss, energised);
+  STATE(archive, work, torque_squared, more_current, torque, speed_then, speed, travel, rotor_loss,
+        energised);
 }
 
 void PowerStage::Saturation::visit(StateArchive& archive) { STATE(archive, on, begin, end, asked); }

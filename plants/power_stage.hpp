@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -147,12 +148,32 @@ std::vector<PlantDefinition::Objection> power_objections(const std::string& grou
 /// The rms current I of a motor and what it loses by it. A servo motor's follows its torque; that of an
 /// induction motor what its rotor loses, which is torque times slip:
 /// I^2 = no_load^2 + torque^2 per_torque_squared + rotor loss per_rotor_loss.
+/// A servo motor's grows faster above its rated torque, where its sheet has currents for more torque.
 struct MotorCurrent {
+  struct Point {
+    double torque = 0;   ///< [N m]
+    double current = 0;  ///< rms [A]
+  };
   double per_torque_squared = 0;  ///< [A2/N2m2]
-  double per_rotor_loss = 0;      ///< [A2/W]
-  double no_load = 0;             ///< [A]
-  double resistance = 1;          ///< loss in the cold windings (20 degC) over I^2 [ohm]
-  double rated_rotor_loss = 0;    ///< at stall torque [W]
+  /// Rated, at standstill, largest, with straight lines between them; rated.torque 0: there are none.
+  Point rated = {};
+  Point stall = {};
+  Point peak = {};
+  double per_rotor_loss = 0;    ///< [A2/W]
+  double no_load = 0;           ///< [A]
+  double resistance = 1;        ///< loss in the cold windings (20 degC) over I^2 [ohm]
+  double rated_rotor_loss = 0;  ///< at stall torque [W]
+
+  [[nodiscard]] bool bends() const { return rated.torque > 0; }
+  /// By the points of a motor that bends, beyond the last one on its line [A].
+  [[nodiscard]] double amperes(double torque) const;
+  /// The inverse [N m].
+  [[nodiscard]] double torque_of(double amperes) const;
+  /// What the square of the current has more than the torque's square says [A2].
+  [[nodiscard]] double more_squared(double torque) const {
+    const double current = amperes(torque);
+    return current * current - torque * torque * per_torque_squared;
+  }
 };
 
 /// What a drive has done since the start.
@@ -229,11 +250,17 @@ class PowerStage {
     } else {
       sum_.work += step.torque * speed * h;
       sum_.torque_squared += step.torque * step.torque * h;
+      if (current_.bends()) sum_.more_current += current_.more_squared(step.torque) * h;
       sum_.travel += std::abs(speed) * h;
       sum_.rotor_loss += step.rotor_loss * h;
       if (step.energised) sum_.energised += h;
       torque_ = step.torque;
       speed_ = speed;
+      if (std::abs(torque_) > std::abs(sum_.torque)) {
+        sum_.torque = torque_;
+        sum_.speed_then = speed;
+      }
+      sum_.speed = std::max(sum_.speed, std::abs(speed));
     }
     if (step.asked > 1) saturate(step.asked, h);
     if (++steps_ >= every_) settle(h);
@@ -257,7 +284,10 @@ class PowerStage {
   [[nodiscard]] const MotorHeat& heat() const { return heat_; }
   [[nodiscard]] const DriveTotals& totals() const { return totals_; }
   [[nodiscard]] const DrivePeaks& peaks() const { return peaks_; }
-  void forget_peaks() { peaks_ = {}; }
+  void forget_peaks() {
+    peaks_ = {};
+    sum_.torque = sum_.speed_then = sum_.speed = 0;
+  }
   /// Time in which mains_ok was off, for a phase or more than 15 % of the voltage was missing [s].
   [[nodiscard]] double without_mains() const { return without_mains_; }
   /// Temperature of the winding with these means for ever [K]: current squared [A2], loss in the rotor [W].
@@ -314,6 +344,10 @@ class PowerStage {
   struct Sum {
     double work = 0;
     double torque_squared = 0;
+    double more_current = 0;  // [A2 s]
+    double torque = 0;        // of the largest size [N m], and the speed then [rad/s]
+    double speed_then = 0;
+    double speed = 0;  // largest size [rad/s]
     double travel = 0;
     double rotor_loss = 0;
     double energised = 0;

@@ -48,25 +48,32 @@ void PulseServo::drive(Shaft& rotor, double h) {
 
   const std::int64_t counts = gear_.counts();
   const double radians = 2 * std::numbers::pi / data_.resolution;
-  const double speed = static_cast<double>(counts - counts_before_) * radians / h;
-  counts_before_ = counts;
   if (h != h_) {
     h_ = h;
     forward_share_ = share_of(data_.feed_forward_filter, h);
+    smoothing_share_ = share_of(data_.smoothing, h);
   }
+  const auto come = static_cast<double>(counts - counts_before_);
+  const double followed = (unsmoothed_ + come) * smoothing_share_;
+  unsmoothed_ += come - followed;
+  const double speed = followed * radians / h;
+  counts_before_ = counts;
   forward_speed_ += (speed - forward_speed_) * forward_share_;
   if (tripped_ || !amplifier_.enabled()) {
     cleared_ = counts - actual(rotor);
+    unsmoothed_ = 0;
     amplifier_.coast(rotor, h);
     return;
   }
-  const auto behind = static_cast<double>(counts - cleared_ - actual(rotor));
-  amplifier_.follow(data_.position_gain * behind * radians + data_.feed_forward * forward_speed_, rotor, h);
+  const double behind = static_cast<double>(counts - cleared_ - actual(rotor)) - unsmoothed_;
+  amplifier_.follow(data_.position_gain * behind * radians + data_.feed_forward * forward_speed_,
+                    forward_speed_, rotor, h);
 }
 
 void PulseServo::sense(const Shaft& rotor) {
   const bool enabled = amplifier_.enabled() && !tripped_;
-  const auto behind = enabled ? static_cast<double>(gear_.counts() - cleared_ - actual(rotor)) : 0.0;
+  const double behind =
+      enabled ? static_cast<double>(gear_.counts() - cleared_ - actual(rotor)) - unsmoothed_ : 0;
   deviation_ = behind * gear_.pulses_per_count();
   const double turns = behind / data_.resolution;
   just_tripped_ = std::abs(turns) > data_.following_limit;
@@ -98,8 +105,8 @@ void ElectronicGear::visit(StateArchive& archive) { STATE(archive, counts_, rema
 
 void PulseServo::visit(StateArchive& archive) {
   STATE(archive, pulses, direction, reset, in_position, alarm, gear_, seen_, cleared_, counts_before_,
-        reference_, deviation_, forward_speed_, trip_turns_, tripped_, just_tripped_, reset_before_,
-        cable_broken_);
+        reference_, deviation_, unsmoothed_, forward_speed_, trip_turns_, tripped_, just_tripped_,
+        reset_before_, cable_broken_);
 }
 
 Parameters pulse_servo_parameters(PulseServoData& data) {
@@ -117,6 +124,9 @@ Parameters pulse_servo_parameters(PulseServoData& data) {
           data.feed_forward, 0, 100, manual),
       row("feed_forward_filter", "ms", "time constant of the feed-forward, 0 = none",
           data.feed_forward_filter, 0, 100, "estimate"),
+      row("smoothing", "ms",
+          "time constant with which the command follows the pulses, 0 = none; the deviation is that from it",
+          data.smoothing, 0, 1000, manual),
       row("following_limit", "", "deviation that trips the drive, in turns of the motor",
           data.following_limit, 1e-3, 1e4, manual),
       row("in_position", "", "deviation up to which the axis is in position, in pulses", data.in_position, 0,

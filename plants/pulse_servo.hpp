@@ -16,6 +16,7 @@ struct PulseServoData {
   double position_gain = 50;          ///< Kp [rad/s]: speed for a deviation
   double feed_forward = 0;            ///< share of the reference speed given ahead of the loop, 0..1
   double feed_forward_filter = 2e-3;  ///< time constant, 0 = none [s]: smooths the whole counts of a step
+  double smoothing = 0;               ///< time constant with which the command is followed, 0 = none [s]
   double following_limit = 3;         ///< deviation that trips the drive [turns of the motor]
   double in_position = 100;           ///< deviation up to which the axis is in position [pulses]
 };
@@ -100,6 +101,8 @@ class PulseServo {
   double deviation_ = 0;
   double h_ = 0;              // the step for which the share below holds
   double forward_share_ = 1;  // of a change of the reference's speed, followed in a step
+  double smoothing_share_ = 1;
+  double unsmoothed_ = 0;     // counts that the smoothed command is behind
   double forward_speed_ = 0;  // filtered speed of the reference [rad/s]
   double trip_turns_ = 0;
   bool tripped_ = false;

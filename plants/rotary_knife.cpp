@@ -24,6 +24,10 @@ CutterData cutter_data(const RotaryKnifeData& knife, const WebData& web, double 
           .mismatch_limit = knife.mismatch_limit};
 }
 
+TransmissionData sprung(const RotaryKnifeData& data) {
+  return with_stiffness(data.gear, data.drive.servo.rotor_inertia, data.geared() / data.motors);
+}
+
 PositionSwitchData in_turns(const PositionSwitchData& radians) {
   return {radians.centre / units::turn, radians.width / units::turn, radians.hysteresis / units::turn,
           radians.delay};
@@ -44,7 +48,7 @@ RotaryKnife::RotaryKnife(const RotaryKnifeData& data, World& world, Web& web)
       drum_(world.add_shaft(
           {.name = "knife drum", .inertia = data.geared(), .revolutions = data.initial_angle / units::turn})),
       servo_(data.drive, rotor_, world.random("servo")),
-      gear_(data.gear),
+      gear_(sprung(data)),
       encoder_(data.encoder, data.encoder_on_drum ? drum_.revolutions() : rotor_.revolutions(),
                world.random("encoder")),
       home_(in_turns(data.home), 1, drum_.part),
@@ -63,7 +67,8 @@ void RotaryKnife::drive(double h) {
   drum_.add_torque(load.torque);
   material.add_force(load.web_force);
   // Dry friction last: it answers to all other torques.
-  rotor_.add_torque(friction_effort(data_.motor_friction, rotor_.speed, rotor_.torque, rotor_.inertia, h));
+  rotor_.add_torque(friction_effort(data_.motor_friction, rotor_.speed, rotor_.torque, rotor_.inertia, h,
+                                    losses(data_.gear.efficiency, gear_.torque() / data_.gear.ratio)));
   drum_.add_torque(friction_effort(friction_, drum_.speed, drum_.torque, drum_.inertia, h, load.dry));
 }
 
@@ -162,6 +167,12 @@ std::vector<Channel> RotaryKnife::channels() {
   return channels;
 }
 
+std::vector<Setting> RotaryKnife::settings() {
+  std::vector<Setting> settings;
+  servo_.offer_settings(settings);
+  return settings;
+}
+
 std::vector<EventType> RotaryKnife::event_types() {
   EventType cut = {
       "cut",
@@ -187,7 +198,8 @@ std::vector<EventType> RotaryKnife::event_types() {
 }
 
 std::vector<DriveOfPlant> RotaryKnife::drives() {
-  auto drives = servo_.drives(data_.geared() / (data_.gear.ratio * data_.gear.ratio * data_.motors));
+  auto drives = servo_.drives(data_.geared() / (data_.gear.ratio * data_.gear.ratio * data_.motors),
+                              data_.gear.efficiency);
   for (auto& drive : drives) drive.alike = data_.motors;
   return drives;
 }
@@ -219,7 +231,7 @@ void RotaryKnife::visit(StateArchive& archive) {
 Parameters RotaryKnife::live_parameters() { return live_rows(rotary_knife_parameters(data_)); }
 
 void RotaryKnife::parameters_changed() {
-  gear_.take(data_.gear);
+  gear_.take(sprung(data_));
   friction_ = geared_friction(data_.drum_friction, data_.counter);
   if (drum_.inertia != data_.geared()) world_.set_inertia(drum_, data_.geared());
 }

@@ -31,8 +31,8 @@ struct RotaryKnifeData {
   int motors = 1;  ///< alike, each on a gear of its own, which share the torque
   ServoAxisData drive;
   TransmissionData gear;
-  Friction motor_friction = {0.1, 0.0005, 0, 0};
-  Friction drum_friction = {2, 0.1, 0, 0};
+  Friction motor_friction = {0.1, 0.0005, 0, 1};
+  Friction drum_friction = {2, 0.1, 0, 1};
   EncoderData encoder;  ///< on the motor or on the drum
   bool encoder_on_drum = false;
   /// Home switch on the drum, angles in rad.
@@ -64,6 +64,7 @@ class RotaryKnife : public Plant, public TellsMotorLoad {
   std::vector<Port> ports() override;
   [[nodiscard]] std::optional<PlugScale> scale_of(std::string_view port) const override;
   std::vector<Channel> channels() override;
+  std::vector<Setting> settings() override;
   std::vector<Fault> faults() override;
   std::vector<EventType> event_types() override;
   std::vector<DriveOfPlant> drives() override;

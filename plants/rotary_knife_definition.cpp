@@ -5,6 +5,7 @@
 #include "base/problem.hpp"
 #include "base/units.hpp"
 #include "plants/axis_objections.hpp"
+#include "plants/friction_rows.hpp"
 #include "plants/rotary_knife.hpp"
 
 namespace drycut::plants {
@@ -55,15 +56,14 @@ Parameters rotary_knife_parameters(RotaryKnifeData& data) {
               data.home.hysteresis, 0, 10, "estimate: proximity switch on 95 mm radius"),
           row("home.delay", "ms", "delay of the home switch", data.home.delay, 0, 100,
               "estimate: proximity switch of 1 kHz"),
-          live(row("motor_friction.coulomb", "N m", "dry friction of the motor", data.motor_friction.coulomb,
-                   0, 1e4, "estimate: 1 % of rated torque")),
-          live(row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor",
-                   data.motor_friction.viscous, 0, 100, "estimate")),
-          live(row("drum_friction.coulomb", "N m", "dry friction of the drum's bearings and seals",
-                   data.drum_friction.coulomb, 0, 1e5, "estimate")),
-          live(row("drum_friction.viscous", "N m s/rad", "viscous friction of the drum",
-                   data.drum_friction.viscous, 0, 1e4, "estimate")),
       },
+      group("motor_friction.", shaft_friction_parameters(data.motor_friction,
+                                                         {.dry = "dry friction of the motor",
+                                                          .viscous = "viscous friction of the motor",
+                                                          .coulomb_from = "estimate: 1 % of rated torque"})),
+      group("drum_friction.", shaft_friction_parameters(
+                                  data.drum_friction, {.dry = "dry friction of the drum's bearings and seals",
+                                                       .viscous = "viscous friction of the drum"})),
       group("counter.", counter_drum_parameters(data.counter)),
       Parameters{
           row("motors",

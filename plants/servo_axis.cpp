@@ -75,6 +75,8 @@ void ServoAxis::offer_channels(std::vector<Channel>& channels) const {
   channels.push_back(
       {"servo.set_speed", "rpm", [this] { return amplifier_.speed_reference() * units::rpm; },
        pulses_ ? "speed that the position loop asks for" : "speed reference after offset, drift and filter"});
+  channels.push_back({"servo.asked", "N m", [this] { return amplifier_.asked(); },
+                      "torque that the speed loop asks for, before test signal and limit"});
   channels.push_back({"servo.saturated", "", [this] { return amplifier_.saturated() ? 1.0 : 0.0; },
                       "1 while the torque limit acts"});
   amplifier_.power().offer_channels(channels);

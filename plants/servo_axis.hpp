@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "plants/efficiency.hpp"
 #include "plants/pulse_servo.hpp"
 #include "plants/servo_drive.hpp"
 
@@ -43,13 +44,14 @@ class ServoAxis {
   [[nodiscard]] const std::optional<PulseServo>& pulses() const { return pulses_; }  ///< where it takes them
 
   /// For Plant::drives(), with what it turns, seen at the motor [kg m2].
-  [[nodiscard]] std::vector<DriveOfPlant> drives(double load_inertia) {
-    return {{"servo", &amplifier_.power(), load_inertia}};
+  [[nodiscard]] std::vector<DriveOfPlant> drives(double load_inertia, const Efficiency& through) {
+    return {{"servo", &amplifier_.power(), load_inertia, through.driving}};
   }
 
   // What it adds to a plant's lists.
   void offer_ports(std::vector<Port>& ports);
   void offer_channels(std::vector<Channel>& channels) const;
+  void offer_settings(std::vector<Setting>& settings) { amplifier_.offer_settings(settings); }
   void offer_faults(std::vector<Fault>& faults);
   static void offer_events(std::vector<EventType>& types);
   /// What happened to it since it was asked last.

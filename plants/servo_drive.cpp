@@ -7,29 +7,40 @@
 
 #include "base/problem.hpp"
 #include "base/state_archive.hpp"
+#include "base/units.hpp"
 #include "plants/lag.hpp"
 
 namespace drycut::plants {
 
+bool has_currents(const ServoData& data) {
+  return data.rated_current > 0 || data.stall_current > 0 || data.peak_current > 0;
+}
+
 ServoData electrical(ServoData data) {
-  const double rated_current = data.rated_torque / data.torque_constant;
+  constexpr double saturation = 1.25;
+  const bool sheet = has_currents(data);
   const auto estimate = [](double& value, double otherwise) {
     if (value == 0) value = otherwise;
   };
   estimate(data.stall_torque, data.rated_torque);
+  if (data.rated_current > 0) data.torque_constant = data.rated_torque / data.rated_current;
+  estimate(data.rated_current, data.rated_torque / data.torque_constant);
+  estimate(data.stall_current, data.stall_torque / data.torque_constant);
+  estimate(data.peak_current, (sheet ? saturation : 1) * data.peak_torque / data.torque_constant);
   estimate(data.winding_resistance,
-           0.06 * data.rated_torque * data.rated_speed / (1.5 * rated_current * rated_current));
-  estimate(data.amplifier.current, std::max(rated_current, data.stall_torque / data.torque_constant));
-  estimate(data.amplifier.peak_current,
-           std::max(data.peak_torque / data.torque_constant, 1.1 * data.amplifier.current));
+           0.06 * data.rated_torque * data.rated_speed / (1.5 * data.rated_current * data.rated_current));
+  estimate(data.amplifier.current, std::max(data.rated_current, data.stall_current));
+  estimate(data.amplifier.peak_current, std::max(data.peak_current, 1.1 * data.amplifier.current));
   return data;
 }
 
 DriveRatings ratings(const ServoData& given) {
   const ServoData data = electrical(given);
+  const auto current = motor_current(given);
   // An amplifier that is not known gives the motor its torque, to the last digit.
-  const double most = given.amplifier.peak_current > 0 ? data.torque_constant * given.amplifier.peak_current
-                                                       : data.peak_torque;
+  const double most = given.amplifier.peak_current <= 0 ? data.peak_torque
+                      : current.bends()                 ? current.torque_of(given.amplifier.peak_current)
+                                                        : data.torque_constant * given.amplifier.peak_current;
   return {.rotor_inertia = data.rotor_inertia,
           .stall_torque = data.stall_torque,
           .rated_torque = data.rated_torque,
@@ -39,23 +50,32 @@ DriveRatings ratings(const ServoData& given) {
           .max_speed = data.max_speed};
 }
 
-MotorCurrent motor_current(const ServoData& data) {
-  return {.per_torque_squared = 1 / (data.torque_constant * data.torque_constant),
-          .resistance = 1.5 * electrical(data).winding_resistance};
+MotorCurrent motor_current(const ServoData& given) {
+  const ServoData data = electrical(given);
+  MotorCurrent current = {.per_torque_squared = 1 / (data.torque_constant * data.torque_constant),
+                          .resistance = 1.5 * data.winding_resistance};
+  if (!has_currents(given)) return current;
+  current.rated = {data.rated_torque, data.rated_current};
+  current.stall = {data.stall_torque, data.stall_current};
+  current.peak = {data.peak_torque, data.peak_current};
+  return current;
 }
 
 ServoDrive::ServoDrive(const ServoData& data, Random noise)
     : data_(electrical(data)),
       power_(motor_current(data), data.heat, ratings(data), data_.amplifier, data.supply),
-      random_(noise) {
+      random_(noise),
+      ripples_(data.cogging > 0 || data.torque_ripple > 0),
+      filters_(data.filters) {
   enable.level = true;
 }
 
 namespace {
 
-double loop_gain(const ServoData& data) {
-  return (1 + data.inertia_ratio) * data.rotor_inertia * data.speed_gain;
-}
+/// That the drive reckons with.
+double inertia_of(const ServoData& data) { return (1 + data.inertia_ratio) * data.rotor_inertia; }
+
+double loop_gain(const ServoData& data) { return inertia_of(data) * data.speed_gain; }
 
 // The largest s g for the rotor alone, as it is while a gear's play parts it from its load. A step takes
 // torque (as the speed it brings in a step) and speed by the matrix [[1 - s, -s g], [1 - s, 1 - s g]]: s is
@@ -77,7 +97,19 @@ std::vector<PlantDefinition::Objection> servo_objections(const ServoData& data, 
   if (data.torque_at_max_speed > data.peak_torque)
     found.push_back({"plant.parameters-contradict"_code, "servo.torque_at_max_speed",
                      "it is above servo.peak_torque", "at most servo.peak_torque"});
+  if (has_currents(data)) {
+    const ServoData known = electrical(data);
+    if (known.stall_torque >= data.rated_torque && known.stall_current < known.rated_current * (1 - 1e-9))
+      found.push_back({"plant.parameters-contradict"_code, "servo.stall_current",
+                       "it is below servo.rated_current, at no less torque", "at least servo.rated_current"});
+    if (known.peak_current <= std::max(known.stall_current, known.rated_current))
+      found.push_back({"plant.parameters-contradict"_code, "servo.peak_current",
+                       "it is not above the current at standstill, at more torque",
+                       "rms as the others: a peak value over root 2"});
+  }
   for (auto& objection : power_objections("servo.", data.amplifier, data.supply))
+    found.push_back(std::move(objection));
+  for (auto& objection : torque_filter_objections("servo.", data.filters, h))
     found.push_back(std::move(objection));
   const double most = most_correction * inertia / (share_of(data.current_lag, h) * h);
   if (loop_gain(data) > most)
@@ -95,6 +127,7 @@ void ServoDrive::prepare(double h) {
   filter_share_ = share_of(data_.filter, h);
   lag_share_ = share_of(data_.current_lag, h);
   speed_per_volt_ = data_.speed_at_10v / 10;
+  forward_share_ = share_of(data_.torque_forward_filter, h);
   lsb_ = 20.0 / static_cast<double>(1LL << data_.adc_bits);
 }
 
@@ -105,7 +138,9 @@ double ServoDrive::convert(double volts) const {
 double ServoDrive::speed_loop(double speed, double h) {
   const double gain = loop_gain(data_);
   const double error = filtered_ - speed;
-  const double wanted = gain * error + integral_;
+  wanted_ = gain * error + integral_ + ahead_;
+  if (filters_.any()) wanted_ = filters_.pass(wanted_, h);
+  const double wanted = wanted_ + test_torque_;
   // With less voltage the motor has its torque up to less speed. Braking it has it at any.
   const double as_rated = speed / power_.speed_share();
   double limit = std::abs(as_rated) > data_.rated_speed && wanted * speed > 0
@@ -120,9 +155,21 @@ double ServoDrive::speed_loop(double speed, double h) {
   return command;
 }
 
+double ServoDrive::torque_ahead(double commanded, double h) {
+  acceleration_ += ((commanded - commanded_) / h - acceleration_) * forward_share_;
+  commanded_ = commanded;
+  return data_.torque_forward * inertia_of(data_) * acceleration_;
+}
+
 void ServoDrive::give(double command, Shaft& rotor) {
   torque_ += (command - torque_) * lag_share_;
   rotor.add_torque(torque_);
+  if (ripples_) rotor.add_torque(ripple(rotor));
+}
+
+double ServoDrive::ripple(const Shaft& rotor) const {
+  return data_.cogging * std::sin(units::turn * data_.cogging_periods * rotor.part) +
+         data_.torque_ripple * torque_ * std::sin(units::turn * data_.torque_ripple_periods * rotor.part);
 }
 
 // What the last step came to, and a trip that the enable takes back.
@@ -143,19 +190,21 @@ void ServoDrive::drive(Shaft& rotor, double h, const Feed& feed) {
   if (faults_.noise > 0) input += faults_.noise * random_.gaussian();
   converted_ = convert(input);
   if (feed.open) {  // current and loops end with the circuit
-    filtered_ = integral_ = torque_ = 0;
-    saturated_ = false;
+    filtered_ = torque_ = 0;
+    end_loops(0);
     return;
   }
   if (!energised_) return release(rotor);
   filtered_ += (converted_ * speed_per_volt_ - filtered_) * filter_share_;
+  if (data_.torque_forward > 0) ahead_ = torque_ahead(filtered_, h);
   give(speed_loop(rotor.speed, h), rotor);
 }
 
-void ServoDrive::follow(double speed_reference, Shaft& rotor, double h) {
+void ServoDrive::follow(double speed_reference, double commanded, Shaft& rotor, double h) {
   begin(rotor, h);
   if (!energised_) return release(rotor);
   filtered_ = speed_reference;
+  if (data_.torque_forward > 0) ahead_ = torque_ahead(commanded, h);
   give(speed_loop(rotor.speed, h), rotor);
 }
 
@@ -164,11 +213,27 @@ void ServoDrive::coast(Shaft& rotor, double h) {
   release(rotor);
 }
 
+// They begin afterwards from a motor of `speed` that is asked for nothing.
+void ServoDrive::end_loops(double speed) {
+  commanded_ = speed;
+  integral_ = acceleration_ = ahead_ = wanted_ = 0;
+  filters_.clear();
+  saturated_ = false;
+}
+
 void ServoDrive::release(Shaft& rotor) {
   filtered_ = rotor.speed;
-  integral_ = 0;
-  saturated_ = false;
+  end_loops(rotor.speed);
   give(0, rotor);
+}
+
+void ServoDrive::offer_settings(std::vector<Setting>& settings) {
+  settings.push_back({"servo.test_torque",
+                      "N m",
+                      [this](double v) { test_torque_ = v; },
+                      [this] { return test_torque_; },
+                      "test signal: torque added to what the speed loop asks for",
+                      {-1e5, 1e5, false}});
 }
 
 void ServoDrive::offer_faults(std::vector<Fault>& faults, const std::string& component) {
@@ -212,8 +277,9 @@ void ServoDrive::Faults::visit(StateArchive& archive) {
 }
 
 void ServoDrive::visit(StateArchive& archive) {
-  STATE(archive, reference, enable, power_, random_, converted_, filtered_, integral_, torque_, saturated_,
-        asked_, energised_, enabled_before_, faults_);
+  STATE(archive, reference, enable, power_, random_, converted_, filtered_, integral_, commanded_,
+        acceleration_, ahead_, filters_, wanted_, test_torque_, torque_, saturated_, asked_, energised_,
+        enabled_before_, faults_);
 }
 
 Parameters servo_parameters(ServoData& data, const ServoSources& from) {
@@ -230,6 +296,14 @@ Parameters servo_parameters(ServoData& data, const ServoSources& from) {
           sheet),
       row("max_speed", "rpm", "no driving torque is left 5 % above this speed", data.max_speed, 1, 1e5,
           sheet),
+      row("cogging", "N m", "amplitude of the torque of magnets against slots", data.cogging, 0, 1e3,
+          "none: sheets that tell it have 0.5 to 1 % of rated torque"),
+      row("cogging_periods", "its periods a turn: least common multiple of slots and poles",
+          data.cogging_periods, 1, 1000, "usual: 12 slots, 10 poles"),
+      row("torque_ripple", "%", "amplitude of the torque's ripple, of the torque", data.torque_ripple, 0, 50,
+          "none: usual are 1 to 2 %"),
+      row("torque_ripple_periods", "its periods a turn: six times the pole pairs", data.torque_ripple_periods,
+          1, 1000, "usual: 4 pole pairs"),
       row("speed_at_10v", "rpm", "motor speed at a reference of 10 V", data.speed_at_10v, 1, 1e5,
           from.speed_at_10v),
       row("adc_bits", "resolution of the analogue input over -10 V .. +10 V", data.adc_bits, 8, 24,
@@ -245,15 +319,30 @@ Parameters servo_parameters(ServoData& data, const ServoSources& from) {
           from.inertia_ratio),
       row("current_lag", "ms", "time constant of the current loop, 0 = none", data.current_lag, 0, 100,
           "estimate: bandwidth of 300 Hz"),
+      row("torque_forward", "%",
+          "share of the torque for the reference's acceleration, by rotor_inertia and inertia_ratio, that is "
+          "given ahead of the speed loop",
+          data.torque_forward, 0, 200, "none: usual are 0 to 100 %"),
+      row("torque_forward_filter", "ms", "time constant of that acceleration, 0 = none",
+          data.torque_forward_filter, 0, 100, "estimate"),
       row("stall_torque", "N m", "continuous torque at standstill, 0 = as at rated speed", data.stall_torque,
           0, 1e4, "estimate"),
-      row("torque_constant", "N m/A", "torque over the rms current", data.torque_constant, 1e-3, 1e3,
-          "estimate: rated torque at 9.6 A"),
+      row("torque_constant", "N m/A", "torque over the rms current, where none of the currents is given",
+          data.torque_constant, 1e-3, 1e3, "estimate: rated torque at 9.6 A"),
+      row("rated_current", "A", "rms current at rated torque, 0 = by torque_constant", data.rated_current, 0,
+          1e4, "by torque_constant"),
+      row("stall_current", "A", "rms current at stall torque, 0 = in proportion to the rated current",
+          data.stall_current, 0, 1e4, "by torque_constant"),
+      row("peak_current", "A",
+          "rms current at peak torque, 0 = in proportion, and a quarter more where one of the others is "
+          "given",
+          data.peak_current, 0, 1e5, "by torque_constant"),
       row("winding_resistance", "ohm",
           "between two phases at 20 degC, 0 = 6 % of the rated power is lost in it", data.winding_resistance,
           0, 1e4, "estimate: usual in the class"),
   };
-  return joined(std::move(rows), motor_heat_parameters(data.heat, "estimate: usual in the class"),
+  return joined(std::move(rows), torque_filter_parameters(data.filters),
+                motor_heat_parameters(data.heat, "estimate: usual in the class"),
                 amplifier_parameters(data.amplifier, "estimate: amplifier of the 2 kW class"),
                 group("supply.", supply_parameters(data.supply)));
 }

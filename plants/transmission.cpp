@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/state_archive.hpp"
+#include "base/units.hpp"
 #include "plants/stiff_pair.hpp"
 
 namespace drycut::plants {
@@ -34,16 +35,34 @@ double resonance(const TransmissionData& data, double motor_inertia, double load
   return std::sqrt(data.stiffness / reduced(motor_inertia * data.ratio * data.ratio, load_inertia));
 }
 
+TransmissionData with_stiffness(TransmissionData data, double motor_inertia, double load_inertia) {
+  if (data.stiffness > 0) return data;
+  constexpr double frequency = 200;  // [Hz]
+  constexpr double damping_ratio = 0.05;
+  const double omega = units::turn * frequency;
+  const double inertia = reduced(motor_inertia * data.ratio * data.ratio, load_inertia);
+  data.stiffness = omega * omega * inertia;
+  data.damping = 2 * damping_ratio * omega * inertia;
+  return data;
+}
+
 Parameters transmission_parameters(TransmissionData& data, const TransmissionSources& from) {
-  return {
-      row("ratio", "", "turns of the motor for one of the load", data.ratio, 0.01, 1000, from.ratio),
-      live(row("stiffness", "N m/rad", "torsional stiffness of gear, shaft and coupling, seen at the load",
-               data.stiffness, 1, 1e7, from.stiffness)),
-      live(row("damping", "N m s/rad", "torsional damping, seen at the load", data.damping, 0, 1e5,
-               "estimate: 5 % of critical")),
-      live(row("backlash", "deg", "play between the flanks, seen at the load", data.backlash, 0, 10,
-               "none: set it to study its effect")),
-  };
+  return joined(
+      Parameters{
+          row("ratio", "", "turns of the motor for one of the load", data.ratio, 0.01, 1000, from.ratio),
+          live(row("stiffness", "N m/rad",
+                   "torsional stiffness of gear, shaft and coupling, seen at the load; 0 = not known: motor "
+                   "and load "
+                   "swing at 200 Hz, with 5 % of critical damping",
+                   data.stiffness, 0, 1e7, from.stiffness)),
+          live(row("damping", "N m s/rad", "torsional damping, seen at the load", data.damping, 0, 1e5,
+                   "estimate: 5 % of critical")),
+          live(row("backlash", "deg", "play between the flanks, seen at the load", data.backlash, 0, 10,
+                   "none: set it to study its effect")),
+          preset_row("type", "kind of gear, whose efficiency and back_efficiency are the defaults", data.type,
+                     gear_types(), "none is named: losses are not counted"),
+      },
+      efficiency_parameters(data.efficiency, "gear.type"));
 }
 
 }  // namespace drycut::plants

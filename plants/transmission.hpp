@@ -1,7 +1,9 @@
 #pragma once
 #include <algorithm>
+#include <string>
 #include <string_view>
 
+#include "plants/efficiency.hpp"
 #include "plants/plant.hpp"
 #include "plants/world.hpp"
 
@@ -9,10 +11,12 @@ namespace drycut::plants {
 
 /// Gear, shaft and coupling between a rotor and its load. Both are bodies of their own; nothing is reflected.
 struct TransmissionData {
-  double ratio = 5;         ///< turns of the motor for one of the load
-  double stiffness = 52e3;  ///< torsional, seen at the load [N m/rad]
-  double damping = 7;       ///< seen at the load [N m s/rad]
-  double backlash = 0;      ///< whole play, seen at the load [rad]
+  double ratio = 5;                ///< turns of the motor for one of the load
+  double stiffness = 52e3;         ///< torsional, seen at the load [N m/rad]; 0 = not known: with_stiffness()
+  double damping = 7;              ///< seen at the load [N m s/rad]
+  double backlash = 0;             ///< whole play, seen at the load [rad]
+  std::string type = "loss_free";  ///< of gear_types(): its efficiency unless that is given
+  Efficiency efficiency = {};
 };
 
 /// Where a machine's defaults are from.
@@ -59,6 +63,11 @@ class Transmission {
   double rate_ = 0;
   double torque_ = 0;
 };
+
+/// The data with a stiffness that is known: where it is 0, that with which motor and load swing at 200 Hz,
+/// and 5 % of critical damping. Inertias in kg m2, each on its own shaft.
+[[nodiscard]] TransmissionData with_stiffness(TransmissionData data, double motor_inertia,
+                                              double load_inertia);
 
 /// Angular frequency of the free two-mass oscillation [rad/s], inertias in kg m2.
 [[nodiscard]] double resonance(const TransmissionData& data, double motor_inertia, double load_inertia);

@@ -12,11 +12,9 @@ namespace {
 constexpr double sag_after = 0.5;   // [s]: by then every sound brake has stopped the ram
 constexpr double sag_speed = 1e-3;  // [m/s]
 
-// The twist with which the screw carries the ram at rest, so that a run begins without a fall.
-double carrying_twist(const VerticalPressData& data) {
-  const double force = (data.mass + data.load) * units::gravity - data.counterbalance;
-  const double twist = force * data.lead / units::turn / data.gear.stiffness;
-  return twist + std::copysign(data.gear.backlash / 2, twist);
+// With this force the screw carries the ram at rest, so that a run begins without a fall.
+double carried(const VerticalPressData& data) {
+  return (data.mass + data.load) * units::gravity - data.counterbalance;
 }
 
 }  // namespace
@@ -26,17 +24,9 @@ VerticalPress::VerticalPress(const VerticalPressData& data, World& world)
       world_(world),
       screw_(data, "press", data.drive.rotor_inertia(),
              {.name = "press ram", .mass = data.mass + data.load, .axis = {0, 1, 0}, .gravity = true}, world,
-             carrying_twist(data)),
+             carried(data)),
       drive_(data.drive, world, "press"),
       workpiece_(data.workpiece, data.workpiece_height, -1) {}
-
-// Against a motion that the motor must drive the screw rubs with (1/efficiency - 1) of its torque, against
-// one that its load drives with (1 - back_efficiency) of it: less than the load itself unless self-locking.
-DryResistance VerticalPress::losses(double torque) const {
-  const double driving = std::abs(torque) * (1 / data_.efficiency - 1);
-  const double driven = std::abs(torque) * (1 - data_.back_efficiency);
-  return torque > 0 ? DryResistance{driving, driven} : DryResistance{driven, driving};
-}
 
 void VerticalPress::drive(double h) {
   drive_.drive(rotor(), h);
@@ -45,10 +35,8 @@ void VerticalPress::drive(double h) {
   ram().add_force(outer_force_);
   screw_.push_back(h);
   if (data_.workpiece.stiffness > 0) workpiece_.drive(ram(), h);
-  DryResistance dry = losses(screw_.torque() / data_.gear.ratio);
-  dry.forward += drive_.brake_torque();
-  dry.backward += drive_.brake_torque();
-  screw_.rub(h, dry, -ram().mass * units::gravity);
+  const double brake = drive_.brake_torque();
+  screw_.rub(h, {brake, brake}, -screw_.mass() * units::gravity);
 }
 
 void VerticalPress::sense(double h) {
@@ -105,7 +93,7 @@ std::vector<Channel> VerticalPress::channels() {
   drive_.offer_channels(channels);
   channels.insert(
       channels.end(),
-      {{"mass", "kg", [this] { return ram().mass; }, "of the ram with its load"},
+      {{"mass", "kg", [this] { return screw_.mass(); }, "of the ram with its load"},
        {"screw.force", "N", [this] { return screw_.force(); },
         "force of the screw on the ram, positive upwards"},
        {"press.force", "N", [this] { return workpiece_.force(); }, "of the ram on the workpiece"},
@@ -115,27 +103,31 @@ std::vector<Channel> VerticalPress::channels() {
 }
 
 std::vector<Setting> VerticalPress::settings() {
-  return {{"load",
-           "kg",
-           [this](double v) {
-             data_.load = v;
-             parameters_changed();
-           },
-           [this] { return data_.load; },
-           "what the ram carries besides itself",
-           {0, 1e6, false}},
-          {"force",
-           "N",
-           [this](double v) { outer_force_ = v; },
-           [this] { return outer_force_; },
-           "force of the process on the ram, positive upwards",
-           {-1e7, 1e7, false}}};
+  std::vector<Setting> settings = {{"load",
+                                    "kg",
+                                    [this](double v) {
+                                      data_.load = v;
+                                      parameters_changed();
+                                    },
+                                    [this] { return data_.load; },
+                                    "what the ram carries besides itself",
+                                    {0, 1e6, false}},
+                                   {"force",
+                                    "N",
+                                    [this](double v) { outer_force_ = v; },
+                                    [this] { return outer_force_; },
+                                    "force of the process on the ram, positive upwards",
+                                    {-1e7, 1e7, false}}};
+  drive_.offer_settings(settings);
+  return settings;
 }
 
-std::vector<DriveOfPlant> VerticalPress::drives() { return drive_.drives(load_inertia(data_)); }
+std::vector<DriveOfPlant> VerticalPress::drives() {
+  return drive_.drives(load_inertia(data_), efficiency(data_));
+}
 
 MotorLoad VerticalPress::motor_load(double h) const {
-  return screw_.motor_load(drive_.torque(), data_.counterbalance - ram().mass * units::gravity, h);
+  return screw_.motor_load(drive_.torque(), data_.counterbalance - screw_.mass() * units::gravity, h);
 }
 
 void VerticalPress::visit(StateArchive& archive) {

@@ -20,6 +20,8 @@ struct VerticalPressData : ScrewDriveData {
                        .travel_max = 0.61,
                        .stop = {2e7, 1.5e5},
                        .gear = {1, 250, 0.1, 0},
+                       .moved_by = "ball_screw",
+                       .efficiency = {0.9, 0.8},
                        .motor_friction = {0.2, 0.001, 0, 0.01},
                        .guide_friction = {150, 300, 0, 0.01},
                        .sensors = {.scale_resolution = 5e-6,
@@ -29,8 +31,6 @@ struct VerticalPressData : ScrewDriveData {
 
   double load = 0;                 ///< what the ram carries besides [kg]
   double counterbalance = 2000;    ///< constant force upwards: cylinder or gas spring [N]
-  double efficiency = 0.9;         ///< of screw or rack while the motor drives the ram
-  double back_efficiency = 0.8;    ///< while the ram drives the motor, 0 or less: self-locking
   double workpiece_height = 0.05;  ///< height at which the tool meets the workpiece [m]
   EndStopData workpiece = {0, 0};  ///< stiffness 0 = no workpiece
   AxisDriveData drive = {.kind = "inverter", .brake = {.torque = 25}};
@@ -69,7 +69,6 @@ class VerticalPress : public Plant, public TellsMotorLoad {
   [[nodiscard]] Shaft& rotor() const { return screw_.rotor; }
 
  private:
-  [[nodiscard]] DryResistance losses(double torque) const;
   void report_contacts();
   void watch_for_sag(double h);
   struct Picture;

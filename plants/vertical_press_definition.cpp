@@ -1,5 +1,6 @@
 #include "base/problem.hpp"
 #include "plants/axis_objections.hpp"
+#include "plants/friction_rows.hpp"
 #include "plants/vertical_press.hpp"
 
 namespace drycut::plants {
@@ -16,10 +17,6 @@ Parameters mechanics(VerticalPressData& data) {
           "ball screw 40 x 10"),
       row("screw_inertia", "kg m2", "inertia of screw or pinion", data.screw_inertia, 0, 100,
           "steel screw, 40 mm by 0.8 m, 36 mm at the root"),
-      row("efficiency", "", "of screw or rack while the motor drives the ram", data.efficiency, 0.05, 1,
-          "usual: ball screw 0.9, trapezoidal screw 0.35"),
-      row("back_efficiency", "", "while the ram drives the motor; 0 or less: self-locking",
-          data.back_efficiency, -20, 1, "estimate: ball screw 0.8; 2 - 1/efficiency for even friction"),
       row("start", "mm", "height at the start; encoder and scale count 0 there", data.start, -1e6, 1e6,
           "middle of the stroke"),
       row("travel_min", "mm", "where the lower end stop begins", data.travel_min, -1e6, 1e6,
@@ -35,18 +32,6 @@ Parameters mechanics(VerticalPressData& data) {
       row("workpiece.stiffness", "N/m", "of the workpiece, 0 = none is there", data.workpiece.stiffness, 0,
           1e10, "none"),
       row("workpiece.damping", "N s/m", "of the workpiece", data.workpiece.damping, 0, 1e8, "none"),
-      live(row("motor_friction.coulomb", "N m", "dry friction of motor and screw bearings",
-               data.motor_friction.coulomb, 0, 1e4, "estimate: 1 % of rated torque")),
-      live(row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor, its fan",
-               data.motor_friction.viscous, 0, 100, "estimate")),
-      live(row("ram_friction.coulomb", "N", "dry friction of the ram's guides", data.guide_friction.coulomb,
-               0, 1e6, "estimate: four guide bushes")),
-      live(row("ram_friction.viscous", "N s/m", "viscous friction of the guides", data.guide_friction.viscous,
-               0, 1e6, "estimate")),
-      live(row("ram_friction.breakaway", "N", "what dry friction is more at standstill (Stribeck)",
-               data.guide_friction.breakaway, 0, 1e6, "none: set it to study stick-slip")),
-      row("ram_friction.stribeck_speed", "mm/s", "speed at which 1/e of it is left",
-          data.guide_friction.stribeck_speed, 1e-3, 1e5, "estimate"),
   };
 }
 
@@ -65,7 +50,15 @@ Parameters picture(VerticalPressData& data) {
 
 Parameters vertical_press_parameters(VerticalPressData& data) {
   return joined(
-      mechanics(data),
+      mechanics(data), screw_parameters(data, "ball screw; backwards 0.8, on the safe side"),
+      group("motor_friction.", shaft_friction_parameters(data.motor_friction,
+                                                         {.dry = "dry friction of motor and screw bearings",
+                                                          .viscous = "viscous friction of the motor, its fan",
+                                                          .coulomb_from = "estimate: 1 % of rated torque"})),
+      group("ram_friction.",
+            guide_friction_parameters(data.guide_friction, {.dry = "dry friction of the ram's guides",
+                                                            .viscous = "viscous friction of the guides",
+                                                            .coulomb_from = "estimate: four guide bushes"})),
       axis_drive_parameters(data.drive, {.kind = "a press that is positioned on/off",
                                          .brake_torque = "1.7 times rated torque"}),
       group("gear.", transmission_parameters(

@@ -155,7 +155,7 @@ void VerticalPress::Picture::add_stops_and_switches() {
 
 void VerticalPress::Picture::add_load() {
   on([ram = ram_, &press = press_] {
-    const double load = press.ram().mass - press.data_.mass;
+    const double load = press.screw_.mass() - press.data_.mass;
     const double stack = std::max(load, 1e-6) * weight_plate;
     return PartPose(ram().pose * at(0, ram_top + stack / 4, 0), load > 0, {1, stack / 2, 1});
   });

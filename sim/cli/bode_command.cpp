@@ -11,6 +11,7 @@
 #include "sim/cli/verb.hpp"
 #include "sim/file.hpp"
 #include "sim/report/report.hpp"
+#include "sim/studies/bode/advice.hpp"
 #include "sim/studies/bode/report.hpp"
 
 namespace drycut::sim::cli {
@@ -39,8 +40,10 @@ struct KnownMargin {
 };
 
 KnownMargin known_phase(const studies::LoopResult& result) {
-  if (!studies::loop_doubts(result).empty()) return {{}, "what was measured is not to be trusted"};
-  return {result.margins.phase, "it lies outside these frequencies"};
+  if (const auto phase = result.known_phase()) return {phase, ""};
+  return {{},
+          studies::loop_doubts(result).empty() ? "it lies outside these frequencies"
+                                               : "what was measured is not to be trusted"};
 }
 
 /// With play the least of all amplitudes counts.
@@ -103,8 +106,7 @@ std::string judged_text(const Judged& judged) {
 void write(const BodeOptions& options, const scenario::Scenario& scenario, const studies::LoopResult& result,
            const studies::LimitCycle* cycle, const record::Verdict& verdict,
            const std::vector<record::CheckResult>& checks, OutputFolder* folder) {
-  if (folder != nullptr)
-    studies::write_bode_report(result, cycle, verdict, checks, scenario, *folder);
+  if (folder != nullptr) studies::write_bode_report(result, cycle, verdict, checks, scenario, *folder);
   if (folder != nullptr && !result.sweep.points.empty())
     write_file(folder->add("bode.csv"), bode_csv(result));
   if (folder != nullptr) record::write_verdict(verdict, *folder);
@@ -119,12 +121,55 @@ void write(const BodeOptions& options, const scenario::Scenario& scenario, const
 
 }  // namespace
 
+namespace {
+
+int advise_filters(const BodeOptions& options, const scenario::Scenario& scenario, Problems problems) {
+  for (const auto& [given, option] : {std::pair(options.limit_cycle, "--limit-cycle"),
+                                      {options.min_gain_margin.has_value(), "--min-gain-margin"},
+                                      {options.min_phase_margin.has_value(), "--min-phase-margin"},
+                                      {!options.csv.empty(), "--csv"},
+                                      {!options.png.empty(), "--png"}})
+    if (given)
+      problems.push_back({"option.together"_code, option, 1, 1,
+                          "it is of the position loop, --advise of the "
+                          "speed loop",
+                          "one of them"});
+  std::optional<studies::SpeedLoop> loop;
+  std::optional<OutputFolder> folder;
+  if (problems.empty() && !options.out.empty())
+    folder.emplace(options.out, "bode", studies::bode_files, problems);
+  if (problems.empty() && folder) folder->begin();
+  if (problems.empty()) {
+    ProgressBar bar;
+    loop = studies::measure_speed_loop(scenario, options.loop, problems, [&](double done) {
+      bar.show("measuring " + options.scenario.stem().string(), done);
+    });
+  }
+  if (!loop) {
+    print_problems(problems);
+    return bad_input;
+  }
+  const auto advice = studies::advise(std::move(*loop));
+  fmt::print("{}", studies::advice_text(advice));
+  auto verdict = studies::verdict_of(advice);
+  verdict.scenarios = {options.scenario.generic_string()};
+  if (folder) {
+    studies::write_advice_report(advice, scenario, *folder);
+    record::write_verdict(verdict, *folder);
+    fmt::print("report: {}\n", (options.out / "report.html").string());
+  }
+  return verdict.exit;
+}
+
+}  // namespace
+
 int measure_bode(const BodeOptions& options) {
   Problems problems;
   check_options(options, problems);
   const auto overrides = overrides_of(options.set, problems);
   auto scenario = scenario::read_scenario(options.scenario, overrides, problems);
   scenario.pictures.frames = false;  // nothing draws them
+  if (options.advise) return advise_filters(options, scenario, std::move(problems));
   if (scenario.buildable) studies::check_loop(scenario, options.loop, problems);
   std::optional<OutputFolder> folder;
   if (problems.empty() && !options.out.empty())
@@ -195,6 +240,8 @@ void bode_options(CLI::App& bode, int& status) {
   bode.add_flag(
       "--limit-cycle", options.limit_cycle,
       "Sweep the amplitude too: from which gain on play, stiction or limits keep an oscillation up");
+  bode.add_flag("--advise", options.advise,
+                "Measure the speed loop: which notch or low-pass of the servo's torque gains most");
   bode.add_option("--min-phase-margin", options.min_phase_margin, "Fails if the margin is less [deg]");
   bode.add_option("--min-gain-margin", options.min_gain_margin, "Fails if the margin is less [dB]");
   bode.add_option("--csv", options.csv, "Write the response; - prints it, the report to standard error");

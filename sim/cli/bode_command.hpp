@@ -13,6 +13,7 @@ struct BodeOptions {
   std::filesystem::path scenario;
   studies::LoopRequest loop;
   bool limit_cycle = false;                ///< sweeps the amplitude too; shows the one with the least margin
+  bool advise = false;                     ///< which filter the torque of the servo wants
   std::optional<double> min_phase_margin;  ///< [deg], less fails
   std::optional<double> min_gain_margin;   ///< [dB], less fails
   std::string csv;                         ///< "" = none, "-" = standard output

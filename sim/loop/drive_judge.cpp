@@ -81,8 +81,8 @@ DriveJudge::DriveJudge(const scenario::Scenario& scenario, const std::vector<Nam
     : judged_(scenario.drives.judge), cycle_(scenario.drives.cycle) {
   for (const auto& [name, plant] : plants)
     for (const auto& drive : plant->drives()) {
-      drives_.push_back(
-          {name, drive.name, drive.stage, drive.load_inertia, drive.alike, DriveCycles(seconds(cycle_))});
+      drives_.push_back({name, drive.name, drive.stage, drive.load_inertia, drive.efficiency, drive.alike,
+                         DriveCycles(seconds(cycle_))});
       const auto monitor = fmt::format("{}.{}.mains_ok", name, drive.name);
       drives_.back().tells_mains =
           std::any_of(scenario.wiring.begin(), scenario.wiring.end(),
@@ -106,6 +106,8 @@ void DriveJudge::end_cycle(Drive& drive, DriveCycles::Ended ended) {
     return;
   }
   const auto& cycle = drive.cycles.last();
+  drive.last.emplace_back(drive.cycles.began(), drive.cycles.began() + cycle.time);
+  if (drive.last.size() > cycles_in_a_row) drive.last.pop_front();
   const double rms = rms_torque(cycle);
   if (!drive.row.empty() && is_alike(rms, rms_torque(drive.row.back()))) {
     drive.steady = cycle;
@@ -268,6 +270,7 @@ record::DriveVerdict DriveJudge::verdict(Drive drive) const {
     add("time at the torque limit, worst cycle", worst.saturated_once * percent, percent, "%",
         Goes::not_with_it, false, verdict.cycles);
   verdict.inertia_ratio = drive.load_inertia / ratings.rotor_inertia;
+  verdict.efficiency = drive.efficiency;
   verdict.energy = whole ? stage.totals().from_mains : drive.energy / drive.counted;
   verdict.energy_cycles = whole ? 0 : static_cast<int>(drive.counted);
   verdict.trips = drive.trips;
@@ -282,26 +285,33 @@ record::DriveVerdict DriveJudge::verdict(Drive drive) const {
           fmt::format("{}, {:.3g} s in all, first at {:.3f} s",
                       times == 1 ? "once" : fmt::format("{} times", times), time, first);
   }
-  remark(verdict, whole);
+  remark(verdict, whole, drive.heavier.has_value());
   if (stage.without_mains() > 0 && !drive.tells_mains)
     verdict.warnings.push_back(
         fmt::format("{0}: a phase, or more than 15 % of the voltage, of its mains was missing for {1:.3g} s, "
                     "and nothing is wired to {0}.mains_ok",
                     verdict.drive, stage.without_mains()));
+  verdict.last_cycles.assign(drive.last.begin(), drive.last.end());
+  if (whole) verdict.last_cycles = {{drive.cycles.before_motion().time, stage.totals().time}};
   verdict.cycle_points = drive.cycle_points.points();
   verdict.points = drive.points.points();
   return verdict;
 }
 
 // What neither passes nor fails.
-void DriveJudge::remark(record::DriveVerdict& verdict, bool whole) const {
+void DriveJudge::remark(record::DriveVerdict& verdict, bool whole, bool has_heavier) const {
   if (!whole) {
     if (!verdict.steady)
       verdict.notes.push_back(
-          fmt::format("{}: no steady cycle in {}: no rms torque is within 1 % of that of the cycle before; "
-                      "let it run for "
-                      "longer",
-                      verdict.drive, verdict.cycles));
+          has_heavier
+              ? fmt::format(
+                    "{}: its heaviest cycle counts, of {}: none came after it with an rms torque within "
+                    "1 % of its own",
+                    verdict.drive, verdict.cycles)
+              : fmt::format(
+                    "{}: no steady cycle in {}: no rms torque is within 1 % of that of the cycle before; "
+                    "let it run for longer",
+                    verdict.drive, verdict.cycles));
     return;
   }
   auto text = fmt::format("{}: heat is not judged, for ", verdict.drive);
@@ -388,8 +398,8 @@ void Thinned::entries(StateArchive& archive, std::size_t from, std::size_t to) {
 void DriveJudge::visit(StateArchive& archive) {
   archive.each("drives_", drives_, [&](Drive& drive) {
     auto& worst = drive.worst;
-    STATE(archive, drive.cycles, drive.counted, drive.energy, drive.row, drive.judged, drive.steady,
-          drive.heavier, drive.even, worst.torque, worst.speed, worst.share, worst.constant,
+    STATE(archive, drive.cycles, drive.counted, drive.energy, drive.last, drive.row, drive.judged,
+          drive.steady, drive.heavier, drive.even, worst.torque, worst.speed, worst.share, worst.constant,
           worst.current_squared, worst.rotor_loss, worst.fed_squared, worst.resistor, worst.saturated,
           worst.saturated_once, drive.trips);
     const auto name = drive.plant + "." + drive.name;

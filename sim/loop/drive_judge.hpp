@@ -88,12 +88,14 @@ class DriveJudge : public record::Observer {
     std::string name;
     plants::PowerStage* stage = nullptr;
     double load_inertia = 0;
+    double efficiency = 1;
     int alike = 1;
     DriveCycles cycles;
-    int counted = 0;                           ///< cycles
-    double energy = 0;                         ///< from the mains in them [J]
-    std::deque<plants::DriveTotals> row = {};  ///< the last of them in a row, up to ten
-    std::size_t judged = 0;                    ///< most of them in a row that were judged
+    int counted = 0;                                  ///< cycles
+    double energy = 0;                                ///< from the mains in them [J]
+    std::deque<std::pair<double, double>> last = {};  ///< begin and end of the last of them, up to ten [s]
+    std::deque<plants::DriveTotals> row = {};         ///< the last of them in a row, up to ten
+    std::size_t judged = 0;                           ///< most of them in a row that were judged
     std::optional<plants::DriveTotals> steady = {};
     std::optional<plants::DriveTotals> heavier = {};  ///< the heaviest cycle since the steady one
     bool even = false;  ///< five cycles in a row came to the same as the five before
@@ -109,7 +111,7 @@ class DriveJudge : public record::Observer {
   static void end_cycle(Drive& drive, DriveCycles::Ended ended);
   static void judge_row(Drive& drive);
   static std::string judge_rest(Drive& drive);
-  void remark(record::DriveVerdict& verdict, bool whole) const;
+  void remark(record::DriveVerdict& verdict, bool whole, bool has_heavier) const;
   [[nodiscard]] record::DriveVerdict verdict(Drive drive) const;
 
   bool judged_;

@@ -378,7 +378,9 @@ std::vector<Finding> Simulation::notes() const {
   for (auto& remark : remarks_->notes()) notes.push_back(std::move(remark));
   if (time_ > 0 && drives_->judges())
     for (auto& drive : drives_->verdicts())
-      for (auto& note : drive.notes) notes.emplace_back("drive.not-judged"_code, std::move(note));
+      for (auto& note : drive.notes)
+        notes.emplace_back(drive.energy_cycles == 0 ? "drive.not-judged"_code : "drive.unsteady"_code,
+                           std::move(note));
   return notes;
 }
 

@@ -57,6 +57,7 @@ struct DriveVerdict {
   plants::DriveRatings ratings;
   std::vector<DriveFigure> figures;
   double inertia_ratio = 0;        ///< load over rotor
+  double efficiency = 1;           ///< of all between motor and load; 1: no losses are counted
   int alike = 1;                   ///< drives that do the same: all figures are those of one
   double energy = 0;               ///< from the mains, mean of a cycle; where none is known, of the run [J]
   int energy_cycles = 0;           ///< of so many cycles; 0: none is known
@@ -71,6 +72,9 @@ struct DriveVerdict {
   /// from one run: friction and load stay, the rest of the torque goes with the speed. 1 where all are; 0
   /// where friction and load alone are too much.
   double advised = 1;
+  /// Begin and end of the last ten of the cycles, or fewer; of the stretch that is judged where there are none
+  /// [s].
+  std::vector<std::pair<double, double>> last_cycles;
   // Of every record instant or cycle, for pictures and for sizing.
   std::vector<std::pair<double, double>> cycle_points;  ///< mean size of speed [rad/s], rms torque [N m]
   std::vector<std::pair<double, double>> points;        ///< speed [rad/s] and torque [N m] at record instants
@@ -87,6 +91,7 @@ struct DriveVerdict {
     archive("cycles", self.cycles);
     archive("figures", self.figures);
     archive("inertia_ratio", self.inertia_ratio);
+    archive("efficiency", self.efficiency);
     archive("alike", self.alike);
     archive("energy", self.energy);
     archive("energy_cycles", self.energy_cycles);
@@ -97,6 +102,7 @@ struct DriveVerdict {
     archive("warnings", self.warnings);
     archive("advised", self.advised);
     archive("ratings", self.ratings);
+    archive("last_cycles", self.last_cycles);
     archive("cycle_points", self.cycle_points);
     archive("points", self.points);
   }

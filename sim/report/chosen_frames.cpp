@@ -75,10 +75,10 @@ std::vector<Moment> moments_of(const record::EventLog& events, const std::vector
     } else if (!is_in(at)) {
       continue;
     } else if (event.event == "fault") {
-      faults.push_back({at, "fault"});
+      faults.push_back({at, "fault", true});
     } else if (event.source != "timeline" && event.source != "controller" && event.source != "card" &&
                known.insert(event.source + "." + event.event).second) {
-      others.push_back({at, event.source + " " + event.event});
+      others.push_back({at, event.source + " " + event.event, true});
     }
   }
   std::vector<Moment> moments;
@@ -104,7 +104,8 @@ std::vector<ChosenFrame> chosen_frames(const std::vector<double>& times_s, const
   if (times_s.empty() || wanted == 0) return {};
   std::map<std::size_t, std::string> chosen;
   for (const auto& moment : moments) {
-    const auto frame = nearest_frame(times_s, moment.time_s);
+    auto frame = nearest_frame(times_s, moment.time_s);
+    if (moment.changes && times_s[frame] < moment.time_s && frame + 1 < times_s.size()) ++frame;
     if (chosen.size() == wanted && !chosen.contains(frame)) continue;
     auto& what = chosen[frame];
     what += (what.empty() || moment.what.empty() ? "" : ", ") + moment.what;

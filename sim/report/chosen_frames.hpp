@@ -10,7 +10,8 @@ namespace drycut::sim::report {
 /// Something worth a picture.
 struct Moment {
   double time_s = 0;
-  std::string what;  ///< "first cut"
+  std::string what;      ///< "first cut"
+  bool changes = false;  ///< something begins then: no picture from before shows it
 };
 
 /// What happened while a film was taken, the most telling first: the first cut, faults, where a check failed,

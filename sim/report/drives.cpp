@@ -20,6 +20,14 @@ std::string grade_text(const record::DriveFigure& figure, bool judged) {
   return fmt::format("{} {:.0f} %", word, 100 * figure.share);
 }
 
+/// Kept together in a narrow cell by spaces that do not break.
+std::string number_text(double number, std::string unit) {
+  constexpr auto* no_break = "\u00a0";
+  for (auto at = unit.find(' '); at != std::string::npos; at = unit.find(' ', at + 2))
+    unit.replace(at, 1, no_break);
+  return fmt::format("{:.4g}{}{}", number, no_break, unit);
+}
+
 renders::Curve points_of(const std::vector<std::pair<double, double>>& points, std::string label) {
   renders::Curve curve;
   curve.label = std::move(label);
@@ -40,7 +48,7 @@ renders::Curve peak_curve(const plants::DriveRatings& ratings, bool both_ways) {
   std::vector<double> corners = {0, ratings.rated_speed, ratings.max_speed};
   if (both_ways) corners.insert(corners.begin(), {-ratings.max_speed, -ratings.rated_speed});
   renders::Curve curve;
-  curve.label = "peak torque";
+  curve.label = ratings.works_at_limit ? "pull-out torque" : "peak torque";
   const auto add = [&](double speed, double torque) {
     curve.x.push_back(speed * units::rpm);
     curve.y.push_back(torque);
@@ -96,18 +104,22 @@ renders::ReportTable drive_table(const std::vector<record::DriveVerdict>& verdic
                             judged ? "" : "; judging is off (drives: judge)");
     for (const auto& figure : verdict.figures) {
       table.rows.push_back(
-          {{name, fmt::format("{}\n{}", figure.name, figure.window),
-            fmt::format("{:.4g} {}", figure.value, figure.unit),
-            fmt::format("{:.4g} {}", figure.rating, figure.unit), grade_text(figure, judged)}});
+          {{name, fmt::format("{}\n{}", figure.name, figure.window), number_text(figure.value, figure.unit),
+            number_text(figure.rating, figure.unit), grade_text(figure, judged)}});
       name.clear();
     }
     table.rows.push_back({{"", "load over rotor inertia\nas the scenario begins",
                            fmt::format("{:.3g}", verdict.inertia_ratio), "", ""}});
+    table.rows.push_back(
+        {{"",
+          fmt::format("efficiency from motor to load{}",
+                      verdict.efficiency < 1 ? "" : "\nno losses of gear or screw are counted"),
+          fmt::format("{:.3g}", verdict.efficiency), "", ""}});
     const auto of = verdict.energy_cycles == 0   ? std::string("whole run")
                     : verdict.energy_cycles == 1 ? "the one cycle"
                                                  : fmt::format("mean of {} cycles", verdict.energy_cycles);
-    table.rows.push_back({{"", fmt::format("energy from the mains\n{}", of),
-                           fmt::format("{:.4g} J", verdict.energy), "", ""}});
+    table.rows.push_back(
+        {{"", fmt::format("energy from the mains\n{}", of), number_text(verdict.energy, "J"), "", ""}});
     if (!verdict.trips.empty())
       table.rows.push_back({{"", "trips", fmt::format("{}", fmt::join(verdict.trips, ", ")), "none",
                              judged ? "FAIL" : "not judged"}});

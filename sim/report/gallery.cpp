@@ -233,7 +233,8 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
   add_checks(outcome.checks, report);
   if (auto drives = drive_table(outcome.drives, scenario.drives.judge); !drives.rows.empty())
     report.summary.push_back(std::move(drives));
-  for (const auto& split : torque_splits(scenario, simulation)) report.tables.push_back(torque_table(split));
+  for (const auto& split : torque_splits(scenario, simulation, outcome.drives))
+    report.tables.push_back(torque_table(split));
   if (outcome.half_step) report.summary.push_back(studies::margin_table(outcome, scenario.scene.step));
   if (!drawn.frames.empty()) {
     // Frames between moments that have a name look alike; around an event each of them counts.

@@ -48,7 +48,15 @@ bool is_shareable(const record::Tolerance& tolerance) {
   return !std::isinf(tolerance.high) || tolerance.low > 0;
 }
 
-renders::ReportKey value_key(const record::Tolerance& tolerance, const loop::EventNumbers& series) {
+/// Of accidents, an end stop that was hit and its bounces, a mean says nothing.
+bool is_accident(const record::EventLog& events, const std::string& name) {
+  return std::any_of(events.begin(), events.end(), [&](const auto& event) {
+    return event.severity >= Severity::error && event.source + "." + event.event == name;
+  });
+}
+
+renders::ReportKey value_key(const record::Tolerance& tolerance, const loop::EventNumbers& series,
+                             bool accident) {
   const auto figures = loop::statistics(series.numbers);
   const auto [mean, least, greatest, sd, slope, slope_error] = figures;
   const bool both = std::isfinite(tolerance.low) && std::isfinite(tolerance.high);
@@ -69,11 +77,18 @@ renders::ReportKey value_key(const record::Tolerance& tolerance, const loop::Eve
   std::size_t worst = 0;
   for (std::size_t i = 1; i < series.numbers.size(); ++i)
     if (used_of(tolerance, series.numbers[i]) > used_of(tolerance, series.numbers[worst])) worst = i;
-  key.notes.push_back(fmt::format("worst {}: no. {:.0f}, at {:.3f} s",
-                                  with_unit(rounded(series.numbers[worst], decimals), series.unit),
-                                  series.order[worst], series.times[worst]));
+  const auto of_worst = with_unit(rounded(series.numbers[worst], decimals), series.unit);
+  key.notes.push_back(
+      fmt::format("worst {}: no. {:.0f}, at {:.3f} s", of_worst, series.order[worst], series.times[worst]));
   if (is_shareable(tolerance)) key.used = used_of(tolerance, series.numbers[worst]);
   const auto count = series.numbers.size();
+  if (accident) {
+    key.label = "worst " + key.label;
+    key.value = of_worst;
+    key.notes = {
+        fmt::format("no. {:.0f} of {}, at {:.3f} s", series.order[worst], count, series.times[worst])};
+    return key;
+  }
   const auto found = loop::capability(figures, tolerance.low, tolerance.high);
   if (count < enough)
     key.notes.push_back(fmt::format("of {}, too few for a Cpk", counted(count, "value")));
@@ -124,7 +139,7 @@ void add_values(const record::Recording& recording, const record::Outcome& outco
                                               tolerance.from, tolerance.until);
       if (series.numbers.empty()) continue;
       told.insert({tolerance.event, tolerance.value});
-      keys.push_back(value_key(tolerance, series));
+      keys.push_back(value_key(tolerance, series, is_accident(recording.events(), tolerance.event)));
     }
   }
 }
@@ -160,14 +175,15 @@ void add_drives(const record::Outcome& outcome, bool all_judged, std::vector<ren
   if (drives.size() > most) drives.resize(most);
   for (const auto* drive : drives) {
     for (const auto& figure : drive->figures) {
-      if (figure.name != "rms torque" && figure.name != "peak torque") continue;
+      const bool over = !all_judged && figure.share > 1;
+      if (!over && figure.name != "rms torque" && figure.name != "peak torque") continue;
       if (all_judged && !figure.judged) continue;  // a limit that works as one
       keys.push_back(
           {fmt::format("{} of {}", figure.name, drive->drive),
            fmt::format("{:.3g} {}", figure.value, figure.unit),
            {fmt::format("limit {:.4g} {}{}", figure.rating, figure.unit, all_judged ? "" : "; not judged"),
             figure.window},
-           all_judged ? std::optional(figure.share) : std::nullopt});
+           all_judged || over ? std::optional(figure.share) : std::nullopt});
     }
   }
 }

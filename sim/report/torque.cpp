@@ -75,12 +75,25 @@ SplitCycles last_alike(const std::vector<std::size_t>& bounds, std::size_t sampl
 }
 
 SplitCycles cycles_of_drive(const scenario::Scenario& scenario, const loop::Simulation& simulation,
-                            const KeptDrive& drive) {
+                            const record::DriveVerdict& verdict, const KeptDrive& drive) {
   const double step = seconds(drive.period);
   std::vector<std::size_t> bounds;
-  if (const auto cycle = scenario.drives.cycle; cycle > 0) {
-    for (Time end = drive.end() / cycle * cycle; end > drive.begin; end -= cycle)
-      bounds.push_back(static_cast<std::size_t>((end - drive.begin) / drive.period));
+  const auto index = [&](double time) {
+    const double steps = std::round((time - seconds(drive.begin)) / step);
+    return static_cast<std::size_t>(std::clamp(steps, 0.0, static_cast<double>(drive.count())));
+  };
+  if (verdict.cycle_points.empty()) {
+    const auto& [from, until] = verdict.last_cycles.at(0);
+    return {{index(from), index(until)}, false};
+  }
+  if (scenario.drives.cycle > 0) {
+    // Those that follow each other to the last, as far as all of them was kept.
+    const auto& cycles = verdict.last_cycles;
+    bounds.push_back(index(cycles.back().second));
+    for (auto i = cycles.size(); i-- > 0 && cycles[i].first >= seconds(drive.begin);) {
+      if (i + 1 < cycles.size() && cycles[i].second < cycles[i + 1].first - 2 * step) break;
+      bounds.push_back(index(cycles[i].first));
+    }
     std::reverse(bounds.begin(), bounds.end());
   } else {
     for (const auto& event : simulation.recording().events()) {
@@ -399,13 +412,15 @@ void follow_torques(const scenario::Scenario& scenario, loop::Simulation& simula
     if (auto* const tells = dynamic_cast<plants::TellsMotorLoad*>(plant)) tells->keep_motor_loads(fewest);
 }
 
-std::vector<TorqueSplit> torque_splits(const scenario::Scenario& scenario,
-                                       const loop::Simulation& simulation) {
+std::vector<TorqueSplit> torque_splits(const scenario::Scenario& scenario, const loop::Simulation& simulation,
+                                       const std::vector<record::DriveVerdict>& verdicts) {
   std::vector<TorqueSplit> splits;
   const auto played =
       simulation.cams() == nullptr ? std::vector<loop::PlayedCam>() : simulation.cams()->played();
   for (const auto& drive : kept_drives(scenario, simulation)) {
-    const auto cycles = cycles_of_drive(scenario, simulation, drive);
+    const auto verdict = std::ranges::find(verdicts, drive.name, &record::DriveVerdict::drive);
+    if (verdict == verdicts.end()) continue;
+    const auto cycles = cycles_of_drive(scenario, simulation, *verdict, drive);
     if (cycles.bounds.back() <= cycles.bounds.front()) continue;
     CamFitter fitter(drive, cycles);
     CamOfMotor best;
@@ -436,12 +451,10 @@ renders::ReportTable torque_table(const TorqueSplit& split) {
   };
   for (const auto& part : split.parts) add(part);
   add(split.torque);
-  table.rows.back().cells.front() +=
-      fmt::format(", {}, {:.3f} to {:.3f} s",
-                  split.cycles > 0    ? fmt::format("last {}", counted(split.cycles, "cycle"))
-                  : split.begin > 0.1 ? "end of the run"
-                                      : "whole run",
-                  split.begin, split.end);
+  table.rows.back().cells.front() += fmt::format(
+      ", {}, {:.3f} to {:.3f} s",
+      split.cycles > 0 ? fmt::format("last {}", counted(split.cycles, "cycle")) : "no cycle is known",
+      split.begin, split.end);
   return table;
 }
 

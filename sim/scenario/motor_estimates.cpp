@@ -53,8 +53,6 @@ MotorTable::MotorTable(std::string_view kind) : is_servo_(kind == motor_kinds[0]
   rows = is_servo_ ? servo_parameters(servo_) : induction_motor_parameters(induction_motor_);
   rows.push_back(plants::row("rated_power", "kW", "power of the name plate", rated_power_, 1e-3, 1e4, ""));
   if (!is_servo_) return;
-  rows.push_back(
-      plants::row("rated_current", "A", "rms current at rated torque", rated_current_, 1e-3, 1e4, ""));
   rows.push_back(plants::row("largest_inertia_ratio", "",
                              "load over rotor inertia that its maker recommends or allows at most",
                              largest_inertia_ratio_, 1e-3, 1e4, ""));
@@ -106,8 +104,8 @@ std::vector<MotorTable::Estimate> MotorTable::estimates() {
 
 void MotorTable::estimate_servo() {
   auto& motor = servo_;
-  if (rated_current_ > 0)
-    estimate("torque_constant", rounded("torque_constant", motor.rated_torque / rated_current_),
+  if (motor.rated_current > 0)
+    estimate("torque_constant", rounded("torque_constant", motor.rated_torque / motor.rated_current),
              "rated torque over rated current");
   estimate("max_speed", motor.rated_speed, "the rated speed: no higher one is known");
   const bool is_flat = motor.max_speed <= motor.rated_speed;
@@ -117,12 +115,19 @@ void MotorTable::estimate_servo() {
   if (!given_.contains("stall_torque")) motor.stall_torque = 0;
   const auto rest = plants::electrical(motor);
   estimate("stall_torque", rest.stall_torque, "the rated torque: at standstill most motors have more");
+  if (plants::has_currents(motor)) {
+    if (rest.stall_torque > motor.rated_torque)
+      estimate("stall_current", rounded("stall_current", rest.stall_current),
+               "in proportion to the rated current");
+    estimate("peak_current", rounded("peak_current", rest.peak_current, 3, true),
+             "a quarter more than in proportion to the rated current: iron saturates");
+  }
   estimate("winding_resistance", rounded("winding_resistance", rest.winding_resistance),
            "6 % of the rated power is lost in it");
   // A rounded torque constant would ask for a little more than the plate's.
-  const bool plate = rated_current_ > 0 && rest.stall_torque <= motor.rated_torque;
+  const bool plate = motor.rated_current > 0 && rest.stall_torque <= motor.rated_torque;
   estimate("amplifier_current",
-           plate ? rated_current_ : rounded("amplifier_current", rest.amplifier.current, 3, true),
+           plate ? motor.rated_current : rounded("amplifier_current", rest.amplifier.current, 3, true),
            "the motor's continuous current: the amplifier is chosen to give it");
   motor.amplifier.peak_current = given_.contains("amplifier_peak_current") ? motor.amplifier.peak_current : 0;
   estimate("amplifier_peak_current",

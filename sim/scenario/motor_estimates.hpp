@@ -15,7 +15,7 @@ namespace drycut::sim::scenario {
 std::vector<std::vector<std::string_view>> needed_values(std::string_view kind);
 
 /// The values of one motor: the rows of its group, and what only its sheet has (rated_power, a servo's
-/// rated_current and largest_inertia_ratio).
+/// largest_inertia_ratio).
 class MotorTable {
  public:
   explicit MotorTable(std::string_view kind);
@@ -52,7 +52,6 @@ class MotorTable {
   plants::ServoData servo_;
   plants::InductionMotorData induction_motor_;
   double rated_power_ = 0;            // [W]
-  double rated_current_ = 0;          // of a servo [A]
   double largest_inertia_ratio_ = 0;  // of a servo
   std::set<std::string, std::less<>> given_;
   std::vector<Estimate> made_;

@@ -88,9 +88,8 @@ TEST(LinearAxis, ConservesMomentumAndLosesEnergyOnlyInTheDamper) {
   EXPECT_NEAR(run(0.05), end, 0.01 * end);
 }
 
-TEST(LinearAxis, OscillatesAtTheTwoMassResonance) {
-  auto definition = frictionless();
-  definition.data.gear.damping = 0;
+/// Angular frequency at which a unit's twist swings after a push of its carriage [rad/s].
+double swing_of(const LinearAxisDefinition& definition) {
   Unit unit(definition);
   unit.carriage().speed = 0.05;
   std::vector<double> crossings;
@@ -102,9 +101,75 @@ TEST(LinearAxis, OscillatesAtTheTwoMassResonance) {
     if (before < 0 && now >= 0) crossings.push_back((i + before / (before - now)) * fine);
     before = now;
   }
-  ASSERT_GT(crossings.size(), 20U);
-  const double period = (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
-  EXPECT_NEAR(turn / period / predicted(definition.data).resonance(), 1, 1e-3);
+  EXPECT_GT(crossings.size(), 20U);
+  return turn * static_cast<double>(crossings.size() - 1) / (crossings.back() - crossings.front());
+}
+
+TEST(LinearAxis, OscillatesAtTheTwoMassResonance) {
+  auto definition = frictionless();
+  definition.data.gear.damping = 0;
+  EXPECT_NEAR(swing_of(definition) / predicted(definition.data).resonance(), 1, 1e-3);
+}
+
+// A screw behind its coupling is the load's: resonance, and antiresonance with a motor that does not give
+// way.
+TEST(LinearAxis, ItsScrewMayTurnWithTheCarriage) {
+  auto definition = frictionless();
+  auto& data = definition.data;
+  data.nut_rigid = true;
+  data.screw_inertia = 2e-3;
+  data.gear = {2, 3000, 0, 0};
+  const double metre = data.lead / turn;
+  const double load = data.screw_inertia + data.mass * metre * metre;
+  const double motor = data.drive.servo.rotor_inertia * 4;
+  EXPECT_NEAR(swing_of(definition) / std::sqrt(3000 * (1 / load + 1 / motor)), 1, 1e-3);
+  data.drive.servo.rotor_inertia = 1e3;
+  EXPECT_NEAR(swing_of(definition) / std::sqrt(3000 / load), 1, 1e-3);
+}
+
+// On a slope it weighs no more for it.
+TEST(LinearAxis, AScrewThatTurnsWithTheCarriageWeighsNothingOnASlope) {
+  for (const bool rigid : {false, true}) {
+    auto definition = frictionless();
+    definition.data.inclination = 0.5;
+    definition.data.nut_rigid = rigid;
+    definition.data.screw_inertia = 2e-3;
+    Unit unit(definition, true);
+    unit.run(2);
+    EXPECT_NEAR(unit.read("gear.force"), 20 * gravity * std::sin(0.5), 1e-3 * 20 * gravity);
+  }
+}
+
+// Without a stiffness of its own any axis swings at 200 Hz.
+TEST(LinearAxis, AStiffnessThatIsNotKnownFollowsTheInertias) {
+  for (const double mass : {1.0, 2000.0}) {
+    auto definition = frictionless();
+    definition.data.mass = mass;
+    definition.data.gear.stiffness = 0;
+    EXPECT_TRUE(definition.objections(h).empty()) << mass;
+    const double damped = std::sqrt(1 - 0.05 * 0.05);
+    EXPECT_NEAR(swing_of(definition) / (turn * 200 * damped), 1, 2e-3) << mass;
+  }
+}
+
+// Rolling guides on a slope: what lies on them counts, and only what slides.
+TEST(LinearAxis, FrictionByACoefficientGrowsWithTheWeightOnTheGuides) {
+  auto definition = frictionless();
+  auto& data = definition.data;
+  data.inclination = 0.5;
+  data.guide_coefficient = 0.2;
+  data.guide_friction.backward = 0.5;
+  Unit unit(definition, true);
+  const auto torque_at = [&](double volts) {
+    unit.reference(volts);
+    unit.run(0.3);
+    return unit.read("motor.torque");
+  };
+  const double arm = data.lead / turn;
+  const double weight = 20 * gravity * std::sin(0.5);
+  const double rubs = 0.2 * 20 * gravity * std::cos(0.5);
+  EXPECT_NEAR(torque_at(1), (weight + rubs) * arm, 1e-3 * weight * arm);
+  EXPECT_NEAR(torque_at(-1), (weight - rubs / 2) * arm, 1e-3 * weight * arm);
 }
 
 TEST(LinearAxis, EndStopTakesTheMomentumOfAFreeCarriage) {

@@ -228,15 +228,15 @@ TEST(PlantTypes, TablesAreCompleteAndTheirDefaultsLegal) {
     }
   }
   EXPECT_THAT(names, testing::ElementsAre("backlash_axis", "bench", "flying_saw", "ideal_axis", "linear_axis",
-                                          "rotary_knife", "vertical_press", "web"));
+                                          "rotary_axis", "rotary_knife", "vertical_press", "web"));
 }
 
 TEST(PlantTypes, EveryPlantOffersNamesOnceWithMeanings) {
   World world;
   std::vector<std::unique_ptr<Plant>> plants;
   std::map<std::string, Plant*> by_name;
-  for (const char* name : {"backlash_axis", "bench", "ideal_axis", "linear_axis", "web", "rotary_knife",
-                           "flying_saw", "vertical_press"})
+  for (const char* name : {"backlash_axis", "bench", "ideal_axis", "linear_axis", "rotary_axis", "web",
+                           "rotary_knife", "flying_saw", "vertical_press"})
     for (const PlantType& type : plant_types())
       if (type.name == name) {
         plants.push_back(type.define()->build(

@@ -25,8 +25,8 @@ struct Model {
         net((d.mass + d.load) * gravity - d.counterbalance),
         inertia(d.drive.motor.rotor_inertia + d.screw_inertia / (d.gear.ratio * d.gear.ratio)),
         r(d.lead / turn / d.gear.ratio),
-        up(d.efficiency),
-        down(d.back_efficiency),
+        up(d.efficiency.driving),
+        down(d.efficiency.driven),
         motor_dry(d.motor_friction.coulomb),
         motor_viscous(d.motor_friction.viscous),
         guide_dry(d.guide_friction.coulomb),
@@ -136,7 +136,7 @@ TEST(VerticalPressCoasting, UpAndDownDifferByWhatGravitySays) {
   auto definition = coasting_press("inverter");
   auto& d = definition.data;
   d.motor_friction = d.guide_friction = {};
-  d.efficiency = d.back_efficiency = 1;
+  d.efficiency = {};
   d.drive.brake.engage_delay = 0;
   const double r = d.lead / turn;
   const double mass = ScrewPrediction(d, d.drive.motor.rotor_inertia).total();
@@ -163,7 +163,7 @@ TEST(VerticalPressCoasting, TheBrakeTakesSpeedAndWeight) {
   auto definition = coasting_press("inverter");
   auto& d = definition.data;
   d.motor_friction = d.guide_friction = {};
-  d.efficiency = d.back_efficiency = 1;
+  d.efficiency = {};
   d.drive.brake.engage_delay = 0;
   const double mass = ScrewPrediction(d, d.drive.motor.rotor_inertia).total();
   const double weight = d.mass * gravity - d.counterbalance;
@@ -189,7 +189,7 @@ TEST(VerticalPressCoasting, ScattersWithItsContactorsAndItsBrake) {
     auto definition = coasting_press("contactors");
     auto& d = definition.data;
     d.motor_friction = d.guide_friction = {};
-    d.efficiency = d.back_efficiency = 1;
+    d.efficiency = {};
     d.counterbalance = d.mass * gravity;
     d.drive.contactors.scatter = contactors;
     d.drive.brake.scatter = brake;

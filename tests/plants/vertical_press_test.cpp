@@ -61,7 +61,7 @@ TEST(VerticalPress, GoesUpAndDownAtThePresetSpeeds) {
 TEST(VerticalPress, TheMotorFeelsTheLoadThroughTheEfficiencyOfTheScrew) {
   auto definition = frictionless_press();
   for (const double back : {0.8, 0.3, -0.5}) {
-    definition.data.back_efficiency = back;
+    definition.data.efficiency.driven = back;
     const double torque = (600 * gravity - 2000) * 0.01 / turn;  // at the screw without losses
     Press up(definition);
     up.command(1, true);
@@ -76,7 +76,7 @@ TEST(VerticalPress, TheMotorFeelsTheLoadThroughTheEfficiencyOfTheScrew) {
 
 TEST(VerticalPress, WhatTheMotorGivesIsInTheRam) {
   auto definition = frictionless_press();
-  definition.data.efficiency = definition.data.back_efficiency = 1;
+  definition.data.efficiency = {};
   definition.data.drive.brake.torque = 0;
   const double inertia = definition.data.drive.motor.rotor_inertia + definition.data.screw_inertia;
   for (const int direction : {1, -1}) {
@@ -98,8 +98,8 @@ TEST(VerticalPress, WhatTheMotorGivesIsInTheRam) {
 TEST(VerticalPress, ASelfLockingScrewHoldsWithoutABrake) {
   auto definition = frictionless_press();
   definition.data.drive.brake.torque = 0;
-  definition.data.efficiency = 0.4;
-  definition.data.back_efficiency = -0.5;
+  definition.data.efficiency.driving = 0.4;
+  definition.data.efficiency.driven = -0.5;
   Press locking(definition);
   locking.run(1);
   locking.set("load", 2000);
@@ -108,7 +108,7 @@ TEST(VerticalPress, ASelfLockingScrewHoldsWithoutABrake) {
   const double give = 2000 * gravity * std::pow(0.01 / turn, 2) / 250 * 1000;
   EXPECT_NEAR(locking.read("position"), 300 - give, 1e-3);
   EXPECT_EQ(locking.rotor().speed, 0);
-  definition.data.back_efficiency = 0.05;
+  definition.data.efficiency.driven = 0.05;
   Press sinking(definition);
   sinking.run(1);
   EXPECT_LT(sinking.read("position"), 295);
@@ -138,7 +138,7 @@ TEST(VerticalPress, WithoutABrakeItSagsAsItsWeightSays) {
   auto& d = definition.data;
   d.motor_friction.viscous = d.guide_friction.viscous = 0;
   for (const double back : {1.0, 0.8}) {
-    d.back_efficiency = back;
+    d.efficiency.driven = back;
     Press press(definition);
     press.run(0.1);
     press.fault("brake", "stuck_open", 1);
@@ -166,7 +166,7 @@ TEST(VerticalPress, WithoutABrakeItSagsAsItsWeightSays) {
 
 TEST(VerticalPress, AWornBrakeSlipsAboveItsTorque) {
   auto definition = frictionless_press();
-  definition.data.efficiency = definition.data.back_efficiency = 1;
+  definition.data.efficiency = {};
   const double needed = (600 * gravity - 2000) * 0.01 / turn;
   for (const double share : {1.001, 0.999}) {
     Press press(definition);

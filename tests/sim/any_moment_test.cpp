@@ -152,6 +152,9 @@ constexpr Unread unread[] = {
     {"cycles.turned_", at_instant},
     {"axis.stood", "an axis that runs on has not stood: every instant sets it anew"},
     {"extreme.", "an axis that runs on: every instant is its extreme"},
+    {"power_.sum_.torque", "the largest of half a millisecond: there were larger ones before"},
+    {"power_.sum_.speed_then", "with it"},
+    {"amplifier_.wanted_", "every step sets it anew before it is read"},
     {"totals_.from_mains", "of cycles alone the difference counts, and of these none ends between"},
 };
 

@@ -344,7 +344,7 @@ TEST(DriveJudge, AHeavierCycleSinceTheSteadyOneIsWhatCounts) {
   EXPECT_FALSE(hand.verdict().steady);
   EXPECT_EQ(figure(hand.verdict(), "rms torque").window, "heaviest cycle");
   EXPECT_NEAR(figure(hand.verdict(), "rms torque").value, 1.3 * ByHand::rms_of_move(), 0.02);
-  EXPECT_THAT(hand.verdict().notes, ElementsAre(HasSubstr("no steady cycle in 4 cycles")));
+  EXPECT_THAT(hand.verdict().notes, ElementsAre(HasSubstr("its heaviest cycle counts, of 4 cycles")));
   hand.move(1.2);
   EXPECT_TRUE(hand.verdict().steady);
   EXPECT_NEAR(figure(hand.verdict(), "rms torque").value, 1.2 * ByHand::rms_of_move(), 0.02);

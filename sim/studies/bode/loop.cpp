@@ -90,7 +90,7 @@ std::optional<SweepPlan> plan_of(const LoopRequest& request, const scenario::Sce
   SweepPlan plan;
   plan.wire = *wire;
   plan.speed = choose_speed(request, at_wire.plug, simulation, problems);
-  plan.at = time_of(request).value_or(scenario.scene.duration);
+  plan.at = start_of(scenario, request);
   plan.step = scenario.scene.step;
   plan.sampling = std::max(simulation.output_period(at_wire.terminal), plan.step);
   plan.amplitude = request.amplitude;
@@ -143,6 +143,10 @@ Preparation prepare(const scenario::Scenario& scenario, const LoopRequest& reque
 }
 
 }  // namespace
+
+Time start_of(const scenario::Scenario& scenario, const LoopRequest& request) {
+  return time_of(request).value_or(scenario.scene.duration);
+}
 
 std::string hertz_text(double frequency) { return fmt::format("{:.4g} Hz", frequency); }
 
@@ -198,6 +202,24 @@ std::optional<std::string> wire_of(const scenario::Scenario& scenario, const Loo
   if (!prepared.plan) return {};
   return prepared.excited->bus().analogue_wires()[prepared.plan->wire].plug;
 }
+
+namespace {
+
+/// `margin`, if the loop is sound and all answers up to `times` its frequency are to be trusted.
+std::optional<AtFrequency> if_known(const Sweep& sweep, const std::optional<AtFrequency>& margin,
+                                    double times) {
+  if (!margin || !sweep.failure.empty() || sweep.loop != Sweep::Loop::closed) return {};
+  const auto is_doubtful = [&](const BodePoint& point) {
+    return point.frequency <= times * margin->frequency &&
+           (point.silent || point.saturated || !(point.doubt() <= bode_error_limit));
+  };
+  return std::ranges::any_of(sweep.points, is_doubtful) ? std::nullopt : margin;
+}
+
+}  // namespace
+
+std::optional<AtFrequency> LoopResult::known_phase() const { return if_known(sweep, margins.phase, 2); }
+std::optional<AtFrequency> LoopResult::known_gain() const { return if_known(sweep, margins.gain, 1.1); }
 
 std::optional<AtFrequency> LoopResult::least_gain() const {
   if (play.empty()) return margins.gain;
@@ -263,7 +285,8 @@ std::vector<Finding> loop_doubts(const LoopResult& result) {
   tell("bode.no-answer"_code,
        result.terminal +
            " does not answer: the motion stays in play or stiction; a larger --amplitude would answer, but "
-           "it hides the play: see drycut bode --limit-cycle",
+           "it hides the play" +
+           (result.hunting ? ", for which the pushes count" : ": see drycut bode --limit-cycle"),
        [](const BodePoint& point) { return point.silent; });
   tell("bode.lost"_code,
        fmt::format(

@@ -77,6 +77,11 @@ struct LoopResult {
   std::string play;                          ///< of the plant at the wire: "axis.gap 0.4 mm", "" = none
   std::optional<HuntingPoint> hunting;       ///< where there is play, if it was asked for
 
+  /// The phase margin, if it is known: the loop is sound, and up to twice the crossover all answers are to be
+  /// trusted. What does not answer above that is another matter.
+  [[nodiscard]] std::optional<AtFrequency> known_phase() const;
+  /// The gain margin of this sine likewise.
+  [[nodiscard]] std::optional<AtFrequency> known_gain() const;
   /// The least gain margin over all amplitudes, if it is known: with play an oscillation may keep itself up
   /// at less gain than one sine shows.
   [[nodiscard]] std::optional<AtFrequency> least_gain() const;
@@ -89,6 +94,8 @@ inline constexpr double bode_lost = 0.5;
 
 /// Numbers of the request that no scenario allows, by the names of the options.
 void check_request(const LoopRequest& request, Problems& problems);
+/// When the measurement begins: --at, else the end of the scenario.
+Time start_of(const scenario::Scenario& scenario, const LoopRequest& request);
 /// What of the request does not fit the scenario.
 void check_loop(const scenario::Scenario& scenario, const LoopRequest& request, Problems& problems);
 /// The same with the controller's compute_time set to 0 besides, where the scenario has one.

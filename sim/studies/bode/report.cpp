@@ -82,14 +82,25 @@ std::string hunting_text(const LoopResult& result) {
 /// What the loop is judged by: name and value in words; `why_not`: what follows "not known".
 std::vector<renders::ReportRow> margin_rows(const LoopResult& result, const std::string& why_not) {
   const auto& margins = result.margins;
-  if (!loop_doubts(result).empty()) return {{{"margins", "not known" + why_not}}};
+  const auto phase_text = [&] {
+    return fmt::format("{:.1f} deg at the crossover of {}", margins.phase->value,
+                       hertz_text(margins.phase->frequency));
+  };
+  if (!loop_doubts(result).empty()) {
+    if (!result.known_phase()) return {{{"margins", "not known" + why_not}}};
+    const auto of_sine = fmt::format(", with a sine of {:.3g} V", result.plan.amplitude);
+    std::vector<renders::ReportRow> known = {{{"phase margin", phase_text() + of_sine}}};
+    if (const auto gain = result.known_gain())
+      known.push_back({{"gain margin", fmt::format("{:.2f} dB at {}{}", gain->value,
+                                                   hertz_text(gain->frequency), of_sine)}});
+    known.push_back({{"other margins", "not known" + why_not}});
+    return known;
+  }
   const std::string absent = "not between these frequencies";
   const auto factor = [](const AtFrequency& margin) { return std::pow(10, margin.value / 20); };
   std::vector<renders::ReportRow> rows;
   const auto row = [&](const char* name, std::string value) { rows.push_back({{name, std::move(value)}}); };
-  row("phase margin", margins.phase ? fmt::format("{:.1f} deg at the crossover of {}", margins.phase->value,
-                                                  hertz_text(margins.phase->frequency))
-                                    : "no crossover between these frequencies");
+  row("phase margin", margins.phase ? phase_text() : "no crossover between these frequencies");
   row("gain margin", margins.gain ? fmt::format("{:.2f} dB at {}: unstable from {:.3g} times the gain on",
                                                 margins.gain->value, hertz_text(margins.gain->frequency),
                                                 factor(*margins.gain))
@@ -195,7 +206,7 @@ renders::ReportTable amplitude_table(const LimitCycle& cycle) {
       "Gain margin over the amplitude of the sine", {"amplitude", "gain margin", "times the gain"}, {}};
   for (const auto& margin : cycle.margins)
     table.rows.push_back({{fmt::format("{:.3g} V", margin.amplitude()),
-                           margin.gain ? fmt::format("{:.2f} dB", margin.gain->value) : "unknown",
+                           margin.gain ? fmt::format("{:.2f} dB", margin.gain->value) : "no answer",
                            margin.gain ? fmt::format("{:.3g}", factor_of(*margin.gain)) : ""}});
   return table;
 }
@@ -299,6 +310,7 @@ void write_bode_report(const LoopResult& result, const LimitCycle* cycle, const 
         {{"left out", fmt::format("{} where the answer is noise (error above {:.0f} %); bode.csv has "
                                   "them",
                                   counted(static_cast<std::int64_t>(lost), "point"), bode_lost * 100)}});
+  if (result.sweep.faded_from > 0) report.facts.push_back({{"ends there", faded_text(result)}});
   if (!known(result).empty()) {
     report.summary = {
         {"Margins",
@@ -373,8 +385,8 @@ renders::Plot bode_plot(const LoopResult& result, const std::string& name) {
   if (!table.speed.gain.empty()) draw("speed loop", table.speed, table.speed.gain.front());
   plot.panels = {gain, phase};
   const auto margins = loop_doubts(result).empty() ? result.margins : Margins{};
-  if (margins.phase)
-    plot.marks.push_back({margins.phase->frequency, fmt::format("margin {:.1f}°", margins.phase->value)});
+  if (const auto phase = result.known_phase())
+    plot.marks.push_back({phase->frequency, fmt::format("margin {:.1f}°", phase->value)});
   if (margins.gain)
     plot.marks.push_back({margins.gain->frequency, fmt::format("margin {:.1f} dB", margins.gain->value)});
   if (plot.marks.size() == 2 && plot.marks[0].x > plot.marks[1].x) std::swap(plot.marks[0], plot.marks[1]);

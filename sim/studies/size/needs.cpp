@@ -1,6 +1,9 @@
 #include "sim/studies/size/needs.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
+#include <string>
 
 #include "base/units.hpp"
 
@@ -9,7 +12,7 @@ namespace drycut::sim::studies {
 std::vector<scenario::Override> without_limits(const SizedDrive& drive) {
   if (!drive.is_servo()) return {};
   std::vector<scenario::Override> overrides;
-  const auto set = [&](const char* parameter, const char* value) {
+  const auto set = [&](const std::string& parameter, const char* value) {
     overrides.push_back({drive.path(parameter), value});
   };
   set("servo.peak_torque", "100000 N m");
@@ -21,6 +24,7 @@ std::vector<scenario::Override> without_limits(const SizedDrive& drive) {
   set("servo.torque_constant", "1000 N m/A");
   set("servo.amplifier_current", "0 A");
   set("servo.amplifier_peak_current", "0 A");
+  for (const auto* current : {"rated", "stall", "peak"}) set(fmt::format("servo.{}_current", current), "0 A");
   set("servo.supply.capacitance", "1000000 uF");
   set("servo.supply.overvoltage", "400 %");
   set("servo.supply.undervoltage", "1 %");

@@ -107,9 +107,15 @@ renders::Plot way(const Tuning& tuning) {
     const double room = (most - low) / 10;
     if (room > 0) {
       panel.y_range = {low - room, most + room};
-      const auto above =
-          std::count_if(sorted.begin(), sorted.end(), [&](double y) { return y > most + room; });
+      std::ptrdiff_t above = 0;
+      std::ptrdiff_t below = 0;
+      for (const auto* curve : {&all, &refused})
+        for (const double y : curve->y) {
+          above += y > most + room ? 1 : 0;
+          below += y < low - room ? 1 : 0;
+        }
       if (above > 0) panel.title += fmt::format("; above the picture: {}", counted(above, "trial"));
+      if (below > 0) panel.title += fmt::format("; below it: {}, beyond a limit", counted(below, "trial"));
       if (!tuning.before.stopped && present > most + room)
         panel.bands.back().label = fmt::format("present values, above the picture: {:.4g}", present);
     }

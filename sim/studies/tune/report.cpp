@@ -128,6 +128,8 @@ std::string pushes_text(const Tuning& tuning) {
   auto text =
       fmt::format("{}: pushed at rest by {} to {} V it {}; it hunts {}", played->play, least_push,
                   largest_push, from <= 1 ? "goes on hunting" : "comes to rest again", hunts_from_text(from));
+  if (tuning.study.needs_loop)
+    text += fmt::format("; phase margins hold for a sine of {:.3g} V only", tuning.study.loop.amplitude);
   if (tuning.spread == nullptr) return text;
   double least = std::numeric_limits<double>::infinity();
   int hunting = 0;
@@ -295,8 +297,9 @@ std::string runs_text(const Tuning& tuning) {
     parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", part, runs);
   }
   const int loops = tuning.trials.loop_runs() + (tuning.spread != nullptr ? tuning.spread->loop_runs() : 0);
-  return fmt::format("{} of at most {}: {}{}", sum, tuning.budget, parts,
-                     loops > 0 ? fmt::format("; {} of them at the loop", loops) : "");
+  return fmt::format(
+      "{} of at most {}: {}{}", sum, tuning.budget, parts,
+      loops > 0 ? fmt::format("; {} of them to measure margins and to push the loop", loops) : "");
 }
 
 std::size_t worst_of(const Trials& spread) {
@@ -306,36 +309,42 @@ std::size_t worst_of(const Trials& spread) {
   return worst;
 }
 
+/// How the values do on machines that differ.
+std::string spread_text(const Tuning& tuning) {
+  if (tuning.spread == nullptr || tuning.spread->trials().empty()) return "";
+  const auto& worst = tuning.spread->at(worst_of(*tuning.spread));
+  const auto& all = tuning.spread->trials();
+  const auto beyond =
+      std::count_if(all.begin(), all.end(), [](const auto& trial) { return !trial.verdict.feasible(); });
+  std::string text =
+      fmt::format("\nSpread of the machine: {}{}, {} beyond a limit; ", counted(all.size(), "sample"),
+                  static_cast<int>(all.size()) < tuning.spread_asked
+                      ? fmt::format(" of the {} asked for (--budget)", tuning.spread_asked)
+                      : "",
+                  beyond);
+  if (beyond == 0) {
+    text += fmt::format("worst {}\n", metric_equals(tuning, metric_text(worst.verdict)));
+  } else {
+    text += fmt::format("worst of the limits: {} (there {}; the largest of all: {:.6g}{})\n",
+                        reason_text(worst.verdict), metric_equals(tuning, metric_text(worst.verdict)),
+                        largest_metric(*tuning.spread), with_space(tuning.study.metric_unit));
+  }
+  for (std::size_t i = 0; i < worst.point.size(); ++i) {
+    const auto& p = tuning.spread->parameters()[i];
+    text += fmt::format("  at {} = {}, of {}\n", p.path, shown_value(p, worst.point[i]), shown_range(p));
+  }
+  for (std::size_t i = 0; i < tuning.study.constraints.size(); ++i)
+    text += fmt::format("  least room of {}: {}\n", tuning.study.constraints[i],
+                        room_text(tuning, i, least_room(*tuning.spread, i)));
+  return text;
+}
+
 std::string summary_text(const Tuning& tuning) {
   std::string text;
   if (const auto miss = miss_text(tuning); !miss.empty()) text = miss + "\n\n";
   text += as_text(before_after(tuning)) + reason_before(tuning) + "\n" + as_text(values(tuning));
   if (!tuning.slices.empty()) text += "\n" + as_text(around(tuning));
-  if (tuning.spread != nullptr && !tuning.spread->trials().empty()) {
-    const auto& worst = tuning.spread->at(worst_of(*tuning.spread));
-    const auto& all = tuning.spread->trials();
-    const auto beyond =
-        std::count_if(all.begin(), all.end(), [](const auto& trial) { return !trial.verdict.feasible(); });
-    text += fmt::format("\nSpread of the machine: {}{}, {} beyond a limit; ", counted(all.size(), "sample"),
-                        static_cast<int>(all.size()) < tuning.spread_asked
-                            ? fmt::format(" of the {} asked for (--budget)", tuning.spread_asked)
-                            : "",
-                        beyond);
-    if (beyond == 0) {
-      text += fmt::format("worst {}\n", metric_equals(tuning, metric_text(worst.verdict)));
-    } else {
-      text += fmt::format("worst of the limits: {} (there {}; the largest of all: {:.6g}{})\n",
-                          reason_text(worst.verdict), metric_equals(tuning, metric_text(worst.verdict)),
-                          largest_metric(*tuning.spread), with_space(tuning.study.metric_unit));
-    }
-    for (std::size_t i = 0; i < worst.point.size(); ++i) {
-      const auto& p = tuning.spread->parameters()[i];
-      text += fmt::format("  at {} = {}\n", p.path, shown_value(p, worst.point[i]));
-    }
-    for (std::size_t i = 0; i < tuning.study.constraints.size(); ++i)
-      text += fmt::format("  least room of {}: {}\n", tuning.study.constraints[i],
-                          room_text(tuning, i, least_room(*tuning.spread, i)));
-  }
+  text += spread_text(tuning);
   if (const auto pushes = pushes_text(tuning); !pushes.empty()) text += fmt::format("\n{}\n", pushes);
   if (const auto ends = at_the_ends(tuning); !ends.empty()) text += "\n" + ends;
   return text + "\n" + patch_text(tuning);
@@ -379,6 +388,8 @@ void write_tuning_report(const Tuning& tuning, OutputFolder& folder) {
   }
   report.summary = {before_after(tuning), values(tuning)};
   report.texts = {{"To paste (also in patch.txt)", patch_text(tuning)}};
+  if (const auto spread = spread_text(tuning); !spread.empty())
+    report.texts.push_back({"Machines that differ", spread.substr(1)});
   if (!tuning.slices.empty()) report.tables = {around(tuning)};
   if (tuning.spread != nullptr) report.tables.push_back(spread_table(tuning));
   if (auto why = reasons_table(tuning); !why.rows.empty()) report.tables.push_back(std::move(why));

@@ -16,7 +16,9 @@ namespace drycut::plants::witness {
 /// With the motor's angle a and speed w, the drum's d and W, gear n, radius R of the blade tips, web of speed
 /// v and thickness s, b the angle of the blade from bottom dead centre:
 ///   twist = a / n - d,  M = gear torque of the twist and its rate
-///   rotor w' = T - M / n - friction of the motor
+///   rotor w' = T - M / n - friction of the motor, to which belongs what the gear loses: of M / n the part
+///   that it
+///              takes more to drive, 1 / efficiency - 1, and less to be driven, 1 - back efficiency
 ///   drum W' = M - H R cos b - friction of the drum and, until the blade is through, F R |sin b|
 ///   web v' = H = coupling (W R cos b - v), at most the grip
 /// F is the parabola of the cut over the depth s - R (1 - cos b): 4 peak p (1 - p), p the depth over s. H
@@ -78,12 +80,16 @@ struct KnifeLaw : Equations {
     double drum;   ///< [N m]
     double web;    ///< [N]
     DryResistance cut;
+    DryResistance losses;  ///< of the gear, at the motor
   };
   [[nodiscard]] Efforts efforts(std::span<const double> y) const {
     const double twist = y[angle] / data.gear.ratio - y[drum];
     const double rate = y[speed] / data.gear.ratio - y[drum_speed];
     const double gear = gear_torque(data.gear, twist, rate);
-    Efforts sum{y[servo_states + Servo::torque] - gear / data.gear.ratio, gear * data.motors, 0, {}};
+    Efforts sum{y[servo_states + Servo::torque] - gear / data.gear.ratio, gear * data.motors, 0, {}, {}};
+    const double more = std::abs(gear / data.gear.ratio) * (1 / data.gear.efficiency.driving - 1);
+    const double less = std::abs(gear / data.gear.ratio) * (1 - data.gear.efficiency.driven);
+    sum.losses = gear > 0 ? DryResistance{more, less} : DryResistance{less, more};
     if (at == Blade::above) return sum;
     const double behind = y[drum] - bottom;
     if (helix > 0) {
@@ -130,7 +136,7 @@ struct KnifeLaw : Equations {
 
   [[nodiscard]] Servo::Input input(double t, std::span<const double> y, const Efforts& sum) const {
     return {motion.volts(t), y[speed],
-            motor_friction.acceleration(servo.data.rotor_inertia, y[speed], sum.motor, {})};
+            motor_friction.acceleration(servo.data.rotor_inertia, y[speed], sum.motor, sum.losses)};
   }
   void slope(double t, std::span<const double> y, std::span<double> dy) const override {
     const Efforts sum = efforts(y);
@@ -145,7 +151,7 @@ struct KnifeLaw : Equations {
   [[nodiscard]] int switches() const override { return all; }
   void watch(double t, std::span<const double> y, std::span<double> g) const override {
     const Efforts sum = efforts(y);
-    g[motor_slides] = motor_friction.watch(y[speed], sum.motor, {});
+    g[motor_slides] = motor_friction.watch(y[speed], sum.motor, sum.losses);
     g[drum_slides] = drum_friction.watch(y[drum_speed], sum.drum, sum.cut);
     g[torque_limit] = servo.watch(input(t, y, sum), y.subspan(servo_states));
     const double behind = y[drum] - bottom;
@@ -157,7 +163,7 @@ struct KnifeLaw : Equations {
   void act(double t, std::span<double> y, int which) override {
     const Efforts sum = efforts(y);
     if (which == motor_slides)
-      motor_friction.act(y[speed], sum.motor, {});
+      motor_friction.act(y[speed], sum.motor, sum.losses);
     else if (which == drum_slides)
       drum_friction.act(y[drum_speed], sum.drum, sum.cut);
     else if (which == torque_limit)

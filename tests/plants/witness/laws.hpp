@@ -125,7 +125,7 @@ struct Servo {
 };
 
 /// Friction of a guided body; the plant's is plants/motor_load.hpp. Sliding it resists with
-///   viscous v + sign(v) (coulomb + breakaway exp(-(v / stribeck)^2)),
+///   viscous v + sign(v) (coulomb + breakaway exp(-(v / stribeck)^2)), backwards times `backward`,
 /// plus what else resists a motion that way; sticking it holds the body against all that is below that.
 struct Dry {
   Friction data;
@@ -139,17 +139,17 @@ struct Dry {
   [[nodiscard]] double acceleration(double inertia, double speed, double effort,
                                     const DryResistance& more) const {
     if (way == 0) return 0;
-    const double dry = way > 0 ? level(speed) + more.forward : -level(speed) - more.backward;
+    const double dry = way > 0 ? level(speed) + more.forward : -level(speed) * data.backward - more.backward;
     return (effort - data.viscous * speed - dry) / inertia;
   }
   [[nodiscard]] double watch(double speed, double effort, const DryResistance& more) const {
     if (way != 0) return -way * speed;
-    return std::max(effort - level(0) - more.forward, -effort - level(0) - more.backward);
+    return std::max(effort - level(0) - more.forward, -effort - level(0) * data.backward - more.backward);
   }
   void act(double& speed, double effort, const DryResistance& more) {
     const bool slid = way != 0;
     const double up = effort - level(0) - more.forward;
-    const double down = -effort - level(0) - more.backward;
+    const double down = -effort - level(0) * data.backward - more.backward;
     if (slid) speed = 0;
     way = slid && std::max(up, down) <= 0 ? 0 : up > down ? 1 : -1;
   }

@@ -252,7 +252,7 @@ TEST(MujocoWitness, PressOnAWorkpiece) {
   data.drive.kind = "servo";
   data.drive.brake.torque = 0;
   data.gear.ratio = 2;
-  data.efficiency = data.back_efficiency = 1;
+  data.efficiency = {};
   data.workpiece_height = 0.26;
   data.workpiece = {5e5, 0};
   soften(data.drive.servo);

@@ -32,6 +32,7 @@ RotaryKnifeDefinition soft_knife() {
   servo.integral_time = 0.1;
   servo.adc_bits = 24;
   knife.data.gear.backlash = 2e-3;
+  knife.data.gear.efficiency = {0.94, 0.9};
   return knife;
 }
 
@@ -62,6 +63,8 @@ TEST(Witness, RotaryKnife) {
       unit, law, 2.5e-6, 2e-7,
       {{"no damping of the gear", [](KnifeLaw& l) { l.data.gear.damping = 0; }},
        {"no play", [](KnifeLaw& l) { l.data.gear.backlash = 0; }},
+       {"no losses when driving", [](KnifeLaw& l) { l.data.gear.efficiency.driving = 1; }},
+       {"no losses when driven", [](KnifeLaw& l) { l.data.gear.efficiency.driven = 1; }},
        {"drum as if before the gear", [](KnifeLaw& l) { l.inertia /= l.data.gear.ratio; }},
        {"half the dry friction of the motor", [](KnifeLaw& l) { l.motor_friction.data.coulomb /= 2; }},
        {"motor without viscous friction", [](KnifeLaw& l) { l.motor_friction.data.viscous = 0; }},

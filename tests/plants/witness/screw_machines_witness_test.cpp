@@ -70,6 +70,8 @@ LinearAxisDefinition inclined_axis() {
   LinearAxisDefinition axis;
   axis.data.inclination = 0.35;
   axis.data.gear = {2, 1000, 0.05, 0};
+  axis.data.gear.efficiency = {0.94, 0.9};
+  axis.data.efficiency = {0.9, 0.8};
   soften(axis.data.drive.servo);
   axis.data.drive.servo.peak_torque = axis.data.drive.servo.torque_at_max_speed = 6;
   return axis;
@@ -89,10 +91,53 @@ TEST(Witness, LinearAxis) {
   };
   expect_witness<ScrewLaw>(unit, law, 2.5e-6, 3e-6,
                            with({{"no weight", [](ScrewLaw& l) { l.steady_force = 0; }},
+                                 {"no losses of the gear",
+                                  [](ScrewLaw& l) {
+                                    l.efficiency = {0.9, 0.8};
+                                  }},
+                                 {"no losses of the screw",
+                                  [](ScrewLaw& l) {
+                                    l.efficiency = {0.94, 0.9};
+                                  }},
                                  {"no torque limit", [](ScrewLaw& l) { l.servo.data.peak_torque *= 5; }},
                                  {"no force of the process", [](ScrewLaw& l) {
                                     for (Leg& leg : l.motion.legs) leg.force = 0;
                                   }}}));
+}
+
+// The same with its screw between coupling and nut, and friction that differs by direction and grows with the
+// weight on the guides; within its torque limit.
+LinearAxisDefinition axis_with_a_nut() {
+  LinearAxisDefinition axis = inclined_axis();
+  axis.data.drive.servo.peak_torque = axis.data.drive.servo.torque_at_max_speed = 60;
+  axis.data.screw_inertia = 2e-3;
+  axis.data.nut_stiffness = 4e6;
+  axis.data.nut_damping = 2e3;
+  axis.data.guide_friction.backward = 0.6;
+  axis.data.guide_coefficient = 0.1;
+  return axis;
+}
+
+TEST(Witness, LinearAxisWithANut) {
+  const auto unit = [] {
+    return std::make_unique<ScrewUnit<LinearAxis>>(axis_with_a_nut(), axis_with_a_nut().data);
+  };
+  const auto law = [] {
+    const LinearAxisData data = axis_with_a_nut().data;
+    auto own = std::make_unique<ScrewLaw>(data, data.drive.servo, up_and_down);
+    own->steady_force = -data.mass * gravity * std::sin(data.inclination);
+    own->guide_friction.data.coulomb += 0.1 * data.mass * gravity * std::cos(data.inclination);
+    return own;
+  };
+  expect_witness<ScrewLaw>(
+      unit, law, 2.5e-6, 5e-6,
+      {{"a softer nut", [](ScrewLaw& l) { l.nut_stiffness /= 2; }},
+       {"half the damping of the nut", [](ScrewLaw& l) { l.nut_damping /= 2; }},
+       {"half the screw", [](ScrewLaw& l) { l.screw_inertia /= 2; }},
+       {"no losses of the screw", [](ScrewLaw& l) { l.of_screw = {}; }},
+       {"no losses of the gear", [](ScrewLaw& l) { l.efficiency = {}; }},
+       {"the same friction both ways", [](ScrewLaw& l) { l.guide_friction.data.backward = 1; }},
+       {"no friction by weight", [](ScrewLaw& l) { l.guide_friction.data.coulomb = 30; }}});
 }
 
 // The carriage of the saw with play in its gear, and with a motor that has less torque above 600 rpm, runs up
@@ -154,16 +199,14 @@ TEST(Witness, VerticalPress) {
     own->steady_force = data.counterbalance - data.mass * gravity;
     // It hangs on its screw at rest.
     own->begin_twist = -own->steady_force / own->per_metre / data.gear.stiffness;
-    own->efficiency = data.efficiency;
-    own->back_efficiency = data.back_efficiency;
     own->buffers.push_back({data.workpiece, data.workpiece_height, -1});
     return own;
   };
   expect_witness<ScrewLaw>(
       unit, law, 2.5e-6, 1e-6,
       with({{"no counterbalance", [](ScrewLaw& l) { l.steady_force = -l.mass * gravity; }},
-            {"no losses when driving", [](ScrewLaw& l) { l.efficiency = 1; }},
-            {"no losses when driven", [](ScrewLaw& l) { l.back_efficiency = 1; }},
+            {"no losses when driving", [](ScrewLaw& l) { l.efficiency.driving = 1; }},
+            {"no losses when driven", [](ScrewLaw& l) { l.efficiency.driven = 1; }},
             {"no damping of the workpiece", [](ScrewLaw& l) { l.buffers.back().data.damping = 0; }}}));
 }
 

@@ -40,14 +40,13 @@ TEST(Witness, WebWithTension) {
                        {1.3, 2, 1.5, 30},
                        {1.6, 1.5, 1.5, 150},
                        {2.0, 1.5, 1}}};
-  expect_witness<WebLaw>(
-      [&] { return std::make_unique<PulledWeb>(data); },
-      [&] { return std::make_unique<WebLaw>(data, motion); }, 2.5e-6, 1e-6,
-      {{"the wheel 10 mm on", [](WebLaw& law) { law.web.strip.wheel_distance = 0.69; }},
-       {"no damping", [](WebLaw& law) { law.web.strip.retardation = 0; }},
-       {"no wheel", [](WebLaw& law) { law.web.strip.wheel_mass = 0; }},
-       {"no web beyond the cut", [](WebLaw& law) { law.growing = 0; }},
-       {"another grip", [](WebLaw& law) { law.web.drive.damping *= 1.05; }}});
+  expect_witness<WebLaw>([&] { return std::make_unique<PulledWeb>(data); },
+                         [&] { return std::make_unique<WebLaw>(data, motion); }, 2.5e-6, 1e-6,
+                         {{"the wheel 10 mm on", [](WebLaw& law) { law.web.strip.wheel_distance = 0.69; }},
+                          {"no damping", [](WebLaw& law) { law.web.strip.retardation = 0; }},
+                          {"no wheel", [](WebLaw& law) { law.web.strip.wheel_mass = 0; }},
+                          {"no web beyond the cut", [](WebLaw& law) { law.growing = 0; }},
+                          {"another grip", [](WebLaw& law) { law.web.drive.damping *= 1.05; }}});
 }
 
 }  // namespace

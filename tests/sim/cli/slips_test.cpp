@@ -89,7 +89,7 @@ TEST_F(Slips, InTheScenarioOfAKnife) {
       {y, "type: rotary_knife", "type: @rotary_knive", "did you mean rotary_knife?"},
       {y, "knife, web: web,", "knife, web: @wbe,", "no plant 'wbe'; name one of: web"},
       {y, "circumference: 600 mm", "@circumferenz: 600 mm", "did you mean circumference?"},
-      {y, "600 mm}", "600 mm, initial_angle: @180}", "no unit, but this is an angle; write 180 deg"},
+      {y, "600 mm, gear", "600 mm, initial_angle: @180, gear", "no unit, but this is an angle; write 180 deg"},
       {y, "thickness: 0.5 mm", "thickness: @0,5 mm", "has a decimal comma; write 0.5 mm"},
       {y, "0 m/min, thickness: 0.5", "0 m/min thickness@: 0.5", "write a comma before 'thickness'"},
       {y, "programs/rotary_knife.cnf", "@programs/rotary_knife.cfn", "did you mean rotary_knife.cnf?"},

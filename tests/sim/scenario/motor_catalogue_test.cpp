@@ -415,18 +415,19 @@ TEST_F(MotorModels, OfFiveValuesAreCompleted) {
   is_estimate("stall_torque", rated);
   is_estimate("winding_resistance", 0.06 * rated * speed / (1.5 * 4 * 4));
   is_estimate("amplifier_current", 4);
-  is_estimate("amplifier_peak_current", 12);
+  is_estimate("peak_current", 15);
+  is_estimate("amplifier_peak_current", 15);
   // Never less torque than the sheet has.
   EXPECT_GE(si(motor, "amplifier_peak_current") * si(motor, "torque_constant"), 3 * rated * (1 - 0.005));
   EXPECT_EQ(std::count_if(motor.values.begin(), motor.values.end(),
                           [](const auto& value) { return value.is_completed(); }),
-            12);
-  EXPECT_EQ(motor.standing(), "unchecked, 12 estimated");
+            13);
+  EXPECT_EQ(motor.standing(), "unchecked, 13 estimated");
   // The scenario has it, the sheet's and the estimates; and says so.
   EXPECT_EQ(value_of(scenario, "knife", "servo.stall_torque"), motor.find("stall_torque")->shown);
   ASSERT_FALSE(scenario.plants.empty());
   EXPECT_THAT(sentences(notes_of_models(scenario.plants.back())),
-              ElementsAre(HasSubstr("unchecked, 12 estimated")));
+              ElementsAre(HasSubstr("unchecked, 13 estimated")));
 }
 
 TEST_F(MotorModels, EstimatesAreOnTheSafeSideOfKnownOnes) {

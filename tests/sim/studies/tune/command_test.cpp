@@ -303,7 +303,7 @@ TEST_F(TuneMargins, NoPartComesOnTopOfTheBudget) {
     EXPECT_EQ(runs_told(), sum) << out;
     EXPECT_THAT(out, HasSubstr(" of the 20 asked for (--budget), "));
     EXPECT_THAT(out, HasSubstr(" of at most " + std::to_string(budget) + ": present values 3, search "));
-    EXPECT_THAT(out, testing::ContainsRegex("; [0-9]+ of them at the loop\n"));
+    EXPECT_THAT(out, testing::ContainsRegex("; [0-9]+ of them to measure margins and to push the loop\n"));
   }
 }
 

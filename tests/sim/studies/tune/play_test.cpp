@@ -113,7 +113,7 @@ TEST_F(TunePlay, EndsAtTheFirstLoopThatCannotBeMeasured) {
   EXPECT_THAT(
       out,
       HasSubstr("the motion stays in play or stiction; a larger --amplitude would answer, but it hides the "
-                "play: see drycut bode --limit-cycle"));
+                "play, for which the pushes count"));
   EXPECT_THAT(out, HasSubstr("\n1 sets of values tried, "));
   EXPECT_THAT(out, HasSubstr("simulated runs: 5 of at most 60: present values 5, search 0"));
   EXPECT_THAT(content(options.out / "patch.txt"), testing::Not(HasSubstr("pgain = ")));

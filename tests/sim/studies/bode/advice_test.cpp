@@ -1,0 +1,214 @@
+// Which filter the torque of a servo wants: measured loops against closed forms, advice against a grid.
+#include "sim/studies/bode/advice.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "sim/cli/bode_command.hpp"
+#include "tests/sim/command_bench.hpp"
+#include "tests/sim/studies/bode/axis.hpp"
+
+namespace drycut::sim::studies {
+namespace {
+
+using testing::ContainsRegex;
+using testing::HasSubstr;
+
+constexpr double turn = 2 * std::numbers::pi;
+
+/// The open speed loop of two masses on a spring under a PI controller and a current lag, in continuous time.
+SpeedLoop two_masses(double gain) {
+  SpeedLoop loop;
+  loop.drive = "axis.servo";
+  loop.step = 1e-4;
+  loop.speed_gain = gain;
+  const double motor = 5e-3;
+  const double load = 2e-2;
+  const double stiffness = 3000;
+  const double damping = 1.5;
+  for (int i = 0; i < 240; ++i) {
+    const double f = 2 * std::pow(1000.0, i / 239.0);
+    const std::complex<double> s(0, turn * f);
+    const auto spring = stiffness + damping * s;
+    // Of the motor's speed for a torque on it.
+    const auto plant = (load * s * s + spring) / (s * (motor * load * s * s + (motor + load) * spring));
+    const auto pi = (motor + load) * gain * (1.0 + 1.0 / (0.02 * s));
+    BodePoint point;
+    point.frequency = f;
+    point.open_loop = pi * plant / (1.0 + 0.5e-3 * s) * std::exp(-1.5e-4 * s);
+    loop.points.push_back(point);
+  }
+  return loop;
+}
+
+TEST(FilterAdvice, IsWithinTwoPercentOfTheBestOfAFineGrid) {
+  const auto loop = two_masses(150);
+  const auto advice = advise(loop);
+  ASSERT_EQ(advice.choices.size(), 3U);
+  // What may be advised: 10 deg of phase are not too much, no gain margin is lost.
+  const auto allowed = [&](const plants::TorqueFilterData& filters) {
+    const auto choice = judged_with(loop, filters);
+    const auto& present = advice.present.margins;
+    return choice.margins.phase->value >= present.phase->value - most_cost &&
+                   choice.margins.gain->value >= present.gain->value
+               ? choice.factor
+               : 0;
+  };
+  for (const auto& choice : advice.choices) {
+    const auto& [low_pass, notches] = choice.filters;
+    double best = 0;
+    if (low_pass > 0) {
+      for (int i = 0; i <= 2000; ++i) best = std::max(best, allowed({1e-4 * std::pow(200, i / 2000.0), {}}));
+    } else if (notches[1].frequency == 0) {
+      for (int i = 0; i <= 120; ++i)
+        for (int j = 0; j <= 8; ++j)
+          for (int k = 0; k <= 8; ++k) {
+            const plants::NotchData notch = {10 * std::pow(200, i / 120.0),
+                                             0.03 * std::pow(0.7 / 0.03, j / 8.0),
+                                             0.1 * std::pow(10, k / 8.0)};
+            best = std::max(best, allowed({0, {notch, {}}}));
+          }
+    } else {
+      continue;  // what a second one adds to the first
+    }
+    EXPECT_GT(choice.factor, 0.98 * best);
+  }
+  EXPECT_TRUE(advice.worth());
+}
+
+// The gain that it names keeps what it says, and a little more does not.
+TEST(FilterAdvice, TheLargestGainKeepsBothMarginsAndNoMoreDoes) {
+  const auto advice = advise(two_masses(150));
+  const auto& best = advice.choices.front();
+  const auto at = [&](double factor) {
+    return judged_with(two_masses(150 * best.factor * factor), best.filters);
+  };
+  EXPECT_NEAR(at(1).factor, 1, 1e-6);
+  EXPECT_GE(at(0.999).margins.gain->value, kept_gain_margin - 0.05);
+  EXPECT_GE(at(0.999).margins.phase->value, kept_phase_margin - 0.5);
+  const auto over = at(1.03).margins;
+  EXPECT_TRUE(over.gain->value < kept_gain_margin || over.phase->value < kept_phase_margin);
+}
+
+// A loop that no gain upsets, as far as it is known, wants no filter.
+TEST(FilterAdvice, NothingIsWorthALoopWithoutResonance) {
+  auto loop = two_masses(150);
+  for (auto& point : loop.points) {
+    point.open_loop = 150.0 / std::complex<double>(0, turn * point.frequency);
+  }
+  EXPECT_FALSE(advise(loop).worth());
+}
+
+struct SpeedLoopOfAnAxis : CommandTest {
+  SpeedLoopOfAnAxis() {
+    folder.file("axis.mod", bode_axis::Folder::program(""));
+    folder.file("axis.yaml", bode_axis::Folder::screw());
+    options.scenario = folder.path / "axis.yaml";
+    options.advise = true;
+    for (const auto* rubs : {"motor_friction.coulomb=0 N m", "motor_friction.viscous=0 N m s/rad",
+                             "carriage_friction.coulomb=0 N", "carriage_friction.viscous=0 N s/m"})
+      options.set.push_back(std::string("plants.axis.") + rubs);
+  }
+  SpeedLoop measured() {
+    Problems problems;
+    std::vector<scenario::Override> overrides;
+    for (const auto& one : options.set) {
+      const auto equals = one.find('=');
+      overrides.push_back({one.substr(0, equals), one.substr(equals + 1)});
+    }
+    const auto scenario = scenario::read_scenario(options.scenario, overrides, problems);
+    auto loop = measure_speed_loop(scenario, options.loop, problems);
+    EXPECT_TRUE(problems.empty()) << to_string(problems.front());
+    return *loop;
+  }
+  int run() {
+    return captured([&] { return cli::measure_bode(options); });
+  }
+  bode_axis::Folder folder;
+  cli::BodeOptions options;
+};
+
+// A carriage of a gram: the loop is that of the rotor in steps, to the last digit. Speed of the step before,
+// PI, filters, lag, inertia.
+TEST_F(SpeedLoopOfAnAxis, IsThatOfTheStepsInClosedForm) {
+  for (const auto* set :
+       {"mass=0.001 kg", "gear.stiffness=0.1 N m/rad", "gear.damping=0 N m s/rad", "stop.stiffness=1 N/m",
+        "stop.damping=0 N s/m", "servo.torque_filter=0.3 ms", "servo.notch1.frequency=400 Hz"})
+    options.set.push_back(std::string("plants.axis.") + set);
+  const auto loop = measured();
+  ASSERT_GT(loop.points.size(), 150U);
+  constexpr double h = 1e-4;
+  const double inertia = 46.8e-4 + 3e-4;
+  const double gain = 1.1 * 46.8e-4 * 250;
+  const double share = -std::expm1(-h / 0.5e-3);
+  for (const auto& point : loop.points) {
+    if (point.frequency < 10) continue;  // the spring of the gram
+    const auto back = std::polar(1.0, -turn * point.frequency * h);
+    const auto pi = gain * (1.0 + h / 20e-3 * back / (1.0 - back));
+    const auto lag = share / (1.0 - (1 - share) * back);
+    const auto expected =
+        pi * plants::response(loop.filters, point.frequency, h) * lag * h / inertia / (1.0 - back) * back;
+    EXPECT_LT(std::abs(point.open_loop / expected - 1.0), 2e-3) << point.frequency;
+  }
+}
+
+// What it says of a filter is what is measured with the filter: 0.1 dB and 0.5 deg.
+TEST_F(SpeedLoopOfAnAxis, WithTheAdvisedFilterIsAsPredicted) {
+  for (const auto* set :
+       {"gear.stiffness=150 N m/rad", "gear.damping=0.1 N m s/rad", "mass=40 kg", "servo.inertia_ratio=1.2"})
+    options.set.push_back(std::string("plants.axis.") + set);
+  const auto advice = advise(measured());
+  ASSERT_TRUE(advice.worth());
+  const auto& best = advice.choices.front();
+  const auto& [low_pass, notches] = best.filters;
+  options.set.push_back(fmt::format("plants.axis.servo.torque_filter={} s", low_pass));
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (notches[i].frequency == 0) continue;
+    const auto path = fmt::format("plants.axis.servo.notch{}.", i + 1);
+    options.set.push_back(fmt::format("{}frequency={} Hz", path, notches[i].frequency));
+    options.set.push_back(fmt::format("{}depth={}", path, notches[i].depth));
+    options.set.push_back(fmt::format("{}width={}", path, notches[i].width));
+  }
+  const auto after = judged_with(measured(), best.filters);
+  EXPECT_NEAR(after.factor, best.factor, 0.02 * best.factor);
+  ASSERT_EQ(after.margins.gain.has_value(), best.margins.gain.has_value());
+  if (best.margins.gain) {
+    EXPECT_NEAR(after.margins.gain->value, best.margins.gain->value, 0.1);
+  }
+  ASSERT_TRUE(after.margins.phase && best.margins.phase);
+  EXPECT_NEAR(after.margins.phase->value, best.margins.phase->value, 0.5);
+}
+
+TEST_F(SpeedLoopOfAnAxis, IsToldWithItsFilterToPaste) {
+  for (const auto* set :
+       {"gear.stiffness=150 N m/rad", "gear.damping=0.1 N m s/rad", "mass=40 kg", "servo.inertia_ratio=1.2"})
+    options.set.push_back(std::string("plants.axis.") + set);
+  options.out = folder.path / "results";
+  EXPECT_EQ(run(), cli::all_passed) << out << err;
+  EXPECT_THAT(out, ContainsRegex("no filter \\(present\\)"));
+  EXPECT_THAT(out, ContainsRegex("axis.servo: .*: speed_gain up to|axis.servo: .*speed_gain up to [0-9.]+"));
+  EXPECT_THAT(content(options.out / "report.html"), HasSubstr("To paste"));
+  EXPECT_THAT(content(options.out / "plots/speed_loop.png"), testing::StartsWith("\x89PNG"));
+}
+
+TEST_F(SpeedLoopOfAnAxis, WhatDoesNotGoWithItIsTold) {
+  options.limit_cycle = true;
+  options.min_gain_margin = 6;
+  EXPECT_EQ(run(), cli::bad_input);
+  EXPECT_THAT(err, HasSubstr("--limit-cycle"));
+  EXPECT_THAT(err, HasSubstr("--min-gain-margin"));
+  EXPECT_THAT(err, HasSubstr("[option.together]"));
+}
+
+TEST_F(SpeedLoopOfAnAxis, AMachineWithoutAServoHasNone) {
+  folder.file("axis.yaml", bode_axis::Folder::scenario(""));
+  options.set.clear();
+  EXPECT_EQ(run(), cli::bad_input);
+  EXPECT_THAT(err, HasSubstr("[bode.no-loop]"));
+}
+
+}  // namespace
+}  // namespace drycut::sim::studies
