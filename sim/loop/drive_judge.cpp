@@ -226,15 +226,19 @@ record::DriveVerdict DriveJudge::verdict(Drive drive) const {
   const auto& ratings = verdict.ratings;
   using Goes = record::DriveFigure::Goes;
   const auto add = [&](std::string name, double value, double rating, std::string unit, Goes goes,
-                       bool judged, const std::string& window) {
+                       bool judged, const std::string& window, std::string remark = {}) {
     const double share = rating > 0 ? value / rating : value > 0 ? 2 : 0;
-    verdict.figures.push_back({std::move(name), value, rating, std::move(unit), share, goes, judged, window});
+    verdict.figures.push_back(
+        {std::move(name), value, rating, std::move(unit), share, goes, judged, window, std::move(remark)});
   };
   const auto over_ambient = [](double kelvin) { return kelvin - plants::MotorHeat::ambient; };
   const double winding_limit = over_ambient(stage.temperature_limit());
-  add("rms torque", worst.torque, ratings.continuous(worst.speed), "N m", Goes::as_the_torque, !whole, means);
+  const std::string no_cycle = whole ? "no cycle is known" : "";
+  const std::string works = ratings.works_at_limit ? "such a drive works at this limit" : "";
+  add("rms torque", worst.torque, ratings.continuous(worst.speed), "N m", Goes::as_the_torque, !whole, means,
+      no_cycle);
   add("peak torque", peaks.torque, peaks.share > 0 ? peaks.torque / peaks.share : ratings.peak_torque, "N m",
-      Goes::as_the_torque, !ratings.works_at_limit, peaks_from);
+      Goes::as_the_torque, !ratings.works_at_limit, peaks_from, works);
   add("largest speed", peaks.speed * units::rpm, ratings.max_speed * units::rpm, "rpm", Goes::as_the_speed,
       true, peaks_from);
   const double current = std::sqrt(worst.current_squared);
@@ -242,16 +246,24 @@ record::DriveVerdict DriveJudge::verdict(Drive drive) const {
   const double steady = stage.steady_temperature(worst.current_squared, worst.rotor_loss);
   // Where the rotor's losses alone are too much no current is left.
   if (for_ever > 0 || !std::isfinite(steady))
-    add("rms current, for the winding", current, std::sqrt(for_ever), "A", Goes::as_the_torque, !whole,
-        means);
-  if (std::isfinite(steady))
+    add("rms current, for the winding", current, std::sqrt(for_ever), "A", Goes::as_the_torque, !whole, means,
+        whole                  ? no_cycle
+        : worst.rotor_loss > 0 ? "limit: what brings the winding to its temperature for ever, beside the "
+                                 "rotor's loss of this duty"
+                               : "limit: what brings the winding to its temperature for ever");
+  if (std::isfinite(steady)) {
+    const bool alone = for_ever <= 0 && !whole;
     add("winding temperature rise, continuous duty", over_ambient(steady), winding_limit, "K",
-        Goes::not_with_it, for_ever <= 0 && !whole, means);
+        Goes::not_with_it, alone, means,
+        alone   ? ""
+        : whole ? no_cycle
+                : "its current is judged");
+  }
   add("winding temperature rise, so far", over_ambient(peaks.winding), winding_limit, "K",
       Goes::as_its_square, true, peaks_from);
   if (const auto& amplifier = stage.amplifier()) {
     add("rms current, for the amplifier", std::sqrt(worst.fed_squared), amplifier->current, "A",
-        Goes::as_the_torque, !whole, means);
+        Goes::as_the_torque, !whole, means, no_cycle);
     add("amplifier's I2t, so far", peaks.i2t * percent, percent, "%", Goes::as_its_square, true, peaks_from);
   }
   if (const auto& link = stage.link()) {
@@ -260,15 +272,15 @@ record::DriveVerdict DriveJudge::verdict(Drive drive) const {
         (link->data().overvoltage - 1) * mains, "V", Goes::not_with_it, true, peaks_from);
     if (worst.resistor > 0)
       add("brake resistor", worst.resistor, link->data().resistor_power, "W", Goes::as_the_braking, !whole,
-          means);
+          means, no_cycle);
   }
   if (worst.saturated > 0)
     add("time at the torque limit", worst.saturated * percent,
         ratings.works_at_limit ? percent : most_saturated * percent, "%", Goes::not_with_it,
-        !ratings.works_at_limit, means);
+        !ratings.works_at_limit, means, works);
   if (worst.saturated_once > 0)
     add("time at the torque limit, worst cycle", worst.saturated_once * percent, percent, "%",
-        Goes::not_with_it, false, verdict.cycles);
+        Goes::not_with_it, false, verdict.cycles, "the mean is judged");
   verdict.inertia_ratio = drive.load_inertia / ratings.rotor_inertia;
   verdict.efficiency = drive.efficiency;
   verdict.energy = whole ? stage.totals().from_mains : drive.energy / drive.counted;

@@ -31,6 +31,7 @@ struct DriveFigure {
   Goes goes = Goes::as_the_speed;
   bool judged = true;       ///< else it is only told
   std::string window = {};  ///< when that was: "steady cycle", "from the first cut on"
+  std::string remark = {};  ///< what a reader must know: why it is not judged, what its rating is
 
   bool operator==(const DriveFigure&) const = default;
   template <typename Archive, typename Self>
@@ -43,6 +44,7 @@ struct DriveFigure {
     archive("goes", self.goes);
     archive("judged", self.judged);
     archive("window", self.window);
+    archive("remark", self.remark);
   }
 };
 

@@ -103,9 +103,11 @@ renders::ReportTable drive_table(const std::vector<record::DriveVerdict>& verdic
     auto name = fmt::format("{}\n{}{}", verdict.drive, verdict.cycles,
                             judged ? "" : "; judging is off (drives: judge)");
     for (const auto& figure : verdict.figures) {
-      table.rows.push_back(
-          {{name, fmt::format("{}\n{}", figure.name, figure.window), number_text(figure.value, figure.unit),
-            number_text(figure.rating, figure.unit), grade_text(figure, judged)}});
+      table.rows.push_back({{name,
+                             fmt::format("{}\n{}{}{}", figure.name, figure.window,
+                                         figure.remark.empty() ? "" : "; ", figure.remark),
+                             number_text(figure.value, figure.unit), number_text(figure.rating, figure.unit),
+                             grade_text(figure, judged)}});
       name.clear();
     }
     table.rows.push_back({{"", "load over rotor inertia\nas the scenario begins",

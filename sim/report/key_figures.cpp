@@ -228,7 +228,7 @@ void add_nearest(const record::Recording& recording, const record::Outcome& outc
                   : most_of_deadlines > most ? "nearest to its limit, deadlines apart"
                                              : "nearest to its limit",
                   nearest->name,
-                  {},
+                  {"of the checks that have a margin"},
                   most});
 }
 
