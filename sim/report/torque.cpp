@@ -78,21 +78,21 @@ SplitCycles cycles_of_drive(const scenario::Scenario& scenario, const loop::Simu
                             const record::DriveVerdict& verdict, const KeptDrive& drive) {
   const double step = seconds(drive.period);
   std::vector<std::size_t> bounds;
-  const auto index = [&](double time) {
+  const auto place = [&](double time) {
     const double steps = std::round((time - seconds(drive.begin)) / step);
     return static_cast<std::size_t>(std::clamp(steps, 0.0, static_cast<double>(drive.count())));
   };
   if (verdict.cycle_points.empty()) {
     const auto& [from, until] = verdict.last_cycles.at(0);
-    return {{index(from), index(until)}, false};
+    return {{place(from), place(until)}, false};
   }
   if (scenario.drives.cycle > 0) {
     // Those that follow each other to the last, as far as all of them was kept.
     const auto& cycles = verdict.last_cycles;
-    bounds.push_back(index(cycles.back().second));
+    bounds.push_back(place(cycles.back().second));
     for (auto i = cycles.size(); i-- > 0 && cycles[i].first >= seconds(drive.begin);) {
       if (i + 1 < cycles.size() && cycles[i].second < cycles[i + 1].first - 2 * step) break;
-      bounds.push_back(index(cycles[i].first));
+      bounds.push_back(place(cycles[i].first));
     }
     std::reverse(bounds.begin(), bounds.end());
   } else {

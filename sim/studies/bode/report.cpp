@@ -385,8 +385,8 @@ renders::Plot bode_plot(const LoopResult& result, const std::string& name) {
   if (!table.speed.gain.empty()) draw("speed loop", table.speed, table.speed.gain.front());
   plot.panels = {gain, phase};
   const auto margins = loop_doubts(result).empty() ? result.margins : Margins{};
-  if (const auto phase = result.known_phase())
-    plot.marks.push_back({phase->frequency, fmt::format("margin {:.1f}°", phase->value)});
+  if (const auto known = result.known_phase())
+    plot.marks.push_back({known->frequency, fmt::format("margin {:.1f}°", known->value)});
   if (margins.gain)
     plot.marks.push_back({margins.gain->frequency, fmt::format("margin {:.1f} dB", margins.gain->value)});
   if (plot.marks.size() == 2 && plot.marks[0].x > plot.marks[1].x) std::swap(plot.marks[0], plot.marks[1]);

@@ -1,6 +1,7 @@
 // Which filter the torque of a servo wants: measured loops against closed forms, advice against a grid.
 #include "sim/studies/bode/advice.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
