@@ -25,6 +25,7 @@ template <std::size_t N>
 std::vector<Preset> presets(const std::array<Kind, N>& kinds, std::string_view efficiency,
                             std::string_view back_efficiency) {
   std::vector<Preset> made;
+  made.reserve(N);
   for (const auto& [name, meaning, driving, source] : kinds)
     made.push_back(
         {name,

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "plants/efficiency.hpp"
 #include "plants/plant.hpp"
@@ -33,7 +34,7 @@ Parameters transmission_parameters(TransmissionData& data, const TransmissionSou
 
 class Transmission {
  public:
-  explicit Transmission(const TransmissionData& data) : data_(data) {}
+  explicit Transmission(TransmissionData data) : data_(std::move(data)) {}
   /// Other data from now on; the twist is kept, and so must the ratio be.
   void take(const TransmissionData& data) { data_ = data; }
 

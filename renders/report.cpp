@@ -200,7 +200,7 @@ void write_video(ReportPage& page, const Report& report) {
   if (!report.poster.empty()) {
     // The controls stand below a picture of this shape, not on its caption.
     const Image image = read_png(report.poster);
-    poster = fmt::format(" style=\"--shape:{:.6f}\" poster=\"data:image/png;base64,{}\"",
+    poster = fmt::format(R"( style="--shape:{:.6f}" poster="data:image/png;base64,{}")",
                          static_cast<double>(image.height) / image.width, base64(read_file(report.poster)));
   }
   page += fmt::format(

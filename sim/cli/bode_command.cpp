@@ -67,6 +67,7 @@ struct Judged {
 };
 std::vector<record::CheckResult> checks_of(const std::vector<Judged>& judged) {
   std::vector<record::CheckResult> checks;
+  checks.reserve(judged.size());
   for (const auto& one : judged) checks.push_back(one.check);
   return checks;
 }

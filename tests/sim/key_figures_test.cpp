@@ -120,16 +120,16 @@ TEST(KeyFigures, SpeedsDrivesAndTheNearestCheck) {
   EXPECT_THAT(told(key_figures(recording, {}, {"web", "other"}, outcome, true)),
               ElementsAre("highest web speed: 60 m/min; lowest 0",
                           "rms torque of knife.servo: 2.04 N m [21]; limit 9.5 N m; steady cycle",
-                          "farthest beyond its limit: failed [200]"));
+                          "farthest beyond its limit: failed [200]; of the checks that have a margin"));
   outcome.checks.pop_back();
   EXPECT_EQ(told(key_figures(recording, {}, {"web", "other"}, outcome, true)).back(),
-            "nearest to its limit: b [90]");
+            "nearest to its limit: b [90]; of the checks that have a margin");
   outcome.checks.push_back(outcome.checks.front());
   outcome.checks.back().name = "done in time";
   outcome.checks.back().used = 0.99;
   outcome.checks.back().deadline = true;
   EXPECT_EQ(told(key_figures(recording, {}, {"web", "other"}, outcome, true)).back(),
-            "nearest to its limit, deadlines apart: b [90]");
+            "nearest to its limit, deadlines apart: b [90]; of the checks that have a margin");
   EXPECT_THAT(told(key_figures(recording, {}, {}, outcome, false))[0],
               testing::StartsWith("rms torque of knife.servo: 2.04 N m; limit 9.5 N m; not judged"));
   EXPECT_THAT(key_figures(record::Recording(), {}, {}, {}, true), IsEmpty());

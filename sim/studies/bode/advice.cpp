@@ -428,6 +428,7 @@ void write_advice_report(const FilterAdvice& advice, const scenario::Scenario& s
     const auto points = points_with(advice.loop, choice.filters);
     const auto [gains, angles] = curve_of(points);
     std::vector<double> x;
+    x.reserve(points.size());
     for (const auto& point : points) x.push_back(point.frequency);
     gain.curves.push_back({label, x, gains});
     phase.curves.push_back({label, x, angles});
