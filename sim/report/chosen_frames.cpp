@@ -119,9 +119,9 @@ std::vector<ChosenFrame> chosen_frames(const std::vector<double>& times_s, const
     const auto between = in_widest_gap(times_s, chosen);
     if (!between) break;
     chosen.try_emplace(*between);
+  }
   std::vector<ChosenFrame> frames;
   frames.reserve(chosen.size());
-  std::vector<ChosenFrame> frames;
   for (auto& [frame, what] : chosen) frames.push_back({frame, std::move(what)});
   return frames;
 }
