@@ -1,6 +1,7 @@
 #include "sim/studies/bode/loop.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -119,6 +120,18 @@ double period_of(const Margins& margins) {
   return margins.phase ? 1 / margins.phase->frequency : 0;
 }
 
+/// What a margin in times of the gain is of.
+std::string gains_of(loop::Simulation& simulation) {
+  constexpr std::size_t most = 12;
+  std::vector<std::string> gains;
+  auto& names = simulation.names();
+  for (const auto& name : names.reading_names())
+    for (const auto* gain : {".pgain", ".integt", ".derivt", ".feedfw", ".kv"})
+      if (name.ends_with(gain) && gains.size() < most)
+        gains.push_back(fmt::format("{} {:g}", name, names.reading(name)->read()));
+  return fmt::format("{}", fmt::join(gains, ", "));
+}
+
 void disarm(loop::Simulation& simulation) {
   for (const auto& [name, plant] : simulation.plants())
     for (const auto& drive : plant->drives()) drive.stage->disarm();
@@ -182,6 +195,7 @@ std::optional<LoopResult> measure_loop(const scenario::Scenario& scenario, const
   if (!result.speed.empty()) result.speed_unit = prepared.excited->names().reading(result.speed)->unit;
   result.sweep = measure(*prepared.excited, *prepared.still, result.plan, progress);
   result.margins = margins_of(result.sweep.points);
+  result.gains = gains_of(*prepared.still);
   result.play = play_of(scenario, result.wire);
   if (request.pushes && !result.play.empty() && result.sweep.failure.empty())
     result.hunting = push_loop(scenario, request, period_of(result.margins), problems);

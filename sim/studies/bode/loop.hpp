@@ -76,6 +76,7 @@ struct LoopResult {
   std::optional<Margins> without_computing;  ///< the same with compute_time 0, where the scenario has one
   std::string play;                          ///< of the plant at the wire: "axis.gap 0.4 mm", "" = none
   std::optional<HuntingPoint> hunting;       ///< where there is play, if it was asked for
+  std::string gains;  ///< of the controller's axes, in force: "AxisX.pgain 50, AxisX.feedfw 1000"; "" = none
 
   /// The phase margin, if it is known: the loop is sound, and up to twice the crossover all answers are to be
   /// trusted. What does not answer above that is another matter.

@@ -257,6 +257,7 @@ constexpr std::string_view reading =
 
 std::string bode_report(const LoopResult& result) {
   auto text = subject(result) + '\n';
+  if (!result.gains.empty()) text += fmt::format("gains in force: {}\n", result.gains);
   // First what is not to be trusted: no number then stands without its reason.
   for (const auto& doubt : loop_doubts(result)) text += to_string(doubt) + '\n';
   if (!heard(result).empty()) {
@@ -305,6 +306,7 @@ void write_bode_report(const LoopResult& result, const LimitCycle* cycle, const 
   report::add_checks(checks, report);
   report.facts = {
       {{"measured", subject(result)}}, {{"reading", std::string(reading)}}, {{"drycut", DRYCUT_VERSION}}};
+  if (!result.gains.empty()) report.facts.push_back({{"gains in force", result.gains}});
   if (const auto lost = heard(result).size() - known(result).size(); lost > 0)
     report.facts.push_back(
         {{"left out", fmt::format("{} where the answer is noise (error above {:.0f} %); bode.csv has "
