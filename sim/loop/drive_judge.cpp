@@ -297,7 +297,7 @@ record::DriveVerdict DriveJudge::verdict(Drive drive) const {
           fmt::format("{}, {:.3g} s in all, first at {:.3f} s",
                       times == 1 ? "once" : fmt::format("{} times", times), time, first);
   }
-  remark(verdict, whole, drive.heavier.has_value());
+  if (judged_) remark(verdict, whole, drive.heavier.has_value());
   if (stage.without_mains() > 0 && !drive.tells_mains)
     verdict.warnings.push_back(
         fmt::format("{0}: a phase, or more than 15 % of the voltage, of its mains was missing for {1:.3g} s, "

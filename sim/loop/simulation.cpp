@@ -614,9 +614,8 @@ record::Outcome Simulation::outcome() {
     if (!check.doubt.empty())
       warnings.emplace_back(check.judged_nothing() ? "check.judged-nothing"_code : "check.far-limit"_code,
                             check.doubt);
-  if (drives_->judges())
-    for (const auto& drive : outcome.drives)
-      for (const auto& warning : drive.warnings) warnings.emplace_back("drive.warning"_code, warning);
+  for (const auto& drive : outcome.drives)
+    for (const auto& warning : drive.warnings) warnings.emplace_back("drive.warning"_code, warning);
   if (controller_ && time_ > 0) warn_of_program(warnings);
   const auto cams = cams_ && judge_cams_ ? judge_cams_(cams_->played()) : CamJudgement();
   for (const auto& cam : cams.doubts)
