@@ -75,6 +75,21 @@ double most_gain(const Curve& curve) {
   return most;
 }
 
+/// The least of it with the filters a little beside their place, for no machine resonates where it was
+/// measured.
+double most_gain(const SpeedLoop& loop, const plants::TorqueFilterData& filters) {
+  constexpr double beside = 0.05;
+  double least = largest_factor;
+  for (const double times : {1 - beside, 1.0, 1 + beside}) {
+    auto moved = filters;
+    moved.low_pass /= times;
+    for (auto& notch : moved.notches) notch.frequency *= times;
+    const double most = most_gain(curve_of(points_with(loop, moved)));
+    least = times == 1 - beside ? most : std::min(least, most);
+  }
+  return least;
+}
+
 /// The same for who chooses filters: none that costs the loop more phase at the gain in force than may be, or
 /// any of its gain margin.
 double most_with(const SpeedLoop& loop, const Margins& present, const plants::TorqueFilterData& filters) {
@@ -88,7 +103,7 @@ double most_with(const SpeedLoop& loop, const Margins& present, const plants::To
   constexpr double steep = 10;
   const double over =
       short_of(margins.phase, present.phase, most_cost) + short_of(margins.gain, present.gain, 0);
-  return most_gain(curve_of(points)) - steep * over;
+  return most_gain(loop, filters) - steep * over;
 }
 
 /// A kind of filter with its values as numbers from 0 to 1.
@@ -165,8 +180,10 @@ std::string margin_text(const std::optional<AtFrequency>& margin, const char* un
 }
 
 std::vector<std::string> cells_of(const FilterAdvice& advice, const FilterChoice& choice) {
-  return {filter_text(choice.filters), margin_text(choice.margins.gain, "dB"),
-          margin_text(choice.margins.phase, "deg"),
+  auto gain = margin_text(choice.margins.gain, "dB");
+  if (const auto& down = choice.margins.gain_down)
+    gain += fmt::format("; downwards {:.1f} dB at {}", down->value, hertz_text(down->frequency));
+  return {filter_text(choice.filters), std::move(gain), margin_text(choice.margins.phase, "deg"),
           fmt::format("{:.0f} rad/s", choice.factor * advice.loop.speed_gain)};
 }
 
@@ -207,9 +224,9 @@ std::string sentence_of(const FilterAdvice& advice) {
     return before && after ? fmt::format("{:+.1f} deg of phase margin", after->value - before->value)
                            : "no phase margin to compare";
   };
-  return fmt::format("{}: {}; {}, {}; speed_gain up to {:.0f} rad/s in place of {:.0f}", loop.drive,
-                     filter_text(best.filters), gained(), cost(), best.factor * loop.speed_gain,
-                     advice.present.factor * loop.speed_gain);
+  return fmt::format("{}: {}; {}, {}; speed_gain up to {:.0f} rad/s, without a filter up to {:.0f}; now {:g}",
+                     loop.drive, filter_text(best.filters), gained(), cost(), best.factor * loop.speed_gain,
+                     advice.present.factor * loop.speed_gain, loop.speed_gain);
 }
 
 /// The servo that the request means: a plant and its row of parameters.
@@ -292,8 +309,7 @@ bool FilterAdvice::worth() const {
 }
 
 FilterChoice judged_with(const SpeedLoop& loop, const plants::TorqueFilterData& filters) {
-  const auto points = points_with(loop, filters);
-  return {filters, margins_of(points), std::pow(10, most_gain(curve_of(points)) / 20)};
+  return {filters, margins_of(points_with(loop, filters)), std::pow(10, most_gain(loop, filters) / 20)};
 }
 
 FilterAdvice advise(SpeedLoop measured) {
@@ -355,7 +371,7 @@ std::optional<SpeedLoop> measure_speed_loop(const scenario::Scenario& scenario, 
   while (excited.time() < at)
     if (!twins.advance(0)) break;
   constexpr double lowest = 2;
-  constexpr double window = 0.5;
+  constexpr double window = 2;
   constexpr int points = 180;  // a resonance has some in its width
   const auto tones = plan_tones(request.from.value_or(lowest), request.to.value_or(0.25 / measured.step),
                                 std::max(request.points, points), scenario.scene.step, window);
@@ -367,7 +383,7 @@ std::optional<SpeedLoop> measure_speed_loop(const scenario::Scenario& scenario, 
     if (progress) progress(static_cast<double>(measured.points.size()) / static_cast<double>(tones.size()));
   }
   measured.failure = excited.failure().empty() ? still.failure() : excited.failure();
-  std::erase_if(measured.points, [](const BodePoint& point) {
+  measured.lost = std::erase_if(measured.points, [](const BodePoint& point) {
     constexpr double silent = 1e-5;  // it sticks
     const double answer = std::abs(point.open_loop);
     return !std::isfinite(answer) || answer < silent || !(point.doubt() <= bode_error_limit);
@@ -399,17 +415,28 @@ void write_advice_report(const FilterAdvice& advice, const scenario::Scenario& s
   auto report = report::page_of(verdict_of(advice));
   report.scenario = scenario.file.filename().string();
   report.facts = {
-      {{"measured", fmt::format("a sine of {:.3g} N m, {:.0f} % of rated torque, at {} frequencies",
-                                advice.loop.amplitude, 0.05 * percent, advice.loop.points.size())}},
+      {{"measured",
+        fmt::format("a sine of {:.3g} N m, {:.0f} % of rated torque, at {} frequencies from {} to {}; {} "
+                    "left out where "
+                    "the answer was lost in what else moves",
+                    advice.loop.amplitude, 0.05 * percent, advice.loop.points.size(),
+                    advice.loop.points.empty() ? "" : hertz_text(advice.loop.points.front().frequency),
+                    advice.loop.points.empty() ? "" : hertz_text(advice.loop.points.back().frequency),
+                    advice.loop.lost)}},
+      {{"reading", "those of the simulated loop: a drive's own dead time comes on top"}},
       {{"drycut", DRYCUT_VERSION}}};
   report::add_overrides(scenario.overrides, report);
   report.scenario_expanded = scenario::expand(scenario);
   if (advice.loop.points.empty()) return report::write_report(std::move(report), {}, folder);
   report.summary = {table_of(advice)};
   if (advice.worth())
-    report.texts = {{"To paste", fmt::format("plants:\n  {}:\n    servo: {{{}}}\n",
-                                             advice.loop.drive.substr(0, advice.loop.drive.find('.')),
-                                             filter_text(advice.choices.front().filters))}};
+    report.texts = {
+        {"To paste",
+         fmt::format("# It costs phase, and gains where speed_gain goes up: to {:.0f} rad/s at most\n"
+                     "plants:\n  {}:\n    servo: {{{}}}\n",
+                     advice.choices.front().factor * advice.loop.speed_gain,
+                     advice.loop.drive.substr(0, advice.loop.drive.find('.')),
+                     filter_text(advice.choices.front().filters))}};
   renders::Plot plot;
   plot.name = "speed_loop";
   plot.title = advice.loop.drive + ": open speed loop";

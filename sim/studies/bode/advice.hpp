@@ -23,7 +23,8 @@ struct SpeedLoop {
   double speed_gain = 0;             ///< that is set [rad/s]
   plants::TorqueFilterData filters;  ///< that are set
   std::vector<BodePoint> points;
-  std::string failure;  ///< why the simulation stopped, "" if it did not
+  std::size_t lost = 0;  ///< points that are not to be trusted, which are none of them
+  std::string failure;   ///< why the simulation stopped, "" if it did not
 };
 
 /// What a loop may be given: the largest gain that keeps both.
@@ -36,7 +37,8 @@ inline constexpr double largest_factor = 30;
 /// One choice of filters.
 struct FilterChoice {
   plants::TorqueFilterData filters;
-  Margins margins;    ///< at the gain in force
+  Margins margins;  ///< at the gain in force
+  /// With filters up to 5 % beside their places.
   double factor = 0;  ///< of the gain in force: the largest that keeps 8 dB and 40 deg
 };
 

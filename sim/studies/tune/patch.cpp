@@ -51,7 +51,8 @@ std::vector<PatchEntry> entries_of(const Tuning& tuning) {
   for (std::size_t i = 0; i < parameters.size() && !tuning.stays; ++i) {
     const auto& before = tuning.present[i].value;
     entries.push_back({parameters[i].path, value_text(parameters[i], point[i]),
-                       before ? fmt::format("drycut tune; before: {}", value_text(parameters[i], *before))
+                       before ? fmt::format("drycut tune; before: {}{}", value_text(parameters[i], *before),
+                                            tuning.present[i].set_by == "--set" ? " (--set)" : "")
                               : std::string("drycut tune")});
   }
   for (const auto& override : tuning.study.set) {

@@ -59,6 +59,8 @@ std::string limits_text(const Verdict& verdict) {
 
 /// For a cell of a table of trials: short where the reason is a sentence.
 std::string trial_text(const Verdict& verdict) {
+  const bool unknown = std::ranges::any_of(verdict.room, [](double room) { return std::isnan(room); });
+  if (verdict.feasible() && unknown) return "kept what was measured; not its margins: no better";
   return verdict.feasible() || verdict.stopped || verdict.unmeasured() ? limits_text(verdict)
                                                                        : reason_text(verdict);
 }
@@ -128,8 +130,6 @@ std::string pushes_text(const Tuning& tuning) {
   auto text =
       fmt::format("{}: pushed at rest by {} to {} V it {}; it hunts {}", played->play, least_push,
                   largest_push, from <= 1 ? "goes on hunting" : "comes to rest again", hunts_from_text(from));
-  if (tuning.study.needs_loop)
-    text += fmt::format("; phase margins hold for a sine of {:.3g} V only", tuning.study.loop.amplitude);
   if (tuning.spread == nullptr) return text;
   double least = std::numeric_limits<double>::infinity();
   int hunting = 0;
@@ -245,6 +245,16 @@ double largest_metric(const Trials& spread) {
   double largest = std::numeric_limits<double>::quiet_NaN();
   for (const auto& trial : spread.trials()) largest = std::fmax(largest, trial.verdict.metric);
   return largest;
+}
+
+bool has_play(const Tuning& tuning) {
+  return std::ranges::any_of(tuning.study.cases, [](const auto& entry) { return !entry.play.empty(); });
+}
+
+/// With play a margin is one of its sine.
+std::string sine_text(const Tuning& tuning) {
+  if (!tuning.study.needs_loop || !has_play(tuning)) return "";
+  return fmt::format("; phase margins hold for a sine of {:.3g} V only", tuning.study.loop.amplitude);
 }
 
 /// "; checks ignored, 1 of 7 failed with these values"; "" where they count.
@@ -363,7 +373,8 @@ record::Verdict verdict_of(const Tuning& tuning) {
   const auto change = tuning.stays ? metric_equals(tuning, metric_text(after))
                                    : fmt::format("{}: {}{} before, {}{} after", tuning.study.minimise,
                                                  metric_text(tuning.before), unit, metric_text(after), unit);
-  verdict.sentence = first + change + (after.feasible() ? "; all limits kept" : "") + ignored_text(tuning);
+  verdict.sentence = first + change + (after.feasible() ? "; all limits kept" : "") + sine_text(tuning) +
+                     ignored_text(tuning);
   verdict.counts["tried"] = std::ssize(tuning.trials.trials());
   for (const auto& part : tuning.used) verdict.counts["runs"] += part.second;
   return verdict;
