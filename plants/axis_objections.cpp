@@ -50,7 +50,12 @@ void AxisObjections::contact(const std::string& group, const EndStopData& stop, 
 }
 
 void AxisObjections::screw(const ScrewDriveData& data, double motor_inertia) {
-  gear(data.gear, motor_inertia, behind_gear(data));
+  const double all =
+      reflected_inertia(data) + (data.nut_stiffness > 0 || data.nut_rigid ? data.screw_inertia : 0);
+  gear(with_stiffness(data.gear, motor_inertia, all), motor_inertia, behind_gear(data));
+  if (data.nut_damping > 0 && data.nut_stiffness <= 0)
+    object("plant.parameters-contradict"_code, "nut.damping", "the nut has no stiffness of its own",
+           "nut.stiffness, or leave it out");
   if (data.nut_stiffness > 0) {
     const double metre = data.lead / units::turn;  // of travel for a radian of the screw
     pair("nut.stiffness", "nut.damping",

@@ -13,7 +13,8 @@ namespace {
 
 // Rows of the linear axis that the flanks replace, and the carrier: this axis stands on the floor.
 bool replaced(std::string_view name) {
-  return name == "gear.stiffness" || name == "gear.damping" || name == "gear.backlash" || name == "carrier";
+  return name.starts_with("nut.") || name == "gear.stiffness" || name == "gear.damping" ||
+         name == "gear.backlash" || name == "carrier";
 }
 
 }  // namespace

@@ -11,9 +11,6 @@ namespace drycut::plants {
 
 namespace {
 
-/// The same friction both ways: what is lost of the torque behind, 1 / driving - 1, is lost again.
-constexpr double backwards(double driving) { return 2 - 1 / driving; }
-
 struct Kind {
   std::string_view name;
   std::string_view meaning;
@@ -22,16 +19,11 @@ struct Kind {
 };
 
 template <std::size_t N>
-std::vector<Preset> presets(const std::array<Kind, N>& kinds, std::string_view efficiency,
-                            std::string_view back_efficiency) {
+std::vector<Preset> presets(const std::array<Kind, N>& kinds, std::string_view efficiency) {
   std::vector<Preset> made;
   made.reserve(N);
   for (const auto& [name, meaning, driving, source] : kinds)
-    made.push_back(
-        {name,
-         meaning,
-         {{efficiency, driving, source},
-          {back_efficiency, backwards(driving), "2 - 1/efficiency: the same friction both ways"}}});
+    made.push_back({name, meaning, {{efficiency, driving, source}}});
   return made;
 }
 
@@ -41,8 +33,8 @@ constexpr std::string_view ideal = "nothing is lost: the torque of a real machin
 
 Efficiency in_series(const Efficiency& gear, const Efficiency& behind) {
   // What locks itself must be driven even where its load pushes.
-  const double driven = behind.driven > 0 ? gear.driven : 1 / gear.driving;
-  return {gear.driving * behind.driving, driven * behind.driven};
+  const double driven = behind.backwards() > 0 ? gear.backwards() : 1 / gear.driving;
+  return {gear.driving * behind.driving, driven * behind.backwards()};
 }
 
 const std::vector<Preset>& gear_types() {
@@ -58,7 +50,7 @@ const std::vector<Preset>& gear_types() {
            "estimate: 0.9 at a ratio of 5 down to 0.6 at 50; take it from the sheet"},
           {"belt", "toothed belt", 0.95, "usual: 0.95 to 0.98, less when it is tight"},
       }},
-      "gear.efficiency", "gear.back_efficiency");
+      "gear.efficiency");
   return all;
 }
 
@@ -73,27 +65,30 @@ const std::vector<Preset>& slide_types() {
                   {"belt", "toothed belt over a pulley", 0.95, "usual: 0.95 to 0.98"},
                   {"rack", "rack and pinion", 0.9, "estimate: 0.97 of the teeth, less of pinion bearings"},
               }},
-              "efficiency", "back_efficiency");
+              "efficiency");
   return all;
 }
 
 Parameters efficiency_parameters(Efficiency& efficiency, std::string_view source) {
-  return {row("efficiency", "", "torque that arrives over torque of the motor, while the motor drives",
-              efficiency.driving, 0.05, 1, source),
-          row("back_efficiency", "",
-              "the same backwards, while the load drives the motor; 0 or less: self-locking",
-              efficiency.driven, -20, 1, source)};
+  return {
+      row("efficiency", "", "torque that arrives over torque of the motor, while the motor drives",
+          efficiency.driving, 0.05, 1, source),
+      row("back_efficiency", "",
+          "the same backwards, while the load drives the motor; 0 or less: self-locking; -20: by the same "
+          "friction both ways, 2 - 1/efficiency",
+          efficiency.driven, Efficiency::follows, 1,
+          efficiency.driven > Efficiency::follows ? source : "2 - 1/efficiency")};
 }
 
 std::vector<PlantDefinition::Objection> efficiency_objections(const Efficiency& efficiency,
                                                               const std::string& group) {
   constexpr double apart = 0.1;  // sheets have a ball screw's 0.9 beside 0.8
-  const double even = backwards(efficiency.driving);
-  if (efficiency.driven <= even + apart) return {};
+  const double even = 2 - 1 / efficiency.driving;
+  if (efficiency.backwards() <= even + apart) return {};
   return {{"plant.parameters-contradict"_code, group + "back_efficiency",
            fmt::format("{:.3g} backwards beside {:.3g} forwards: the same friction would leave {:.3g}",
                        efficiency.driven, efficiency.driving, even),
-           fmt::format("{:.3g}, 2 - 1/efficiency, or less", even)}};
+           fmt::format("leave it out: {:.3g}; at most 0.1 more", even)}};
 }
 
 }  // namespace drycut::plants

@@ -12,19 +12,24 @@ namespace drycut::plants {
 /// What a gear, a screw, a belt or a rack leaves of the torque that goes through it. What it takes is dry
 /// friction on the motor's shaft, in proportion to that torque.
 struct Efficiency {
-  double driving = 1;  ///< while the motor drives its load; over 0, to 1
-  double driven = 1;   ///< while the load drives the motor; to 1; 0 or less: self-locking
+  static constexpr double follows = -20;  ///< `driven` as the same friction both ways has it
+
+  double driving = 1;       ///< while the motor drives its load; over 0, to 1
+  double driven = follows;  ///< while the load drives the motor; to 1; 0 or less: self-locking
+
+  /// `driven`, which is 2 - 1/driving where it follows: what is lost of the torque behind is lost again.
+  [[nodiscard]] double backwards() const { return driven > follows ? driven : 2 - 1 / driving; }
 };
 
 /// Of a gear and of what is behind it.
 [[nodiscard]] Efficiency in_series(const Efficiency& gear, const Efficiency& behind);
 
 /// What resists on the motor's shaft, where `torque` [N m] would go through without losses: against a motion
-/// that the motor must drive (1 / driving - 1) of it, against one that its load drives (1 - driven) of it,
+/// that the motor must drive (1 / driving - 1) of it, against one that its load drives (1 - backwards) of it,
 /// less than the torque itself unless self-locking.
 [[nodiscard]] inline DryResistance losses(const Efficiency& efficiency, double torque) {
   const double driving = std::abs(torque) * (1 / efficiency.driving - 1);
-  const double driven = std::abs(torque) * (1 - efficiency.driven);
+  const double driven = std::abs(torque) * (1 - efficiency.backwards());
   return torque > 0 ? DryResistance{driving, driven} : DryResistance{driven, driving};
 }
 

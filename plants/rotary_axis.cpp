@@ -179,7 +179,7 @@ Parameters rotary_axis_parameters(RotaryAxisData& data) {
   return joined(
       Parameters{
           live(row("inertia", "kg m2", "of all that turns behind the gear, with what it carries",
-                   data.inertia, 1e-6, 1e5, "steel plate of 600 mm by 25 mm, and its parts")),
+                   data.inertia, 1e-6, 1e5, "aluminium plate of 600 mm by 25 mm, and its parts")),
           row("unbalance", "N m", "torque of its weight where that is largest, 0 = balanced, or upright",
               data.unbalance, 0, 1e5, "balanced"),
           row("unbalance_angle", "deg", "angle at which its weight hangs down", data.unbalance_angle, -360,

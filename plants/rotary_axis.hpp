@@ -18,7 +18,7 @@ struct RotaryAxisData {
   double unbalance_angle = 0;  ///< at which its weight hangs down [rad]
   double start = 0;            ///< angle at the start; the encoder counts 0 there [rad]
   AxisDriveData drive = {.servo = {.inertia_ratio = 1.9}};
-  TransmissionData gear = {10, 60e3, 8, 0};
+  TransmissionData gear = {10, 52e3, 13, 0};
   Friction motor_friction = {0.1, 0.0005, 0, 1};
   Friction friction = {4, 0.5, 0, 1};
   EncoderData encoder = {.lines = 2500};

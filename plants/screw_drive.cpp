@@ -97,7 +97,10 @@ ScrewDrive::ScrewDrive(const ScrewDriveData& data, const std::string& name, doub
 
 void ScrewDrive::take_data(const ScrewDriveData& data, double mass) {
   data_ = data;
-  data_.gear = with_stiffness(data.gear, plants::motor_inertia(data, rotor_inertia_), behind_gear(data));
+  // One that is not known is by all that it moves.
+  data_.gear = with_stiffness(
+      data.gear, plants::motor_inertia(data, rotor_inertia_),
+      reflected_inertia(data) + (screw_ != nullptr || data.nut_rigid ? data.screw_inertia : 0));
   before_screw_ = screw_ != nullptr ? data.gear.efficiency : efficiency(data);
   guide_friction_ = data.guide_friction;
   guide_friction_.coulomb += data.guide_coefficient * data.guide_weight * mass * units::gravity;

@@ -23,7 +23,10 @@ ServoData electrical(ServoData data) {
     if (value == 0) value = otherwise;
   };
   estimate(data.stall_torque, data.rated_torque);
-  if (data.rated_current > 0) data.torque_constant = data.rated_torque / data.rated_current;
+  if (data.rated_current > 0)
+    data.torque_constant = data.rated_torque / data.rated_current;
+  else if (data.stall_current > 0)
+    data.torque_constant = data.stall_torque / data.stall_current;
   estimate(data.rated_current, data.rated_torque / data.torque_constant);
   estimate(data.stall_current, data.stall_torque / data.torque_constant);
   estimate(data.peak_current, (sheet ? saturation : 1) * data.peak_torque / data.torque_constant);
@@ -102,10 +105,12 @@ std::vector<PlantDefinition::Objection> servo_objections(const ServoData& data, 
     if (known.stall_torque >= data.rated_torque && known.stall_current < known.rated_current * (1 - 1e-9))
       found.push_back({"plant.parameters-contradict"_code, "servo.stall_current",
                        "it is below servo.rated_current, at no less torque", "at least servo.rated_current"});
-    if (known.peak_current <= std::max(known.stall_current, known.rated_current))
+    constexpr double rounded = 0.98;
+    const double least = known.peak_torque / known.torque_constant;
+    if (known.peak_current < rounded * least)
       found.push_back({"plant.parameters-contradict"_code, "servo.peak_current",
-                       "it is not above the current at standstill, at more torque",
-                       "rms as the others: a peak value over root 2"});
+                       fmt::format("it is below {:.3g} A, what the peak torque takes in proportion", least),
+                       "more, for iron saturates; all currents are rms, peak values over root 2"});
   }
   for (auto& objection : power_objections("servo.", data.amplifier, data.supply))
     found.push_back(std::move(objection));

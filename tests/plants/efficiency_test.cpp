@@ -134,18 +134,23 @@ TEST(Efficiency, BackwardsNeedsTheFrictionThatThereIsForwards) {
   EXPECT_THAT(found[0].remedy, testing::HasSubstr("-0.857"));
 }
 
-// What a word stands for is in its table, and the values are those of the rows.
+// What a sheet says forwards is enough.
+TEST(Efficiency, BackwardsFollowsUnlessItIsGiven) {
+  EXPECT_EQ(Efficiency().backwards(), 1);
+  EXPECT_NEAR((Efficiency{.driving = 0.9}).backwards(), 2 - 1 / 0.9, 1e-12);
+  EXPECT_NEAR((Efficiency{0.9, 0.8}).backwards(), 0.8, 1e-12);
+  EXPECT_NEAR(in_series({.driving = 0.9}, {.driving = 0.35}).driven, (2 - 1 / 0.35) / 0.9, 1e-12);
+  EXPECT_TRUE(efficiency_objections({.driving = 0.05}, "").empty());
+}
+
+// What a word stands for is in its table.
 TEST(Efficiency, KindsStandForValuesOfTheTable) {
   LinearAxisDefinition axis;
   const auto rows = axis.parameters();
   for (const auto* kinds : {&gear_types(), &slide_types()})
-    for (const Preset& kind : *kinds) {
-      ASSERT_EQ(kind.values.size(), 2U);
+    for (const Preset& kind : *kinds)
       for (const auto& value : kind.values)
         EXPECT_EQ(std::ranges::count(rows, value.parameter, &Parameter::name), 1) << value.parameter;
-      const Efficiency both = {kind.values[0].value, kind.values[1].value};
-      EXPECT_TRUE(efficiency_objections(both, "").empty()) << kind.name;
-    }
 }
 
 }  // namespace

@@ -220,7 +220,7 @@ TEST(MotorCurrent, ThoseThatContradictAreTold) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].parameter, "servo.stall_current");
   data = with_currents();
-  data.peak_current = 6;
+  data.peak_current = 14;
   found = servo_objections(data, data.rotor_inertia * 5, h);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].parameter, "servo.peak_current");

@@ -26,7 +26,7 @@ struct Model {
         inertia(d.drive.motor.rotor_inertia + d.screw_inertia / (d.gear.ratio * d.gear.ratio)),
         r(d.lead / turn / d.gear.ratio),
         up(d.efficiency.driving),
-        down(d.efficiency.driven),
+        down(d.efficiency.backwards()),
         motor_dry(d.motor_friction.coulomb),
         motor_viscous(d.motor_friction.viscous),
         guide_dry(d.guide_friction.coulomb),

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlopt.hpp>
+#include <numbers>
 #include <utility>
 
 #include "plants/power_stage.hpp"
@@ -47,45 +48,64 @@ Curve curve_of(const std::vector<BodePoint>& points) {
   return curve;
 }
 
-/// The largest factor of gain [dB] with which no frequency comes nearer than the margins, from where the
-/// phase has first left them on: |L| < 1 where it is within 40 deg of -180 or beyond; 8 dB less where it is
-/// beyond, and at the last frequency, for nothing is known of what comes after it.
-double most_gain(const Curve& curve) {
-  constexpr double least = -60;
-  const double largest = 20 * std::log10(largest_factor);
-  const auto& [gains, angles] = curve;
-  // At low frequencies the integral time bends the phase; more gain is no danger there.
-  std::size_t best = 0;
-  while (best < angles.size() && angles[best] < -180 + kept_phase_margin) ++best;
-  if (gains.empty()) return 0;
-  if (best == angles.size()) return least;
-  double most = std::min(largest, -gains.back() - kept_gain_margin);
-  for (std::size_t i = best; i < gains.size(); ++i) {
-    if (angles[i] < -180) most = std::min(most, -gains[i] - kept_gain_margin);
-    if (angles[i] < -180 + kept_phase_margin) most = std::min(most, -gains[i]);
-    // Where a limit of phase is passed between two points.
-    if (i == best) continue;
-    for (const auto& [level, room] :
-         {std::pair(-180.0, kept_gain_margin), std::pair(-180.0 + kept_phase_margin, 0.0)}) {
-      if ((angles[i - 1] < level) == (angles[i] < level)) continue;
-      const double share = (angles[i - 1] - level) / (angles[i - 1] - angles[i]);
-      most = std::min(most, -(gains[i - 1] + share * (gains[i] - gains[i - 1])) - room);
-    }
+/// Of a closed loop at some factor of its gain.
+struct Closed {
+  double sensitivity = 0;  ///< largest
+  double turned = 0;       ///< by which 1 + L turns from the first frequency to the last [rad]
+  double left = 0;         ///< |L| at the last frequency
+};
+
+Closed closed(const std::vector<BodePoint>& points, double factor) {
+  Closed loop;
+  std::complex<double> before;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto now = 1.0 + factor * points[i].open_loop;
+    loop.sensitivity = std::max(loop.sensitivity, 1 / std::abs(now));
+    if (i > 0) loop.turned += std::arg(now / before);
+    before = now;
   }
-  return most;
+  if (!points.empty()) loop.left = factor * std::abs(points.back().open_loop);
+  return loop;
+}
+
+/// The largest factor of gain, from the gain in force on, that keeps the sensitivity: it goes up from there,
+/// or down to where it is kept. `turned`: as the loop turns that was measured, which is stable; one that
+/// turns otherwise goes round -1 (Nyquist). What comes after the last frequency is not known: little may be
+/// left there.
+double most_gain(const std::vector<BodePoint>& points, double turned) {
+  constexpr double step = 1.03;
+  constexpr double most_left = 0.4;
+  const auto is_kept = [&](double factor) {
+    const auto loop = closed(points, factor);
+    return loop.sensitivity <= kept_sensitivity && loop.left <= most_left &&
+           std::abs(loop.turned - turned) < std::numbers::pi / 2;
+  };
+  double kept = 1;
+  if (!is_kept(kept)) {
+    while (kept > 1 / largest_factor && !is_kept(kept)) kept /= step;
+    if (!is_kept(kept)) return 1 / largest_factor;
+  } else {
+    while (kept < largest_factor && is_kept(kept * step)) kept *= step;
+  }
+  double over = kept * step;
+  for (int i = 0; i < 12; ++i) {
+    const double middle = std::sqrt(kept * over);
+    (is_kept(middle) ? kept : over) = middle;
+  }
+  return kept;
 }
 
 /// The least of it with the filters a little beside their place, for no machine resonates where it was
 /// measured.
 double most_gain(const SpeedLoop& loop, const plants::TorqueFilterData& filters) {
   constexpr double beside = 0.05;
+  const double turned = closed(loop.points, 1).turned;
   double least = largest_factor;
   for (const double times : {1 - beside, 1.0, 1 + beside}) {
     auto moved = filters;
     moved.low_pass /= times;
     for (auto& notch : moved.notches) notch.frequency *= times;
-    const double most = most_gain(curve_of(points_with(loop, moved)));
-    least = times == 1 - beside ? most : std::min(least, most);
+    least = std::min(least, most_gain(points_with(loop, moved), turned));
   }
   return least;
 }
@@ -93,17 +113,15 @@ double most_gain(const SpeedLoop& loop, const plants::TorqueFilterData& filters)
 /// The same for who chooses filters: none that costs the loop more phase at the gain in force than may be, or
 /// any of its gain margin.
 double most_with(const SpeedLoop& loop, const Margins& present, const plants::TorqueFilterData& filters) {
-  const auto points = points_with(loop, filters);
-  const auto margins = margins_of(points);
+  const auto margins = margins_of(points_with(loop, filters));
   const auto short_of = [](const std::optional<AtFrequency>& now, const std::optional<AtFrequency>& before,
                            double less) {
     return before ? std::max(0.0, before->value - less - (now ? now->value : before->value)) : 0;
   };
   // Steep, so that the search finds back.
-  constexpr double steep = 10;
   const double over =
       short_of(margins.phase, present.phase, most_cost) + short_of(margins.gain, present.gain, 0);
-  return most_gain(loop, filters) - steep * over;
+  return std::log(most_gain(loop, filters)) - over;
 }
 
 /// A kind of filter with its values as numbers from 0 to 1.
@@ -116,7 +134,7 @@ double between(double low, double high, double share) { return low * std::pow(hi
 
 plants::NotchData notch_of(const SpeedLoop& loop, const std::vector<double>& x, std::size_t at) {
   const double highest = std::min(0.2 / loop.step, loop.points.back().frequency);
-  return {between(10, highest, x[at]), between(0.03, 0.7, x[at + 1]), between(0.1, 1, x[at + 2])};
+  return {between(10, highest, x[at]), between(0.03, 0.7, x[at + 1]), between(0.2, 1, x[at + 2])};
 }
 
 /// The best of a family: every corner of a grid, then downhill from the best.
@@ -130,7 +148,7 @@ FilterChoice best_of(const SpeedLoop& loop, const Margins& present, const Family
     std::vector<double> x(family.values, 0);
     double best = -1e9;
     std::vector<int> place(family.values, 0);
-    const auto steps = [&](std::size_t i) { return i == 0 ? sides : 6; };
+    const auto steps = [&](std::size_t i) { return i == 0 ? sides : 4; };
     for (bool more = true; more;) {
       for (std::size_t i = 0; i < x.size(); ++i) x[i] = place[i] / static_cast<double>(steps(i));
       if (const double now = value(x); now > best) {
@@ -188,11 +206,10 @@ std::vector<std::string> cells_of(const FilterAdvice& advice, const FilterChoice
 }
 
 renders::ReportTable table_of(const FilterAdvice& advice) {
-  renders::ReportTable table{
-      "Filters of the torque",
-      {"servo:", "gain margin", "phase margin",
-       fmt::format("largest speed_gain with {:g} dB and {:g} deg", kept_gain_margin, kept_phase_margin)},
-      {}};
+  renders::ReportTable table{"Filters of the torque",
+                             {"servo:", "gain margin", "phase margin",
+                              fmt::format("largest speed_gain with a sensitivity of {:g}", kept_sensitivity)},
+                             {}};
   table.rows.push_back({cells_of(advice, advice.present)});
   table.rows.back().cells[0] += " (present)";
   for (const auto& choice : advice.choices) table.rows.push_back({cells_of(advice, choice)});
@@ -309,7 +326,7 @@ bool FilterAdvice::worth() const {
 }
 
 FilterChoice judged_with(const SpeedLoop& loop, const plants::TorqueFilterData& filters) {
-  return {filters, margins_of(points_with(loop, filters)), std::pow(10, most_gain(loop, filters) / 20)};
+  return {filters, margins_of(points_with(loop, filters)), most_gain(loop, filters)};
 }
 
 FilterAdvice advise(SpeedLoop measured) {
@@ -372,7 +389,7 @@ std::optional<SpeedLoop> measure_speed_loop(const scenario::Scenario& scenario, 
     if (!twins.advance(0)) break;
   constexpr double lowest = 2;
   constexpr double window = 2;
-  constexpr int points = 180;  // a resonance has some in its width
+  constexpr int points = 360;  // a resonance has some in its width
   const auto tones = plan_tones(request.from.value_or(lowest), request.to.value_or(0.25 / measured.step),
                                 std::max(request.points, points), scenario.scene.step, window);
   for (const auto& tone : tones) {

@@ -27,9 +27,9 @@ struct SpeedLoop {
   std::string failure;   ///< why the simulation stopped, "" if it did not
 };
 
-/// What a loop may be given: the largest gain that keeps both.
-inline constexpr double kept_gain_margin = 8;    // [dB]
-inline constexpr double kept_phase_margin = 40;  // [deg]
+/// What a loop may be given: the largest gain with a sensitivity |1 / (1 + L)| of at most 2, which has 6 dB
+/// of gain margin up and down and 29 deg of phase margin at least.
+inline constexpr double kept_sensitivity = 2;
 /// What a filter may cost at the gain in force, and how much more gain is looked for at most.
 inline constexpr double most_cost = 10;  // [deg]
 inline constexpr double largest_factor = 30;
@@ -39,7 +39,7 @@ struct FilterChoice {
   plants::TorqueFilterData filters;
   Margins margins;  ///< at the gain in force
   /// With filters up to 5 % beside their places.
-  double factor = 0;  ///< of the gain in force: the largest that keeps 8 dB and 40 deg
+  double factor = 0;  ///< of the gain in force: the largest that keeps the sensitivity
 };
 
 struct FilterAdvice {
@@ -56,7 +56,7 @@ FilterChoice judged_with(const SpeedLoop& loop, const plants::TorqueFilterData& 
 FilterAdvice advise(SpeedLoop loop);
 
 /// Measures the speed loop of the drive that --wire names, or of the only servo, from `request`'s time on,
-/// at 180 points or more from 2 Hz to a quarter of the steps' frequency; a sine of 5 % of rated torque.
+/// at 360 points or more from 2 Hz to a quarter of the steps' frequency; a sine of 5 % of rated torque.
 /// nullopt and problems if the request does not fit.
 std::optional<SpeedLoop> measure_speed_loop(const scenario::Scenario& scenario, const LoopRequest& request,
                                             Problems& problems,

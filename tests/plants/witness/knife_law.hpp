@@ -88,7 +88,7 @@ struct KnifeLaw : Equations {
     const double gear = gear_torque(data.gear, twist, rate);
     Efforts sum{y[servo_states + Servo::torque] - gear / data.gear.ratio, gear * data.motors, 0, {}, {}};
     const double more = std::abs(gear / data.gear.ratio) * (1 / data.gear.efficiency.driving - 1);
-    const double less = std::abs(gear / data.gear.ratio) * (1 - data.gear.efficiency.driven);
+    const double less = std::abs(gear / data.gear.ratio) * (1 - backwards(data.gear.efficiency));
     sum.losses = gear > 0 ? DryResistance{more, less} : DryResistance{less, more};
     if (at == Blade::above) return sum;
     const double behind = y[drum] - bottom;

@@ -155,6 +155,11 @@ struct Dry {
   }
 };
 
+/// Efficiency backwards: as it is given, or that of the same friction both ways.
+[[nodiscard]] inline double backwards(const Efficiency& of) {
+  return of.driven > -20 ? of.driven : 2 - 1 / of.driving;
+}
+
 /// Torque of a gear on its load, seen there; the plant's is plants/transmission.cpp. Without play spring and
 /// damper; with play two flanks that push with spring and damper once the twist has taken up half of it, the
 /// damper held to the spring's torque both ways.

@@ -62,7 +62,7 @@ struct ScrewLaw : Equations {
         nut_stiffness(data.nut_stiffness),
         nut_damping(data.nut_damping),
         efficiency{data.gear.efficiency.driving * (own_screw ? 1 : data.efficiency.driving),
-                   data.gear.efficiency.driven * (own_screw ? 1 : data.efficiency.driven)},
+                   backwards(data.gear.efficiency) * (own_screw ? 1 : backwards(data.efficiency))},
         of_screw(data.efficiency),
         motor_friction{data.motor_friction},
         guide_friction{data.guide_friction},
@@ -86,7 +86,7 @@ struct ScrewLaw : Equations {
   };
   [[nodiscard]] static DryResistance lost(const Efficiency& of, double torque) {
     const double more = std::abs(torque) * (1 / of.driving - 1);
-    const double less = std::abs(torque) * (1 - of.driven);
+    const double less = std::abs(torque) * (1 - backwards(of));
     return torque > 0 ? DryResistance{more, less} : DryResistance{less, more};
   }
   [[nodiscard]] Efforts efforts(std::span<const double> y) const {
