@@ -218,7 +218,7 @@ TEST(PlantTypes, TablesAreCompleteAndTheirDefaultsLegal) {
       if (const auto* number = std::get_if<double*>(&p.value)) {
         EXPECT_LT(p.min, p.max);
         const double zero = p.unit == "degC" ? 273.15 : 0;
-        EXPECT_GE(**number, zero + p.min * si(p.unit) * (1 - 1e-12) - 1e-15);
+        EXPECT_GE(**number, zero + p.min * si(p.unit) - 1e-12 * std::abs(p.min * si(p.unit)) - 1e-15);
         EXPECT_LE(**number, zero + p.max * si(p.unit) * (1 + 1e-12));
         EXPECT_FALSE(p.source.empty() && p.name != "gear.ratio");
       } else if (const auto* whole = std::get_if<int*>(&p.value)) {

@@ -73,7 +73,7 @@ Closed closed(const std::vector<BodePoint>& points, double factor) {
 /// turns otherwise goes round -1 (Nyquist). What comes after the last frequency is not known: little may be
 /// left there.
 double most_gain(const std::vector<BodePoint>& points, double turned) {
-  constexpr double step = 1.03;
+  constexpr double step = 1.1;
   constexpr double most_left = 0.4;
   const auto is_kept = [&](double factor) {
     const auto loop = closed(points, factor);
@@ -226,6 +226,9 @@ std::string sentence_of(const FilterAdvice& advice) {
         "measure "
         "it in motion (--at)",
         loop.drive, largest_factor);
+  if (advice.present.factor >= ample_factor)
+    return fmt::format("{}: it needs no filter: speed_gain may go from {:g} to {:.0f} rad/s as it is",
+                       loop.drive, loop.speed_gain, advice.present.factor * loop.speed_gain);
   const auto& best = advice.choices.front();
   if (!advice.worth())
     return fmt::format("{}: no filter lets its speed_gain go up by more than 1 dB", loop.drive);
@@ -322,7 +325,8 @@ bool measure_tone(SpeedTwins& twins, const TestTone& tone, double amplitude, Bod
 
 bool FilterAdvice::worth() const {
   constexpr double little = 1.122;  // 1 dB
-  return !choices.empty() && choices.front().factor > little * present.factor;
+  return !choices.empty() && present.factor < ample_factor &&
+         choices.front().factor > little * present.factor;
 }
 
 FilterChoice judged_with(const SpeedLoop& loop, const plants::TorqueFilterData& filters) {

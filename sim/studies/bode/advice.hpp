@@ -33,6 +33,8 @@ inline constexpr double kept_sensitivity = 2;
 /// What a filter may cost at the gain in force, and how much more gain is looked for at most.
 inline constexpr double most_cost = 10;  // [deg]
 inline constexpr double largest_factor = 30;
+/// From here on nobody needs a filter.
+inline constexpr double ample_factor = 4;
 
 /// One choice of filters.
 struct FilterChoice {

@@ -30,8 +30,8 @@ SpeedLoop two_masses(double gain) {
   const double load = 2e-2;
   const double stiffness = 3000;
   const double damping = 1.5;
-  for (int i = 0; i < 240; ++i) {
-    const double f = 2 * std::pow(1000.0, i / 239.0);
+  for (int i = 0; i < 160; ++i) {
+    const double f = 2 * std::pow(1000.0, i / 159.0);
     const std::complex<double> s(0, turn * f);
     const auto spring = stiffness + damping * s;
     // Of the motor's speed for a torque on it.
@@ -62,14 +62,14 @@ TEST(FilterAdvice, IsWithinTwoPercentOfTheBestOfAFineGrid) {
     const auto& [low_pass, notches] = choice.filters;
     double best = 0;
     if (low_pass > 0) {
-      for (int i = 0; i <= 2000; ++i) best = std::max(best, allowed({1e-4 * std::pow(200, i / 2000.0), {}}));
+      for (int i = 0; i <= 400; ++i) best = std::max(best, allowed({1e-4 * std::pow(200, i / 400.0), {}}));
     } else if (notches[1].frequency == 0) {
-      for (int i = 0; i <= 120; ++i)
-        for (int j = 0; j <= 8; ++j)
-          for (int k = 0; k <= 8; ++k) {
-            const plants::NotchData notch = {10 * std::pow(200, i / 120.0),
-                                             0.03 * std::pow(0.7 / 0.03, j / 8.0),
-                                             0.2 * std::pow(5, k / 8.0)};
+      for (int i = 0; i <= 60; ++i)
+        for (int j = 0; j <= 5; ++j)
+          for (int k = 0; k <= 5; ++k) {
+            const plants::NotchData notch = {10 * std::pow(200, i / 60.0),
+                                             0.03 * std::pow(0.7 / 0.03, j / 5.0),
+                                             0.2 * std::pow(5, k / 5.0)};
             best = std::max(best, allowed({0, {notch, {}}}));
           }
     } else {
@@ -179,8 +179,8 @@ TEST_F(SpeedLoopOfAnAxis, IsThatOfTheStepsInClosedForm) {
 
 // What it says of a filter is what is measured with the filter: 0.1 dB and 0.5 deg.
 TEST_F(SpeedLoopOfAnAxis, WithTheAdvisedFilterIsAsPredicted) {
-  for (const auto* set :
-       {"gear.stiffness=150 N m/rad", "gear.damping=0.1 N m s/rad", "mass=40 kg", "servo.inertia_ratio=1.2"})
+  for (const auto* set : {"gear.stiffness=150 N m/rad", "gear.damping=0.1 N m s/rad", "mass=40 kg",
+                          "servo.inertia_ratio=1.2", "servo.speed_gain=1200 rad/s"})
     options.set.push_back(std::string("plants.axis.") + set);
   const auto advice = advise(measured());
   ASSERT_TRUE(advice.worth());
@@ -205,8 +205,8 @@ TEST_F(SpeedLoopOfAnAxis, WithTheAdvisedFilterIsAsPredicted) {
 }
 
 TEST_F(SpeedLoopOfAnAxis, IsToldWithItsFilterToPaste) {
-  for (const auto* set :
-       {"gear.stiffness=150 N m/rad", "gear.damping=0.1 N m s/rad", "mass=40 kg", "servo.inertia_ratio=1.2"})
+  for (const auto* set : {"gear.stiffness=150 N m/rad", "gear.damping=0.1 N m s/rad", "mass=40 kg",
+                          "servo.inertia_ratio=1.2", "servo.speed_gain=1200 rad/s"})
     options.set.push_back(std::string("plants.axis.") + set);
   options.out = folder.path / "results";
   EXPECT_EQ(run(), cli::all_passed) << out << err;
