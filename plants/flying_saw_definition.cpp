@@ -87,9 +87,9 @@ Parameters flying_saw_parameters(FlyingSawData& data) {
       axis_transducer_parameters(data.sensors, {.limits = "10 mm before the stop"}),
       servo_axis_parameters(data.drive, {.inertia_ratio = "the default carriage on the motor",
                                          .speed_at_10v = "setting: largest speed at 10 V"}),
-      group("gear.",
-            transmission_parameters(
-                data.gear, {.stiffness = "estimate: gear, pinion and rack, 4.9 N/um at the carriage"})));
+      group("gear.", transmission_parameters(
+                         data.gear, {.stiffness = "estimate: gear, pinion and rack, 4.9 N/um at the carriage",
+                                     .damping = "estimate: 8 % of critical"})));
 }
 
 Objections FlyingSawDefinition::objections(double h) {

@@ -56,7 +56,7 @@ Parameters transmission_parameters(TransmissionData& data, const TransmissionSou
                    "swing at 200 Hz, with 5 % of critical damping",
                    data.stiffness, 0, 1e7, from.stiffness)),
           live(row("damping", "N m s/rad", "torsional damping, seen at the load", data.damping, 0, 1e5,
-                   "estimate: 5 % of critical")),
+                   from.damping)),
           live(row("backlash", "deg", "play between the flanks, seen at the load", data.backlash, 0, 10,
                    "none: set it to study its effect")),
           preset_row("type", "kind of gear, whose efficiency and back_efficiency are the defaults", data.type,

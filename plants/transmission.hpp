@@ -24,6 +24,7 @@ struct TransmissionData {
 struct TransmissionSources {
   std::string_view stiffness = "estimate: planetary gear of the 2 kW class, 15 N m/arcmin";
   std::string_view ratio = {};
+  std::string_view damping = "estimate: 5 % of critical";
 };
 /// Rows of the group `gear.`.
 Parameters transmission_parameters(TransmissionData& data, const TransmissionSources& from = {});

@@ -299,7 +299,8 @@ renders::Report size_page(const SizeResult& page, const record::Verdict& verdict
         "limit, "
         "what a motor of that inertia without limits needs there"}},
       {{"set up with each", taken_along(page)}},
-      {{"as the scenario has it", "stiffness, play and friction of the gear, with every candidate"}},
+      {{"as the scenario has it",
+        "stiffness, play, friction and efficiency of the gear, with every candidate"}},
       {{"drycut", DRYCUT_VERSION}}};
   report::add_overrides(page.question.set, report);
   report.notes = record::lines_of(size_notes(page));
