@@ -219,7 +219,8 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
   report.facts = {{{"simulated", units_note(seconds(outcome.end))}},
                   {{"physics step", fmt::format("{:g} us", static_cast<double>(scenario.scene.step) / 1e3)}},
                   {{"seed", fmt::format("{}", scenario.scene.seed)}},
-                  {{"drycut", DRYCUT_VERSION}}};
+                  {{"drycut", DRYCUT_VERSION}},
+                  {{"what is in the model", "drycut help validity"}}};
   for (auto& fact : origin_of(scenario.file)) report.facts.push_back(std::move(fact));
   add_overrides(scenario.overrides, report);
   if (const auto samples = simulation.recording().times().size(); samples > renders::kMostSamples)
