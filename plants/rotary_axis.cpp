@@ -1,5 +1,6 @@
 #include "plants/rotary_axis.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/problem.hpp"
@@ -172,6 +173,29 @@ std::vector<Part> RotaryAxis::parts() {
   picture.on(turning(rotor_, behind(0.33)));
   picture.rod("encoder disc", 0.11, 0.008, looks::brass, {}, "encoder_disc");
   picture.box("encoder mark", {0.008, 0.05, 0.002}, looks::red, at(0, 0.025, -0.005));
+  // What carries it, down to the floor, and the home switch beside its edge.
+  picture.on_floor();
+  const double top = data_.place_y - (upright_axis ? data_.width / 2 + 0.03 : 0);
+  for (const double side : {-1.0, 1.0}) {
+    const double height = std::max(top - floor_y, 0.05);
+    const auto stand = [&](double x, double z) {
+      return at(data_.place_x + x, top - height / 2, data_.place_z + z);
+    };
+    if (upright_axis)
+      picture.box(numbered("stand", side), {0.05, height, 0.5 * data_.diameter}, looks::bed,
+                  stand(side * 0.3 * data_.diameter, 0));
+    else
+      picture.box(numbered("stand", side), {0.1, height, 0.05}, looks::bed,
+                  stand(0, side * (data_.width / 2 + 0.03)));
+  }
+  if (upright_axis)
+    picture.box("bed", {0.65 * data_.diameter, 0.03, 0.5 * data_.diameter}, looks::bed,
+                at(data_.place_x, top + 0.015, data_.place_z));
+  const Pose switch_at = place * about_z(data_.home.centre) * at(0, data_.diameter / 2 + 0.03, 0);
+  picture.box("home switch", {0.025, 0.05, 0.025}, looks::dark, switch_at);
+  picture.on(turning(table_, place));
+  picture.box("home flag", {0.02, 0.02, 0.006}, looks::red,
+              at(0, data_.diameter / 2 - 0.01, data_.width / 2 + 0.003));
   return picture.take();
 }
 
