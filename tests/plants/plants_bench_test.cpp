@@ -40,7 +40,7 @@ TEST(Bench, CountStepsAtOnceAndGoesOnFromThere) {
   set(bench, "counter1.rate", 10000);
   bench.sense(h);
   set(bench, "counter1.count", -5000);
-  EncoderPort& port = plug<EncoderPort>(bench, "counter1");
+  auto& port = plug<EncoderPort>(bench, "counter1");
   EXPECT_EQ(port.count, -5000);
   bench.sense(h);
   EXPECT_EQ(port.count, -4999);
@@ -50,7 +50,7 @@ TEST(Bench, IndexPulseLatchesTheCountOfItsMoment) {
   Bench bench;
   set(bench, "counter1.rate", 50000);
   for (int i = 0; i < 20; ++i) bench.sense(h);
-  SignalPort& index = plug<SignalPort>(bench, "counter1.index");
+  auto& index = plug<SignalPort>(bench, "counter1.index");
   EXPECT_EQ(index.edges.size(), 0U);
   set(bench, "counter1.index", 1);
   bench.sense(h);
@@ -72,7 +72,7 @@ TEST(Bench, EveryIndexPulseOfAStepIsGiven) {
 
 TEST(Bench, InputsShowAtOnceAndGiveOneEdge) {
   Bench bench;
-  SignalPort& input = plug<SignalPort>(bench, "input16");
+  auto& input = plug<SignalPort>(bench, "input16");
   set(bench, "input16", 1);
   EXPECT_TRUE(input.level);
   bench.sense(h);
@@ -131,7 +131,7 @@ TEST(IdealAxis, IndexComesOnceAPitch) {
     IdealAxisData data;
     data.reverse = reverse;
     Ideal ideal(data);
-    SignalPort& index = plug<SignalPort>(ideal.axis, "encoder.index");
+    auto& index = plug<SignalPort>(ideal.axis, "encoder.index");
     ideal.reference.volts = 7.7;
     int pulses = 0;
     for (int i = 0; i < 10000; ++i) {

@@ -341,6 +341,7 @@ record::Verdict write_size_report(const SizeResult& page, OutputFolder& folder) 
   auto section = operating_section(page, small);
   if (!small.empty()) {
     std::vector<std::string> names;
+    names.reserve(small.size());
     for (const auto& plot : small) names.push_back(plot.name + ".png");
     const auto pictures = renders::draw_plots(small, folder.add(report::plots_folder, names));
     for (std::size_t i = 0; i < small.size(); ++i)

@@ -249,7 +249,7 @@ Tuned tune(const TunePlan& plan, const TuneRequest& request, const cluster::Work
   const int aside = known ? 0 : tuning.before.runs + 1;  // runs that `trials` do not count
   if (!known) place_present(plan, *trials, tuning);
   const int in_present = aside + trials->runs();
-  search(*trials, trials->runs() + split.search, request.seed);
+  tuning.settled = search(*trials, trials->runs() + split.search, request.seed);
   const int in_search = trials->runs() + aside - in_present;
   tuning.unmeasurable = is_unmeasurable(*trials);
   tuning.best = trials->best();

@@ -63,27 +63,38 @@ renders::Plot before_after(const Tuning& tuning, std::size_t index) {
   return plot;
 }
 
-/// Green and vermilion by their place among the panel's curves: what keeps all limits, what does not. The
-/// first curve, blue, is `line`.
-void add_kept_and_beyond(renders::Panel& panel, renders::Curve line, renders::Curve kept,
-                         renders::Curve beyond) {
-  if (line.x.empty()) line.label.clear();  // nothing in the legend
-  if (!kept.x.empty()) kept.label = "kept all limits";
-  if (!beyond.x.empty()) beyond.label = "beyond a limit";
-  kept.style = beyond.style = renders::Curve::Style::points;
-  panel.curves = {std::move(line), std::move(beyond), std::move(kept)};
-}
+/// Kept all limits, beyond one, or not known: by their place among the panel's curves green, vermilion and
+/// the fourth colour. The first curve, blue, is `line`.
+struct TrialPoints {
+  renders::Curve kept;
+  renders::Curve beyond;
+  renders::Curve unknown;
+
+  renders::Curve& of(const Verdict& verdict) {
+    const bool measured = std::ranges::none_of(verdict.room, [](double room) { return std::isnan(room); });
+    if (verdict.unmeasured() || (verdict.feasible() && !measured)) return unknown;
+    return verdict.feasible() ? kept : beyond;
+  }
+  [[nodiscard]] bool empty() const { return kept.x.empty() && beyond.x.empty() && unknown.x.empty(); }
+  void draw(renders::Panel& panel, renders::Curve line) {
+    if (line.x.empty()) line.label.clear();  // nothing in the legend
+    if (!kept.x.empty()) kept.label = "kept all limits";
+    if (!beyond.x.empty()) beyond.label = "beyond a limit";
+    if (!unknown.x.empty()) unknown.label = "not all limits measured";
+    kept.style = beyond.style = unknown.style = renders::Curve::Style::points;
+    panel.curves = {std::move(line), std::move(beyond), std::move(kept), std::move(unknown)};
+  }
+};
 
 renders::Plot way(const Tuning& tuning) {
-  renders::Curve all;
-  renders::Curve refused;
+  TrialPoints points;
   renders::Curve least{"best so far", {}, {}, renders::Curve::Style::steps};
   double best = std::numeric_limits<double>::infinity();
   double number = 0;
   for (const auto& trial : tuning.trials.trials()) {
     ++number;
     if (trial.verdict.stopped) continue;
-    auto& curve = trial.verdict.feasible() ? all : refused;
+    auto& curve = points.of(trial.verdict);
     curve.x.push_back(number);
     curve.y.push_back(trial.verdict.metric);
     if (!trial.verdict.feasible()) continue;
@@ -94,12 +105,18 @@ renders::Plot way(const Tuning& tuning) {
   renders::Panel panel;
   panel.title = tuning.study.minimise;
   panel.y_label = with_unit(tuning.study.minimise, tuning.study.metric_unit);
-  add_kept_and_beyond(panel, least, all, refused);
+  const auto sorted_of = [&] {
+    auto sorted = points.kept.y;
+    sorted.insert(sorted.end(), points.unknown.y.begin(), points.unknown.y.end());
+    std::sort(sorted.begin(), sorted.end());
+    return sorted;
+  };
+  const auto sorted = sorted_of();
+  const auto all = points;
+  points.draw(panel, least);
   if (!tuning.before.stopped)
     panel.bands.push_back({"present values", tuning.before.metric, tuning.before.metric});
   // The first samples, far off, would press the rest flat.
-  auto sorted = all.y;
-  std::sort(sorted.begin(), sorted.end());
   if (!sorted.empty()) {
     const double present = tuning.before.stopped ? sorted.front() : tuning.before.metric;
     const double low = std::min(sorted.front(), present);
@@ -109,7 +126,7 @@ renders::Plot way(const Tuning& tuning) {
       panel.y_range = {low - room, most + room};
       std::ptrdiff_t above = 0;
       std::ptrdiff_t below = 0;
-      for (const auto* curve : {&all, &refused})
+      for (const auto* curve : {&all.kept, &all.beyond, &all.unknown})
         for (const double y : curve->y) {
           above += y > most + room ? 1 : 0;
           below += y < low - room ? 1 : 0;
@@ -121,7 +138,7 @@ renders::Plot way(const Tuning& tuning) {
     }
   }
   renders::Plot plot{"search", "The way to the optimum", "trial", {}};
-  if (!all.x.empty() || !refused.x.empty()) plot.panels.push_back(std::move(panel));
+  if (!all.empty()) plot.panels.push_back(std::move(panel));
   return plot;
 }
 
@@ -179,9 +196,10 @@ renders::Plot spread(const Tuning& tuning) {
     for (std::size_t i = 0; i < numbers.size(); ++i) curve.x.push_back(++number);
     return curve;
   };
-  auto first = sorted(kept);
-  auto last = sorted(refused);
-  add_kept_and_beyond(panel, {}, std::move(first), std::move(last));
+  TrialPoints points;
+  points.kept = sorted(kept);
+  points.beyond = sorted(refused);
+  points.draw(panel, {});
   const auto& tuned = tuning.after();
   if (!tuned.stopped) panel.bands.push_back({"tuned, nominal", tuned.metric, tuned.metric});
   if (number > 0) plot.panels.push_back(std::move(panel));

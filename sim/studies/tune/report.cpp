@@ -257,6 +257,15 @@ std::string sine_text(const Tuning& tuning) {
   return fmt::format("; phase margins hold for a sine of {:.3g} V only", tuning.study.loop.amplitude);
 }
 
+/// What the budget had no room for.
+std::string budget_text(const Tuning& tuning) {
+  if (tuning.unmeasurable || tuning.settled) return "";
+  return fmt::format(
+      "; the search ended with its budget before it came to a bottom: more than --budget {} may find "
+      "better",
+      tuning.budget);
+}
+
 /// "; checks ignored, 1 of 7 failed with these values"; "" where they count.
 std::string ignored_text(const Tuning& tuning) {
   if (!tuning.study.ignore_checks) return "";
@@ -307,9 +316,10 @@ std::string runs_text(const Tuning& tuning) {
     parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", part, runs);
   }
   const int loops = tuning.trials.loop_runs() + (tuning.spread != nullptr ? tuning.spread->loop_runs() : 0);
-  return fmt::format(
-      "{} of at most {}: {}{}", sum, tuning.budget, parts,
-      loops > 0 ? fmt::format("; {} of them to measure margins and to push the loop", loops) : "");
+  return fmt::format("{} of at most {}: {}{}", sum, tuning.budget, parts,
+                     loops > 0 ? fmt::format("; {} of them to measure margins{}", loops,
+                                             has_play(tuning) ? " and to push the loop" : "")
+                               : "");
 }
 
 std::size_t worst_of(const Trials& spread) {
@@ -339,13 +349,21 @@ std::string spread_text(const Tuning& tuning) {
                         reason_text(worst.verdict), metric_equals(tuning, metric_text(worst.verdict)),
                         largest_metric(*tuning.spread), with_space(tuning.study.metric_unit));
   }
-  for (std::size_t i = 0; i < worst.point.size(); ++i) {
-    const auto& p = tuning.spread->parameters()[i];
-    text += fmt::format("  at {} = {}, of {}\n", p.path, shown_value(p, worst.point[i]), shown_range(p));
-  }
+  const auto at = [&](const Point& point) {
+    std::string where;
+    for (std::size_t i = 0; i < point.size(); ++i) {
+      const auto& p = tuning.spread->parameters()[i];
+      where += fmt::format("  at {} = {}, of {}\n", p.path, shown_value(p, point[i]), shown_range(p));
+    }
+    return where;
+  };
+  text += at(worst.point);
+  if (!tuning.study.constraints.empty()) text += "Of all of them, each of its own machine:\n";
   for (std::size_t i = 0; i < tuning.study.constraints.size(); ++i)
     text += fmt::format("  least room of {}: {}\n", tuning.study.constraints[i],
                         room_text(tuning, i, least_room(*tuning.spread, i)));
+  if (tuning.study.needs_loop && has_play(tuning))
+    text += "  (margins are of a small sine, in which masses and play hardly take part)\n";
   return text;
 }
 
@@ -354,6 +372,7 @@ std::string summary_text(const Tuning& tuning) {
   if (const auto miss = miss_text(tuning); !miss.empty()) text = miss + "\n\n";
   text += as_text(before_after(tuning)) + reason_before(tuning) + "\n" + as_text(values(tuning));
   if (!tuning.slices.empty()) text += "\n" + as_text(around(tuning));
+  if (const auto more = budget_text(tuning); !more.empty()) text += fmt::format("\n{}\n", more.substr(2));
   text += spread_text(tuning);
   if (const auto pushes = pushes_text(tuning); !pushes.empty()) text += fmt::format("\n{}\n", pushes);
   if (const auto ends = at_the_ends(tuning); !ends.empty()) text += "\n" + ends;
@@ -374,7 +393,7 @@ record::Verdict verdict_of(const Tuning& tuning) {
                                    : fmt::format("{}: {}{} before, {}{} after", tuning.study.minimise,
                                                  metric_text(tuning.before), unit, metric_text(after), unit);
   verdict.sentence = first + change + (after.feasible() ? "; all limits kept" : "") + sine_text(tuning) +
-                     ignored_text(tuning);
+                     budget_text(tuning) + ignored_text(tuning);
   verdict.counts["tried"] = std::ssize(tuning.trials.trials());
   for (const auto& part : tuning.used) verdict.counts["runs"] += part.second;
   return verdict;

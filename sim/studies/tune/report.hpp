@@ -25,6 +25,7 @@ struct Tuning {
   std::optional<double> unlike = {};  ///< the metric where values are given that the program sets, if another
   bool stays = false;                 ///< the present values are the answer
   bool unmeasurable = false;          ///< ended at the first loop that was measured
+  bool settled = true;                ///< the search came to a bottom before its runs were used up
   std::vector<Slice> slices = {};
   const Trials* spread = nullptr;         ///< trials of the tuned values over spread parameters
   std::vector<KeptRun> runs_before = {};  ///< one a scenario

@@ -16,6 +16,7 @@ struct Descent {
   Trials& trials;
   int budget;  ///< [runs]
   int repeats = 0;
+  bool out_of_runs = false;
 
   static double cost(const std::vector<double>& unit, std::vector<double>&, void* self) {
     return static_cast<Descent*>(self)->at(unit);
@@ -26,6 +27,7 @@ struct Descent {
     if (trials.has(point)) {
       if (++repeats > most_repeats) throw nlopt::forced_stop();
     } else if (trials.runs() + trials.runs_of_a_trial() > budget) {
+      out_of_runs = true;
       throw nlopt::forced_stop();
     }
     const auto& best = trials.at(trials.best()).verdict;
@@ -34,7 +36,8 @@ struct Descent {
   }
 };
 
-void descend(Trials& trials, const Point& from, int budget) {
+/// Whether it came to a bottom before its runs were used up.
+bool descend(Trials& trials, const Point& from, int budget) {
   constexpr double first_step = 0.1;
   constexpr double last_step = 1e-4;
   Descent descent{trials, budget};
@@ -52,6 +55,7 @@ void descend(Trials& trials, const Point& from, int budget) {
   } catch (const nlopt::forced_stop&) {
   } catch (const nlopt::roundoff_limited&) {
   }
+  return !descent.out_of_runs;
 }
 
 /// A loop that gave all its figures, or of which nothing can be told.
@@ -73,7 +77,7 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-void search(Trials& trials, int most_runs, std::uint64_t seed) {
+bool search(Trials& trials, int most_runs, std::uint64_t seed) {
   const auto& parameters = trials.parameters();
   const int least = static_cast<int>(2 * parameters.size()) + 2;
   const int sets = std::max(1, (most_runs - trials.runs()) / trials.runs_of_a_trial());
@@ -83,7 +87,7 @@ void search(Trials& trials, int most_runs, std::uint64_t seed) {
   auto rest = points.begin();
   while (rest != points.end() && trials.measures_loop() && !first_judged(trials))
     trials.run("sample", {*rest++});
-  if (is_unmeasurable(trials)) return;
+  if (is_unmeasurable(trials)) return false;
   trials.run("sample", {rest, points.end()});
 
   std::vector<std::size_t> order(trials.trials().size());
@@ -93,6 +97,7 @@ void search(Trials& trials, int most_runs, std::uint64_t seed) {
   });
   constexpr double elsewhere = 0.1;  // of the range, in one parameter at least
   std::vector<std::vector<double>> begun;
+  bool settled = false;
   for (const auto index : order) {
     if (trials.runs() + trials.runs_of_a_trial() > most_runs) break;
     const Point point = trials.at(index).point;
@@ -101,9 +106,12 @@ void search(Trials& trials, int most_runs, std::uint64_t seed) {
                     [&](const auto& other) { return distance(unit, other) < elsewhere; }))
       continue;
     begun.push_back(unit);
-    descend(trials, point, most_runs);
+    const auto before = trials.best();
+    const bool at_bottom = descend(trials, point, most_runs);
+    if (begun.size() == 1 || trials.best() != before) settled = at_bottom;
     begun.push_back(to_unit(parameters, trials.at(trials.best()).point));
   }
+  return settled;
 }
 
 bool is_unmeasurable(const Trials& trials) {

@@ -87,7 +87,8 @@ std::function<std::string(const std::string& ask)> trial_answerer(const std::str
 /// that lies elsewhere when it has converged. What has been tried before takes part. One set of values is
 /// always tried; beyond that `trials` never come to more than `most_runs` simulated runs. Ends at the first
 /// loop that is measured if nothing can be told of it. The way depends on `seed` and `most_runs` alone.
-void search(Trials& trials, int most_runs, std::uint64_t seed);
+/// Whether the descent that found the best came to a bottom before its runs were used up.
+bool search(Trials& trials, int most_runs, std::uint64_t seed);
 
 /// True if nothing could be told of the first loop that was measured, for what else moves or for play: so it
 /// will be with all others.
