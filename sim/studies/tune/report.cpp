@@ -363,7 +363,11 @@ std::string spread_text(const Tuning& tuning) {
     text += fmt::format("  least room of {}: {}\n", tuning.study.constraints[i],
                         room_text(tuning, i, least_room(*tuning.spread, i)));
   if (tuning.study.needs_loop && has_play(tuning))
-    text += "  (margins are of a small sine, in which masses and play hardly take part)\n";
+    text += fmt::format(
+        "  (phase margins are of a sine of {:.3g} V, in which masses and play hardly take part; gain margins "
+        "of "
+        "pushes of {} to {} V)\n",
+        tuning.study.loop.amplitude, least_push, largest_push);
   return text;
 }
 
