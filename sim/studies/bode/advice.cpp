@@ -9,10 +9,10 @@
 #include <numbers>
 #include <utility>
 
-#include "plants/power_stage.hpp"
 #include "renders/report.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/report/report.hpp"
+#include "sim/studies/bode/report.hpp"
 #include "sim/studies/bode/sweep.hpp"
 
 namespace drycut::sim::studies {
@@ -376,9 +376,7 @@ std::optional<SpeedLoop> measure_speed_loop(const scenario::Scenario& scenario, 
   if (servo == nullptr) return {};
   loop::Simulation still(scenario, problems);
   if (problems.size() > before) return {};
-  for (auto* simulation : {&excited, &still})
-    for (const auto& [name, plant] : simulation->plants())
-      for (const auto& drive : plant->drives()) drive.stage->disarm();
+  for (auto* simulation : {&excited, &still}) disarm(*simulation);
   SpeedLoop measured;
   measured.drive = servo->name.text + ".servo";
   measured.step = seconds(scenario.scene.step);
@@ -458,20 +456,9 @@ void write_advice_report(const FilterAdvice& advice, const scenario::Scenario& s
                      advice.choices.front().factor * advice.loop.speed_gain,
                      advice.loop.drive.substr(0, advice.loop.drive.find('.')),
                      filter_text(advice.choices.front().filters))}};
-  renders::Plot plot;
-  plot.name = "speed_loop";
-  plot.title = advice.loop.drive + ": open speed loop";
-  plot.x_label = "frequency [Hz]";
-  plot.log_x = true;
-  plot.panel_height = 340;
-  renders::Panel gain;
-  gain.title = "gain";
-  gain.y_label = "[dB]";
-  gain.bands = {{"0 dB", 0, 0}};
-  renders::Panel phase;
-  phase.title = "phase";
-  phase.y_label = "[deg]";
-  phase.bands = {{"-180 deg", -180, -180}};
+  auto plot = empty_bode_plot("speed_loop", advice.loop.drive + ": open speed loop");
+  auto& gain = plot.panels[0];
+  auto& phase = plot.panels[1];
   const auto draw = [&](const std::string& label, const FilterChoice& choice) {
     const auto points = points_with(advice.loop, choice.filters);
     const auto [gains, angles] = curve_of(points);
@@ -483,7 +470,6 @@ void write_advice_report(const FilterAdvice& advice, const scenario::Scenario& s
   };
   draw("present", advice.present);
   draw("advised", advice.choices.front());
-  plot.panels = {std::move(gain), std::move(phase)};
   report::write_report(std::move(report), {std::move(plot)}, folder);
 }
 

@@ -132,11 +132,6 @@ std::string gains_of(loop::Simulation& simulation) {
   return fmt::format("{}", fmt::join(gains, ", "));
 }
 
-void disarm(loop::Simulation& simulation) {
-  for (const auto& [name, plant] : simulation.plants())
-    for (const auto& drive : plant->drives()) drive.stage->disarm();
-}
-
 /// The two runs and the plan for them.
 struct Preparation {
   std::unique_ptr<loop::Simulation> excited;
@@ -149,13 +144,17 @@ Preparation prepare(const scenario::Scenario& scenario, const LoopRequest& reque
   prepared.excited = std::make_unique<loop::Simulation>(scenario, problems);
   if (problems.size() == before) prepared.plan = plan_of(request, scenario, *prepared.excited, problems);
   if (problems.size() == before) prepared.still = std::make_unique<loop::Simulation>(scenario, problems);
-  // A measurement lasts as long as it must: no drive trips by it.
   for (auto* simulation : {prepared.excited.get(), prepared.still.get()})
     if (simulation != nullptr) disarm(*simulation);
   return prepared;
 }
 
 }  // namespace
+
+void disarm(loop::Simulation& simulation) {
+  for (const auto& [name, plant] : simulation.plants())
+    for (const auto& drive : plant->drives()) drive.stage->disarm();
+}
 
 Time start_of(const scenario::Scenario& scenario, const LoopRequest& request) {
   return time_of(request).value_or(scenario.scene.duration);

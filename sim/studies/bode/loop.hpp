@@ -95,6 +95,8 @@ inline constexpr double bode_lost = 0.5;
 
 /// Numbers of the request that no scenario allows, by the names of the options.
 void check_request(const LoopRequest& request, Problems& problems);
+/// A measurement lasts as long as it must: no drive of `simulation` trips by it.
+void disarm(loop::Simulation& simulation);
 /// When the measurement begins: --at, else the end of the scenario.
 Time start_of(const scenario::Scenario& scenario, const LoopRequest& request);
 /// What of the request does not fit the scenario.

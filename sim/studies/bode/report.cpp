@@ -348,11 +348,10 @@ std::string bode_csv(const LoopResult& result) {
   return text;
 }
 
-renders::Plot bode_plot(const LoopResult& result, const std::string& name) {
-  const auto table = table_of(result, known(result));
+renders::Plot empty_bode_plot(const std::string& name, const std::string& title) {
   renders::Plot plot;
   plot.name = name;
-  plot.title = fmt::format("{}: {}", result.scenario, result.wire);
+  plot.title = title;
   plot.x_label = "frequency [Hz]";
   plot.log_x = true;
   plot.panel_height = 340;
@@ -364,6 +363,15 @@ renders::Plot bode_plot(const LoopResult& result, const std::string& name) {
   phase.title = "phase";
   phase.y_label = "[deg]";
   phase.bands = {{"-180 deg", -180, -180}};
+  plot.panels = {std::move(gain), std::move(phase)};
+  return plot;
+}
+
+renders::Plot bode_plot(const LoopResult& result, const std::string& name) {
+  const auto table = table_of(result, known(result));
+  auto plot = empty_bode_plot(name, fmt::format("{}: {}", result.scenario, result.wire));
+  auto& gain = plot.panels[0];
+  auto& phase = plot.panels[1];
   // A gap where nothing answered, or where the answer is lost in what else moves.
   const auto draw = [&](const std::string& label, const BodeColumns& columns, double zero) {
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
@@ -385,7 +393,6 @@ renders::Plot bode_plot(const LoopResult& result, const std::string& name) {
   draw("open loop", table.open, 0);
   draw("position loop", table.closed, 0);
   if (!table.speed.gain.empty()) draw("speed loop", table.speed, table.speed.gain.front());
-  plot.panels = {gain, phase};
   const auto margins = loop_doubts(result).empty() ? result.margins : Margins{};
   if (const auto known = result.known_phase())
     plot.marks.push_back({known->frequency, fmt::format("margin {:.1f}°", known->value)});

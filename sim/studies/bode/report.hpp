@@ -34,7 +34,9 @@ inline constexpr std::string_view bode_csv_header =
 /// A table that begins with these columns, one row a frequency: gains and phases of open loop, closed loop,
 /// sensitivity and speed.
 std::string bode_csv(const LoopResult& result);
-/// Gain and phase over the logarithm of the frequency.
+/// A panel of the gain and one of the phase over the logarithm of the frequency, without curves.
+renders::Plot empty_bode_plot(const std::string& name, const std::string& title);
+/// The loops of `result` in it.
 renders::Plot bode_plot(const LoopResult& result, const std::string& name);
 
 }  // namespace drycut::sim::studies
