@@ -158,6 +158,8 @@ TEST_F(ViewInABrowser, MovesWithTheCursorAndTheCursorWithIt) {
   for (const auto& screen : {Screen{1280, 900, false}, Screen{768, 1024, false}, Screen{390, 844, true}}) {
     SCOPED_TRACE(screen.width);
     browser.window(screen.width, screen.height, screen.phone);
+    // The plots are laid out anew by the window's event, which may come after the answer to this call.
+    EXPECT_TRUE(browser.becomes(fmt::format("({}).length === 0", kOverflow)));
     browser.evaluate("drycutPlots[0].box.scrollIntoView({block: 'end'})");
     const auto box = browser.evaluate(
         "(() => { const {top, bottom} = document.querySelector('.view-stage').getBoundingClientRect(); "
