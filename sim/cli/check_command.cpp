@@ -21,6 +21,7 @@
 #include "sim/cli/verb.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/simulation.hpp"
+#include "sim/recordings/recording.hpp"
 #include "sim/report/part_meshes.hpp"
 #include "sim/studies/compare/scene_run.hpp"
 
@@ -41,6 +42,8 @@ class Checker {
       case FileKind::scenario:
       case FileKind::comparison:
         return check_scenario(file);
+      case FileKind::recording:
+        return check_recording(file);
       case FileKind::configuration:
         return check_configuration(file);
       case FileKind::module:
@@ -67,7 +70,8 @@ class Checker {
         problems_.push_back(
             {"file.other-kind"_code, file.string(), 1, 1,
              fmt::format("'{}' is not a kind of file that is known", file.extension().string()),
-             "give a scenario (.yaml), a configuration (.cnf), a QCL module (.mod, .qcl), an instruction "
+             "give a scenario or recording (.yaml), a configuration (.cnf), a QCL module (.mod, .qcl), an "
+             "instruction "
              "list (.il), Structured Text (.st), a cam table (.csv, .tab) or registers (.csv)"});
     }
   }
@@ -123,6 +127,18 @@ class Checker {
       take_notes(file.string(), simulation);
     }
     if (expand_ && problems_.size() == before) fmt::print("{}", sim::scenario::expand(scenario));
+  }
+
+  /// The YAML and, if that is sound, the export that it names.
+  void check_recording(const std::filesystem::path& file) {
+    const auto before = problems_.size();
+    const auto recording = recordings::read_recording_file(file, problems_);
+    if (problems_.size() != before) return;
+    std::vector<Finding> findings;
+    recordings::load(recording, problems_, findings);
+    for (auto& finding : findings)
+      (finding.role == Finding::Role::warning ? warnings_ : notes_).push_back(std::move(finding));
+    if (expand_ && problems_.size() == before) fmt::print("{}", recordings::write(recording));
   }
 
   void check_configuration(const std::filesystem::path& file) {
@@ -189,10 +205,11 @@ namespace {
 void check_options(CLI::App& check, int& status) {
   const auto chosen = std::make_shared<CheckOptions>();
   auto& options = *chosen;
-  auto* files = check.add_option(
-      "files", options.files,
-      "Scenarios (.yaml), configurations (.cnf), QCL modules (.mod) after their .cnf, instruction "
-      "lists (.il), Structured Text (.st), cam tables (.csv, .tab) and registers (.csv)");
+  auto* files =
+      check.add_option("files", options.files,
+                       "Scenarios and recordings (.yaml), configurations (.cnf), QCL modules (.mod) after "
+                       "their .cnf, instruction "
+                       "lists (.il), Structured Text (.st), cam tables (.csv, .tab) and registers (.csv)");
   check.add_flag("--expand", options.expand, "Print scenarios with every default in force");
   add_set(check, options.set, "scenarios");
   add_annotate(check, options.annotate);
@@ -213,8 +230,8 @@ Verb check_verb() {
           "Parse and type-check files without running anything",
           {"drycut check my_line.yaml"},
           {"files",
-           {FileKind::scenario, FileKind::comparison, FileKind::configuration, FileKind::module,
-            FileKind::instruction_list, FileKind::structured_text, FileKind::registers,
+           {FileKind::scenario, FileKind::comparison, FileKind::recording, FileKind::configuration,
+            FileKind::module, FileKind::instruction_list, FileKind::structured_text, FileKind::registers,
             FileKind::program_table, FileKind::cam_table}},
           check_options};
 }

@@ -15,6 +15,7 @@
 #include "sim/cli/commands.hpp"
 #include "sim/file.hpp"
 #include "sim/live/session.hpp"
+#include "sim/recordings/recording_file.hpp"
 #include "sim/report/results.hpp"
 
 namespace drycut::sim::cli {
@@ -33,6 +34,7 @@ struct KindRow {
 constexpr std::array file_kinds = {
     KindRow{FileKind::scenario, "a scenario", "drycut run takes it", ".yaml .yml"},
     KindRow{FileKind::comparison, "a scene that compares runs", "drycut run takes it", ""},
+    KindRow{FileKind::recording, "a recording of a machine", "drycut check takes it", ""},
     KindRow{FileKind::session, "a recorded session",
             "drycut replay runs it again, drycut live --from goes on from it", ""},
     KindRow{FileKind::configuration, "a QMOVE configuration",
@@ -82,6 +84,7 @@ FileKind kind_of_folder(const fs::path& folder) {
 
 FileKind kind_of_yaml(const fs::path& file, std::string_view text) {
   if (live::is_session(file)) return FileKind::session;
+  if (recordings::is_recording(text)) return FileKind::recording;
   const bool compares = text.starts_with("compare:") || text.find("\ncompare:") != std::string_view::npos;
   return compares ? FileKind::comparison : FileKind::scenario;
 }

@@ -11,6 +11,7 @@ enum class FileKind {
   unknown,  ///< or nothing that can be read: whoever reads it says more
   scenario,
   comparison,
+  recording,
   session,
   configuration,
   module,

@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "sim/cams/study.hpp"
 #include "sim/cli/pages.hpp"
+#include "sim/recordings/recording_file.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/studies/compare/scene.hpp"
 
@@ -167,6 +168,12 @@ std::vector<Page> scenario_pages() {
       {"comparison", "What a scene may say that runs several scenarios and lays them over each other.", "",
        sheets_of([](Archive& archive) {
          studies::ComparisonScene scratch;
+         visit(archive, scratch);
+       })},
+      {"recording",
+       "What the YAML of a recording of a real machine may say. NAME is a channel of the machine.", "",
+       sheets_of([](Archive& archive) {
+         recordings::RecordingFile scratch;
          visit(archive, scratch);
        })}};
 }

@@ -159,7 +159,8 @@ class SchemaWriter final : public Archive {
 
 }  // namespace
 
-std::string json_schema(const std::function<void(Archive&)>& comparison) {
+std::string json_schema(const std::function<void(Archive&)>& comparison,
+                        const std::function<void(Archive&)>& recording) {
   const auto scenario = [](Archive& archive) {
     Scenario scratch;
     visit(archive, scratch);
@@ -174,7 +175,10 @@ std::string json_schema(const std::function<void(Archive&)>& comparison) {
                        {"$defs", {{"computed", {{"type", "string"}, {"pattern", "[$][{]"}}}}},
                        {"if", {{"required", {"compare"}}}},
                        {"then", of(comparison)},
-                       {"else", of(scenario)}};
+                       {"else",
+                        {{"if", {{"required", {"file"}}}},
+                         {"then", SchemaWriter::of(recording, true)},
+                         {"else", of(scenario)}}}};
   return schema.dump(1);
 }
 

@@ -244,6 +244,12 @@ bool same_dimension(std::string_view a, std::string_view b) {
 
 std::string si_unit(std::string_view unit) { return find(unit).value().dimension; }
 
+std::string readable_si(std::string_view unit) {
+  for (const auto& [known, name] : dimension_names)
+    if (same_dimension(unit, known)) return std::string(known);
+  return si_unit(unit);
+}
+
 std::string dimension_name(std::string_view unit) {
   if (unit == "%") return "a percentage";
   for (const auto& [known, name] : dimension_names) {

@@ -19,6 +19,8 @@ double from_si(double si, std::string_view unit);
 bool same_dimension(std::string_view a, std::string_view b);
 /// The SI base units of `unit`, which must be known: "m.s-1" for "m/min", "" for a pure number.
 std::string si_unit(std::string_view unit);
+/// The same as people write it: "m/s", "N m"; as si_unit() has it where no name is known.
+std::string readable_si(std::string_view unit);
 /// What quantity a unit measures, for messages: "a length", "a speed", "an inertia"; else "a quantity in
 /// <unit>".
 std::string dimension_name(std::string_view unit);

@@ -62,7 +62,7 @@ struct ComparisonScene {
 std::optional<ComparisonScene> read_comparison(const std::filesystem::path& file, Problems& problems);
 
 void visit(scenario::Archive& archive, ComparisonScene& scene);
-/// JSON Schema of scenarios and of scenes that compare (sim/scenario/json_schema.hpp).
+/// JSON Schema of scenarios, of scenes that compare and of recordings (sim/scenario/json_schema.hpp).
 std::string json_schema();
 
 /// The scene as YAML with every default in force.

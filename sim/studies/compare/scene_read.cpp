@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "sim/file.hpp"
+#include "sim/recordings/recording_file.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/extends.hpp"
 #include "sim/scenario/format.hpp"
@@ -156,10 +157,15 @@ void visit(scenario::Archive& archive, ComparisonScene& scene) {
 }
 
 std::string json_schema() {
-  return scenario::json_schema([](scenario::Archive& archive) {
-    ComparisonScene scratch;
-    visit(archive, scratch);
-  });
+  return scenario::json_schema(
+      [](scenario::Archive& archive) {
+        ComparisonScene scratch;
+        visit(archive, scratch);
+      },
+      [](scenario::Archive& archive) {
+        recordings::RecordingFile scratch;
+        recordings::visit(archive, scratch);
+      });
 }
 
 std::string expand(const ComparisonScene& scene) {

@@ -1,0 +1,74 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/problem.hpp"
+#include "sim/recordings/text_table.hpp"
+
+namespace drycut::sim::recordings {
+
+/// Who wrote the file.
+enum class Format { twincat, mr_configurator2, rigol, siglent, halsampler, csv };
+/// As a recording's YAML names them, in the order of Format.
+const std::vector<std::string>& format_names();
+
+inline constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+/// What the header of a file says of a column.
+struct Column {
+  std::string name;             ///< "" = it has none
+  std::string unit = {};        ///< as the file has it: "V", "%", "1/min"; "" = it does not say
+  std::size_t time = none;      ///< the column with its time, where the format has one beside it
+  bool is_time = false;         ///< it is a time, in `unit`
+  bool counts_samples = false;  ///< it is the number of the sample
+  bool is_unused = false;       ///< the tool recorded nothing there
+  std::string remark = {};      ///< what the header says of it besides, or leaves open
+};
+
+/// What stands above the data, understood.
+struct Head {
+  Format format = Format::csv;
+  Dialect dialect = {};
+  int first_line = 1;  ///< of the data
+  std::vector<Column> columns = {};
+  std::optional<double> interval = {};  ///< between two samples [s]
+  double start = 0;                     ///< of the first sample [s]
+  int width = 0;                        ///< cells of the first line of data
+};
+
+/// The first lines of a file, enough for any header.
+struct Beginning {
+  std::vector<std::string> lines;
+  bool is_whole = true;  ///< the file has no more
+};
+Beginning beginning_of(std::istream& stream);
+
+/// What a recording's YAML says of the text; the rest is guessed.
+struct Given {
+  std::optional<Format> format = {};
+  std::optional<char> separator = {};
+  std::optional<char> decimal = {};
+};
+
+/// What is wrong with a text as a table.
+struct HeadFault {
+  enum class Kind { empty, binary, utf16, ambiguous_comma, no_data };
+  Kind kind;
+  int line = 1;
+  int column = 1;
+};
+
+/// In words.
+Problem problem_of(const HeadFault& fault, const std::string& file);
+
+/// Understands the beginning of a file. `fault` says why not; the result is not to be used then.
+Head head_of(const Beginning& beginning, const Given& given, std::optional<HeadFault>& fault);
+
+/// Text of a file in UTF-8 or, where it is none, in Latin-1, as Windows' tools write it.
+std::string as_utf8(std::string_view text);
+
+}  // namespace drycut::sim::recordings

@@ -1,0 +1,60 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace drycut::sim::recordings {
+
+/// How the cells of a delimited text are told apart and read.
+struct Dialect {
+  char separator = ',';
+  char decimal = '.';
+  bool merges_blanks = false;  ///< of the separator ' ': several in a row are one, none stands in front
+};
+
+/// The lines of a text of any length, one at a time, whatever ends them. A byte-order mark is left out.
+class Lines {
+ public:
+  explicit Lines(std::istream& stream) : stream_(stream) {}
+  /// False at the end. `line` is good until the next call.
+  bool next(std::string_view& line);
+  /// Of the line given last, from 1.
+  [[nodiscard]] int number() const { return number_; }
+  /// FNV-1a of all bytes that were read.
+  [[nodiscard]] std::uint64_t checksum() const { return checksum_; }
+
+ private:
+  bool fill();
+
+  std::istream& stream_;
+  std::string buffer_;
+  std::size_t at_ = 0;
+  int number_ = 0;
+  std::uint64_t checksum_ = 14695981039346656037ULL;
+};
+
+/// The cells of a line, without blanks and quotes around them; empty ones at its end are left out.
+void split(std::string_view line, const Dialect& dialect, std::vector<std::string_view>& cells);
+
+/// What a cell of data is.
+struct Cell {
+  enum class Kind { number, empty, not_a_number, text };
+  Kind kind = Kind::empty;
+  double value = 0;
+};
+/// A time of day, with or without a date, counts as a number: seconds, since 1970 if there is a date.
+Cell cell_of(std::string_view text, char decimal);
+/// The same of a text that may be missing.
+Cell cell_at(const std::vector<std::string_view>& cells, std::size_t index, char decimal);
+
+/// True if all cells of the line are data, and one of them is a number.
+bool is_data(std::string_view line, const Dialect& dialect);
+
+/// The line is no data at all: blank, or the mark that TwinCAT ends a file with.
+bool is_blank(std::string_view line);
+
+}  // namespace drycut::sim::recordings
