@@ -23,6 +23,7 @@ NOTEBOOK_PACKAGES := jupyter-nbconvert python3-ipykernel python3-matplotlib
 TEST_PACKAGES  := libgtest-dev libgmock-dev libsundials-dev libmujoco-dev python3-jsonschema python3-yaml python3-h5py python3-pandas mypy \
                   libmodbus-dev mbpoll python3-pymodbus python3-serial-asyncio tshark yamllint \
                   $(PYTHON_PACKAGES) $(NOTEBOOK_PACKAGES)
+LONG_PACKAGES  := octave octave-control
 BENCH_PACKAGES := libmujoco-dev
 CLUSTER_PACKAGES := python3-distributed slurm-wlm munge
 OPCUA_PACKAGES := nodejs npm
@@ -69,6 +70,7 @@ test: setup
 
 # Tests of CONFIGURATIONS long, which nothing else runs: one at a time, for they load the machine.
 test-all: test
+	$(call install,$(LONG_PACKAGES))
 	cd $(BUILD) && ctest --output-on-failure -C long -R '^long\.'
 
 # The tests of seconds, once built: all rooms but pictures and scenes, without what runs a machine for long.

@@ -11,7 +11,7 @@
 #include "sim/cli/verb.hpp"
 #include "sim/file.hpp"
 #include "sim/report/report.hpp"
-#include "sim/studies/bode/advice.hpp"
+#include "sim/studies/bode/advice_report.hpp"
 #include "sim/studies/bode/report.hpp"
 
 namespace drycut::sim::cli {
@@ -120,10 +120,6 @@ void write(const BodeOptions& options, const scenario::Scenario& scenario, const
   if (!options.png.empty()) report::draw_png(studies::bode_plot(result, "bode"), options.png);
 }
 
-}  // namespace
-
-namespace {
-
 int advise_filters(const BodeOptions& options, const scenario::Scenario& scenario, Problems problems) {
   for (const auto& [given, option] : {std::pair(options.limit_cycle, "--limit-cycle"),
                                       {options.min_gain_margin.has_value(), "--min-gain-margin"},
@@ -132,9 +128,7 @@ int advise_filters(const BodeOptions& options, const scenario::Scenario& scenari
                                       {!options.png.empty(), "--png"}})
     if (given)
       problems.push_back({"option.together"_code, option, 1, 1,
-                          "it is of the position loop, --advise of the "
-                          "speed loop",
-                          "one of them"});
+                          "it is of the position loop, --advise of the speed loop", "one of them"});
   std::optional<studies::SpeedLoop> loop;
   std::optional<OutputFolder> folder;
   if (problems.empty() && !options.out.empty())
@@ -160,6 +154,35 @@ int advise_filters(const BodeOptions& options, const scenario::Scenario& scenari
     fmt::print("report: {}\n", (options.out / "report.html").string());
   }
   return verdict.exit;
+}
+
+void bode_options(CLI::App& bode, int& status) {
+  const auto chosen = std::make_shared<BodeOptions>();
+  auto& options = *chosen;
+  bode.add_option("scenario", options.scenario, "Scenario (.yaml)")->required();
+  bode.add_option("--wire", options.loop.wire, "Analogue reference, as knife.servo.reference");
+  bode.add_option("--speed", options.loop.speed, "Channel of the motor's speed, for the speed loop");
+  bode.add_option("--at", options.loop.at, "The scenario runs undisturbed until then [s]; else to its end");
+  bode.add_option("--from", options.loop.from, "Lowest frequency [Hz]; else 1, and lower to the crossover");
+  bode.add_option("--to", options.loop.to, "Highest frequency [Hz]; else half the sampling frequency");
+  bode.add_option("--points", options.loop.points, "Frequencies between them, evenly in decades")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  bode.add_option("--amplitude", options.loop.amplitude, "Of the sine [V]")->capture_default_str();
+  bode.add_option("--settle", options.loop.settle, "Before each measurement [s]")->capture_default_str();
+  bode.add_flag(
+      "--limit-cycle", options.limit_cycle,
+      "Sweep the amplitude too: from which gain on play, stiction or limits keep an oscillation up");
+  bode.add_flag("--advise", options.advise,
+                "Measure the speed loop: which notch or low-pass of the servo's torque gains most");
+  bode.add_option("--min-phase-margin", options.min_phase_margin, "Fails if the margin is less [deg]");
+  bode.add_option("--min-gain-margin", options.min_gain_margin, "Fails if the margin is less [dB]");
+  bode.add_option("--csv", options.csv, "Write the response; - prints it, the report to standard error");
+  bode.add_option("--png", options.png, "Draw gain and phase");
+  add_force(bode, options.force);
+  add_out(bode, options.out, "Directory for report.html, plot and table");
+  add_set(bode, options.set, "scenario");
+  bode.callback([chosen, &status] { status = measure_bode(*chosen); });
 }
 
 }  // namespace
@@ -221,39 +244,6 @@ int measure_bode(const BodeOptions& options) {
     fmt::print("no plots; --out DIR writes them as a report\n");
   return verdict.exit;
 }
-
-namespace {
-
-void bode_options(CLI::App& bode, int& status) {
-  const auto chosen = std::make_shared<BodeOptions>();
-  auto& options = *chosen;
-  bode.add_option("scenario", options.scenario, "Scenario (.yaml)")->required();
-  bode.add_option("--wire", options.loop.wire, "Analogue reference, as knife.servo.reference");
-  bode.add_option("--speed", options.loop.speed, "Channel of the motor's speed, for the speed loop");
-  bode.add_option("--at", options.loop.at, "The scenario runs undisturbed until then [s]; else to its end");
-  bode.add_option("--from", options.loop.from, "Lowest frequency [Hz]; else 1, and lower to the crossover");
-  bode.add_option("--to", options.loop.to, "Highest frequency [Hz]; else half the sampling frequency");
-  bode.add_option("--points", options.loop.points, "Frequencies between them, evenly in decades")
-      ->check(CLI::Range(2, 1000))
-      ->capture_default_str();
-  bode.add_option("--amplitude", options.loop.amplitude, "Of the sine [V]")->capture_default_str();
-  bode.add_option("--settle", options.loop.settle, "Before each measurement [s]")->capture_default_str();
-  bode.add_flag(
-      "--limit-cycle", options.limit_cycle,
-      "Sweep the amplitude too: from which gain on play, stiction or limits keep an oscillation up");
-  bode.add_flag("--advise", options.advise,
-                "Measure the speed loop: which notch or low-pass of the servo's torque gains most");
-  bode.add_option("--min-phase-margin", options.min_phase_margin, "Fails if the margin is less [deg]");
-  bode.add_option("--min-gain-margin", options.min_gain_margin, "Fails if the margin is less [dB]");
-  bode.add_option("--csv", options.csv, "Write the response; - prints it, the report to standard error");
-  bode.add_option("--png", options.png, "Draw gain and phase");
-  add_force(bode, options.force);
-  add_out(bode, options.out, "Directory for report.html, plot and table");
-  add_set(bode, options.set, "scenario");
-  bode.callback([chosen, &status] { status = measure_bode(*chosen); });
-}
-
-}  // namespace
 
 Verb bode_verb() {
   return {

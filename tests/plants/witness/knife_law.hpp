@@ -66,7 +66,9 @@ struct KnifeLaw : Equations {
   }
 
   [[nodiscard]] std::vector<double> start() const override {
-    return {data.initial_angle * data.gear.ratio, 0, data.initial_angle, 0, web.drive.speed, 0, 0, 0};
+    std::vector<double> y = {data.initial_angle * data.gear.ratio, 0, data.initial_angle, 0, web.drive.speed};
+    y.resize(servo_states + servo.states());
+    return y;
   }
 
   void record(std::span<const double> y, Track& track) const {
@@ -86,7 +88,11 @@ struct KnifeLaw : Equations {
     const double twist = y[angle] / data.gear.ratio - y[drum];
     const double rate = y[speed] / data.gear.ratio - y[drum_speed];
     const double gear = gear_torque(data.gear, twist, rate);
-    Efforts sum{y[servo_states + Servo::torque] - gear / data.gear.ratio, gear * data.motors, 0, {}, {}};
+    Efforts sum{servo.on_rotor(y[angle], y.subspan(servo_states)) - gear / data.gear.ratio,
+                gear * data.motors,
+                0,
+                {},
+                {}};
     const double more = std::abs(gear / data.gear.ratio) * (1 / data.gear.efficiency.driving - 1);
     const double less = std::abs(gear / data.gear.ratio) * (1 - backwards(data.gear.efficiency));
     sum.losses = gear > 0 ? DryResistance{more, less} : DryResistance{less, more};

@@ -1,6 +1,8 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -58,8 +60,18 @@ struct Motion {
 ///   T' = (p within the limits - T) / tc    torque
 /// Where p would leave the limit with the integral running and fall below it with the integral standing, the
 /// integral runs just so fast that p stays along the limit. The ADC is taken as ideal.
+/// Ahead of the loop, added to p, is the share c of the torque for the reference's acceleration:
+///   a' = (r' - a) / ta,  p += c (1 + inertia ratio) rotor inertia a
+/// The filters make w of p, and w is what the limit and the current loop get. A low-pass of time tl, and
+/// notches at the angular frequency W, of depth d and width b, each
+///   (s2 + d b W s + W2) / (s2 + b W s + W2) = 1 + (d - 1) b W s / (s2 + b W s + W2):
+///   l' = (p - l) / tl
+///   x' = W z,  z' = W (l - x - b z),  w = l + (d - 1) b z
+/// With filters or a torque ahead the integral is not asked to keep w along the limit: that is right for a
+/// low-pass, whose w lags; with a notch or a torque ahead a motion is to stay within the limit.
+/// On the rotor are T, cogging C sin(n angle) and ripple R T sin(m angle).
 struct Servo {
-  enum State { reference, integral, torque };
+  enum State { reference, integral, torque, acceleration, low, first_notch };
   /// What it is told and what its motor does.
   struct Input {
     double volts;         ///< [V]
@@ -72,8 +84,47 @@ struct Servo {
   [[nodiscard]] double gain() const {
     return (1 + data.inertia_ratio) * data.rotor_inertia * data.speed_gain;
   }
+  [[nodiscard]] bool ahead() const { return data.torque_forward > 0; }
+  [[nodiscard]] bool plain() const { return !ahead() && !data.filters.any(); }
+  [[nodiscard]] std::size_t states() const { return plain() ? acceleration : first_notch + 4; }
+
+  /// By the loop and ahead of it, before the filters.
+  [[nodiscard]] double unfiltered(const Input& in, std::span<const double> y) const {
+    const double loop = gain() * (y[reference] - in.speed) + y[integral];
+    if (!ahead()) return loop;
+    return loop + data.torque_forward * gain() / data.speed_gain * y[acceleration];
+  }
+  /// Before each notch, and last behind them.
+  [[nodiscard]] std::array<double, 3> along_filters(const Input& in, std::span<const double> y) const {
+    const double p = unfiltered(in, y);
+    if (plain()) return {p, p, p};
+    std::array<double, 3> passed = {data.filters.low_pass > 0 ? y[low] : p};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const NotchData& notch = data.filters.notches[i];
+      const double z = y[first_notch + 2 * i + 1];
+      passed[i + 1] = passed[i] + (notch.frequency > 0 ? (notch.depth - 1) * notch.width * z : 0);
+    }
+    return passed;
+  }
   [[nodiscard]] double asked(const Input& in, std::span<const double> y) const {
-    return gain() * (y[reference] - in.speed) + y[integral];
+    return along_filters(in, y).back();
+  }
+  void filter_slope(const Input& in, std::span<const double> y, std::span<double> dy) const {
+    const auto passed = along_filters(in, y);
+    dy[acceleration] = ahead() ? (reference_rate(in, y) - y[acceleration]) / data.torque_forward_filter : 0;
+    dy[low] = data.filters.low_pass > 0 ? (unfiltered(in, y) - y[low]) / data.filters.low_pass : 0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const NotchData& notch = data.filters.notches[i];
+      const double middle = 2 * std::numbers::pi * notch.frequency;
+      const std::size_t x = first_notch + 2 * i;
+      dy[x] = middle * y[x + 1];
+      dy[x + 1] = middle * (passed[i] - y[x] - notch.width * y[x + 1]);
+    }
+  }
+  /// On a rotor at `angle` [rad].
+  [[nodiscard]] double on_rotor(double angle, std::span<const double> y) const {
+    return y[torque] * (1 + data.torque_ripple * std::sin(data.torque_ripple_periods * angle)) +
+           data.cogging * std::sin(data.cogging_periods * angle);
   }
   /// Fall of the limit with the speed of a motor that is driven above rated speed [N m s/rad].
   [[nodiscard]] double fall(const Input& in, double asked) const {
@@ -100,6 +151,7 @@ struct Servo {
     dy[reference] = reference_rate(in, y);
     dy[integral] = at == Limit::along ? keeping(in, y) : stands ? 0 : winding(in, y);
     dy[torque] = (std::clamp(p, -most, most) - y[torque]) / data.current_lag;
+    if (!plain()) filter_slope(in, y, dy);
   }
 
   [[nodiscard]] double watch(const Input& in, std::span<const double> y) const {
@@ -113,6 +165,10 @@ struct Servo {
   void act(const Input& in, std::span<double> y) {
     const double p = asked(in, y);
     const double side = p > 0 ? 1 : -1;
+    if (!plain()) {
+      at = at == Limit::within ? Limit::beyond : Limit::within;
+      return;
+    }
     if (side * keeping(in, y) < 0)
       at = Limit::beyond;
     else

@@ -16,7 +16,7 @@ namespace drycut::plants::witness {
 /// turns of the screw per travel [rad/m], n of the motor for one of the screw, angle a and speed w of the
 /// motor:
 ///   twist = a / n - q x,  M = gear torque of the twist and its rate, at the screw
-///   (rotor + screw / n^2) w' = T - M / n - friction of the motor
+///   (rotor + screw / n^2) w' = T with cogging and ripple - M / n - friction of the motor
 /// A screw that turns with the part is mass, inertia q^2, that weighs nothing; one between the two springs of
 /// gear and nut has an angle and a speed of its own, and what it loses is on its shaft.
 ///   mass v' = q M + steady force + force of the process + buffers - friction of the guides
@@ -69,7 +69,9 @@ struct ScrewLaw : Equations {
         buffers{{data.stop, data.travel_min, -1}, {data.stop, data.travel_max, 1}} {}
 
   [[nodiscard]] std::vector<double> start() const override {
-    return {begin * per_metre * gear.ratio, 0, begin, 0, begin * per_metre, 0, 0, 0, 0};
+    std::vector<double> y = {begin * per_metre * gear.ratio, 0, begin, 0, begin * per_metre, 0};
+    y.resize(servo_states + servo.states());
+    return y;
   }
   void record(std::span<const double> y, Track& track) const {
     track.motor.push_back(y[angle] / gear.ratio / per_metre);
@@ -97,9 +99,9 @@ struct ScrewLaw : Equations {
     const double nut =
         nut_stiffness * (y[turn] / per_metre - y[place]) + nut_damping * (y[turning] / per_metre - y[pace]);
     const double force = own_screw ? nut : screw * per_metre;
-    Efforts sum{y[servo_states + Servo::torque] - screw / gear.ratio, screw - force / per_metre,
-                force + steady_force + motion.force(), lost(efficiency, screw / gear.ratio),
-                lost(of_screw, force / per_metre)};
+    Efforts sum{servo.on_rotor(y[angle], y.subspan(servo_states)) - screw / gear.ratio,
+                screw - force / per_metre, force + steady_force + motion.force(),
+                lost(efficiency, screw / gear.ratio), lost(of_screw, force / per_metre)};
     for (const Buffer& buffer : buffers) sum.part += buffer.force(y[place], y[pace]);
     return sum;
   }

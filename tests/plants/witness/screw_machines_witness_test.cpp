@@ -140,6 +140,49 @@ TEST(Witness, LinearAxisWithANut) {
        {"no friction by weight", [](ScrewLaw& l) { l.guide_friction.data.coulomb = 30; }}});
 }
 
+// Behind the filters of its drive, with a torque ahead of the loop, and with what magnets and windings add;
+// within its torque limit. The low-pass holds its torque for a step and the torque ahead is a difference over
+// one, which are wrong in proportion to the step; the notches, by the bilinear transform that is right at
+// their frequencies, by its square.
+LinearAxisDefinition filtered_axis() {
+  LinearAxisDefinition axis;
+  ServoData& servo = axis.data.drive.servo;
+  soften(servo);
+  servo.filters = {4e-3, {{{.frequency = 40, .depth = 0.1, .width = 0.8}, {.frequency = 150}}}};
+  servo.torque_forward = 0.6;
+  servo.torque_forward_filter = 5e-3;
+  servo.cogging = 0.3;
+  servo.cogging_periods = 6;
+  servo.torque_ripple = 0.1;
+  servo.torque_ripple_periods = 4;
+  return axis;
+}
+
+const Motion even_ramps = {{{0.2, 0, 7}, {0.5, 7, 7}, {0.9, 7, -6}, {1.4, -6, -6}, {1.6, -6, 0}, {2, 0, 0}}};
+
+TEST(Witness, LinearAxisBehindFilters) {
+  const auto unit = [] {
+    return std::make_unique<ScrewUnit<LinearAxis>>(filtered_axis(), filtered_axis().data);
+  };
+  const auto law = [] {
+    const LinearAxisData data = filtered_axis().data;
+    return std::make_unique<ScrewLaw>(data, data.drive.servo, even_ramps);
+  };
+  expect_witness<ScrewLaw>(
+      unit, law, 2.5e-6, 1e-7,
+      {{"no low-pass", [](ScrewLaw& l) { l.servo.data.filters.low_pass = 0; }},
+       {"half the low-pass", [](ScrewLaw& l) { l.servo.data.filters.low_pass /= 2; }},
+       {"no first notch", [](ScrewLaw& l) { l.servo.data.filters.notches[0].frequency = 0; }},
+       {"no second notch", [](ScrewLaw& l) { l.servo.data.filters.notches[1].frequency = 0; }},
+       {"a first notch 1 % beside", [](ScrewLaw& l) { l.servo.data.filters.notches[0].frequency *= 1.01; }},
+       {"a deeper first notch", [](ScrewLaw& l) { l.servo.data.filters.notches[0].depth = 0; }},
+       {"a wider second notch", [](ScrewLaw& l) { l.servo.data.filters.notches[1].width *= 1.1; }},
+       {"no torque ahead", [](ScrewLaw& l) { l.servo.data.torque_forward = 0; }},
+       {"half its filter", [](ScrewLaw& l) { l.servo.data.torque_forward_filter /= 2; }},
+       {"no cogging", [](ScrewLaw& l) { l.servo.data.cogging = 0; }},
+       {"no ripple", [](ScrewLaw& l) { l.servo.data.torque_ripple = 0; }}});
+}
+
 // The carriage of the saw with play in its gear, and with a motor that has less torque above 600 rpm, runs up
 // to the line's speed, back, and into its end stop. In steps the torque limit and a touch count from the next
 // step on: what that leaves is not smooth in the step. A stop of 2000 N s/m would leave up to 1e-5 of the
