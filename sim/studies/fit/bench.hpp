@@ -1,0 +1,78 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/scenario/scenario.hpp"
+#include "sim/studies/fit/machine.hpp"
+#include "sim/studies/fit/replay.hpp"
+#include "sim/studies/fit/solve.hpp"
+
+namespace drycut::sim::studies {
+
+/// A machine and what is looked for in it.
+struct FitQuestion {
+  std::filesystem::path file;
+  std::string text;  ///< of the scenario
+  std::vector<scenario::Override> set;
+  std::string plant;          ///< whose motor was recorded
+  std::vector<FitPath> vary;  ///< its values that are looked for
+};
+
+/// Replays sets of values in machines of its own, on several threads. A set has the question's values [SI],
+/// then the offset of the torque, then the delays of each recording.
+class FitBench {
+ public:
+  /// Both outlive it. `standstill`: see ReplaySetup; it is so where what is looked for shows there. Throws
+  /// std::runtime_error if the machine does not move.
+  FitBench(const FitQuestion& question, const std::vector<ReplaySeries>& recordings, int jobs,
+           bool standstill = false);
+  [[nodiscard]] bool standstill() const { return standstill_; }
+
+  [[nodiscard]] const std::vector<FitUnknown>& unknowns() const { return unknowns_; }
+  /// Holds a number of the sets at a value.
+  void fix(std::size_t number, double value);
+  /// The scenario's values, and no error of the recordings.
+  [[nodiscard]] std::vector<double> start() const;
+  /// How many numbers of a set are the question's.
+  [[nodiscard]] std::size_t values() const { return question_.vary.size(); }
+  [[nodiscard]] const std::string& unit(std::size_t value) const { return units_[value]; }
+  [[nodiscard]] std::size_t torque_offset() const { return values(); }
+  [[nodiscard]] std::size_t torque_delay(std::size_t recording) const { return torque_delays_[recording]; }
+  [[nodiscard]] std::optional<std::size_t> load_delay(std::size_t recording) const {
+    return load_delays_[recording];
+  }
+  [[nodiscard]] const FitQuestion& question() const { return question_; }
+  [[nodiscard]] const std::vector<ReplaySeries>& recordings() const { return recordings_; }
+  [[nodiscard]] std::size_t runs() const { return runs_; }
+
+  using OfRecordings = std::vector<std::optional<Replayed>>;
+  /// Of each set each recording; none where the machine cannot be built or diverges.
+  std::vector<OfRecordings> replay(const std::vector<std::vector<double>>& sets, double cutoff);
+
+ private:
+  std::unique_ptr<scenario::Scenario> take_machine();
+  void give_back(std::unique_ptr<scenario::Scenario> machine);
+  void collect_unknowns();
+  [[nodiscard]] ReplayErrors errors_of(const std::vector<double>& set, std::size_t recording) const;
+  [[nodiscard]] std::optional<Replayed> replay_one(const std::vector<double>& set, std::size_t recording,
+                                                   double cutoff);
+
+  const FitQuestion& question_;
+  const std::vector<ReplaySeries>& recordings_;
+  int jobs_;
+  bool standstill_ = false;
+  std::size_t runs_ = 0;
+  std::vector<FitUnknown> unknowns_;
+  std::vector<std::string> units_;
+  std::vector<std::size_t> torque_delays_;
+  std::vector<std::optional<std::size_t>> load_delays_;
+  std::vector<Plausible> about_;  ///< of each recording
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<scenario::Scenario>> free_;
+};
+
+}  // namespace drycut::sim::studies

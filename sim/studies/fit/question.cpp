@@ -1,0 +1,113 @@
+#include "sim/studies/fit/question.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "base/plain_text.hpp"
+#include "base/text.hpp"
+#include "sim/file.hpp"
+#include "sim/recordings/recording_file.hpp"
+
+namespace drycut::sim::studies {
+
+namespace {
+
+Problem option_problem(Code code, const char* option, std::string what, std::string remedy) {
+  return {code, option, 1, 1, std::move(what), std::move(remedy)};
+}
+
+/// The quantities of a plant by their paths.
+std::vector<std::string> quantities_of(scenario::Scenario& scenario) {
+  std::vector<std::string> paths;
+  for (const auto& plant : scenario.plants)
+    for (const auto& row : plant.definition->parameters())
+      if (std::holds_alternative<double*>(row.value))
+        paths.push_back(FitPath{plant.name.text, row.name}.text());
+  return paths;
+}
+
+void read_vary(FitPlan& plan, scenario::Scenario& scenario, Problems& problems) {
+  std::set<std::string> seen;
+  if (plan.request.vary.empty())
+    problems.push_back(option_problem("fit.unknown-value"_code, "--vary", "nothing is looked for",
+                                      "such as --vary plants.axis.mass"));
+  for (const auto& text : plan.request.vary) {
+    const auto path = fit_path(text);
+    plants::Parameters rows;
+    if (!path || quantity_at(scenario, *path, rows) == nullptr) {
+      problems.push_back(option_problem("fit.unknown-value"_code, "--vary",
+                                        fmt::format("'{}' is no quantity of a plant", text),
+                                        did_you_mean(text, quantities_of(scenario),
+                                                     "plants.PLANT.PARAMETER, as drycut plants lists them")));
+      continue;
+    }
+    if (!seen.insert(text).second) {
+      problems.push_back(option_problem("fit.unknown-value"_code, "--vary",
+                                        fmt::format("'{}' is given twice", text), "once"));
+      continue;
+    }
+    if (!plan.question.plant.empty() && path->plant != plan.question.plant) {
+      problems.push_back(option_problem(
+          "fit.unknown-value"_code, "--vary",
+          fmt::format("'{}' is of another plant than '{}'", text, plan.question.vary.front().text()),
+          "values of one plant, whose motor was recorded"));
+      continue;
+    }
+    plan.question.plant = path->plant;
+    plan.question.vary.push_back(*path);
+  }
+}
+
+std::vector<ReplaySeries> read_recordings(const std::vector<std::filesystem::path>& files, FitPlan& plan,
+                                          scenario::Scenario& machine, bool are_sources, Problems& problems) {
+  std::vector<ReplaySeries> all;
+  for (const auto& file : files) {
+    Problems own;
+    const auto yaml = recordings::read_recording_file(file, own);
+    if (own.empty()) {
+      auto recording = recordings::load(yaml, own, plan.findings);
+      if (own.empty()) {
+        if (auto series = replay_series(recording, file, plan.question.plant, machine, own))
+          all.push_back(std::move(*series));
+        if (are_sources) plan.sources.push_back({file, recording.file, recording.checksum, recording.rows});
+      }
+    }
+    problems.insert(problems.end(), own.begin(), own.end());
+  }
+  return all;
+}
+
+}  // namespace
+
+FitPlan plan_fit(const FitRequest& request, Problems& problems) {
+  FitPlan plan;
+  plan.request = request;
+  auto& question = plan.question;
+  question.file = request.scenario;
+  question.set = request.set;
+  const auto text = read_file(request.scenario, problems);
+  if (!text) return plan;
+  question.text = *text;
+  auto machine = scenario::read_scenario_text(question.text, question.file, question.set, problems);
+  if (!problems.empty()) return plan;
+  read_vary(plan, machine, problems);
+  if (request.recordings.empty())
+    problems.push_back(option_problem("fit.no-recording"_code, "--recording", "no recording is named",
+                                      "its YAML; drycut import writes one"));
+  if (question.plant.empty()) return plan;
+  strip(machine);
+  if (!make_source_of_torque(machine, question.plant)) {
+    problems.push_back(option_problem("fit.no-servo"_code, "--vary",
+                                      fmt::format("{} has no servo", question.plant),
+                                      "a plant with a servo, whose torque was recorded"));
+    return plan;
+  }
+  plan.recordings = read_recordings(request.recordings, plan, machine, true, problems);
+  plan.tests = read_recordings(request.tests, plan, machine, false, problems);
+  return plan;
+}
+
+}  // namespace drycut::sim::studies
