@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "base/output_file.hpp"
-#include "base/plain_text.hpp"
 
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/commands.hpp"
@@ -48,7 +47,7 @@ int fit(FitOptions options) {
   bar.clear();
   for (const auto& finding : plan.findings) found.tell(finding);
   const int status = studies::write_fit(plan, found, *folder, options.pictures);
-  fmt::print("{}", printable(studies::fit_text(found)));
+  fmt::print("{}", studies::fit_text(found));
   fmt::print("scenario with these values: {}\n", (options.out / studies::fitted_file).string());
   if (options.pictures) fmt::print("report: {}\n", (options.out / "report.html").string());
   return status;

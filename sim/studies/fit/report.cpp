@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/output_file.hpp"
+#include "base/plain_text.hpp"
 #include "base/text.hpp"
 #include "sim/record/json.hpp"
 #include "sim/report/report.hpp"
@@ -205,7 +206,7 @@ std::string fit_text(const FitFound& found) {
                       error_text(found.relative_error), found.cutoff);
   if (found.cross_error) text += fmt::format("in the cross test: {}\n", error_text(*found.cross_error));
   for (const auto& [channel, delay] : found.delays) text += delay_text(channel, delay) + "\n";
-  for (const auto& note : notes_of(found)) text += "note: " + note + "\n";
+  for (const auto& note : notes_of(found)) text += "note: " + printable(note) + "\n";
   return text;
 }
 
@@ -253,7 +254,7 @@ std::string fitted_text(const FitPlan& plan, const FitFound& found, const std::f
       entries += std::string(2 * i, ' ') + keys[i] + ":";
       if (i + 1 < keys.size()) entries += "\n";
     }
-    entries += fmt::format(" {}{}{}  # {}; before {:.5g}\n", *value.value, value.unit.empty() ? "" : " ",
+    entries += fmt::format(" {:.6g}{}{}  # {}; before {:.5g}\n", *value.value, value.unit.empty() ? "" : " ",
                            value.unit, limits_text(value), value.before);
     open = keys;
   }

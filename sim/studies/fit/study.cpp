@@ -332,7 +332,8 @@ void tell_values(const FitBench& bench, const Solved& solved, FitFound& found) {
     value.known = estimate.known;
     value.before = shown(before[i]);
     value.used = shown(estimate.value);
-    for (const double alone : estimate.alone) value.alone.push_back(shown(alone));
+    if (estimate.alone.size() > 1)
+      for (const double alone : estimate.alone) value.alone.push_back(shown(alone));
     if (estimate.known == Known::yes) {
       value.value = value.used;
       value.low = shown(estimate.low);

@@ -2,33 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "sim/studies/fit/study.hpp"
-#include "tests/sim/studies/fit/witness/hidden_axis.hpp"
+#include "tests/sim/studies/fit/witness/belt_axis.hpp"
 
 namespace drycut::sim::studies {
 namespace {
 
-using plants::witness::Leg;
-
-/// A belt axis; the scenario has other values than the one that was recorded.
-plants::LinearAxisData belt_axis() {
-  plants::LinearAxisData data;
-  data.mass = 37;
-  data.lead = 0.1;
-  data.start = 0;
-  data.travel_min = -100;
-  data.travel_max = 100;
-  data.gear.stiffness = 5000;
-  data.gear.damping = 1;
-  data.guide_friction = {120, 80, 0, 0.01};
-  data.drive.servo.inertia_ratio = 1;
-  data.drive.servo.speed_gain = 60;
-  return data;
-}
 constexpr auto* scenario_text = R"(
 scene: {title: a belt axis, step: 100 us, duration: 1 s}
 plants:
@@ -37,51 +22,6 @@ plants:
      gear: {stiffness: 5000 N m/rad, damping: 1 N m s/rad},
      carriage_friction: {coulomb: 50 N, viscous: 30 N s/m}}
 )";
-
-/// Constant speeds both ways, and ramps between them.
-std::vector<Leg> both_ways() {
-  std::vector<Leg> legs;
-  double until = 0;
-  double now = 0;
-  for (const double volts : {3.0, -3.0, 1.0, -1.0, 5.0, -5.0, 0.5, -0.5, 2.0, -4.0}) {
-    until += 0.2;
-    legs.push_back({until, now, volts});
-    until += 0.4;
-    legs.push_back({until, volts, volts});
-    now = volts;
-  }
-  return legs;
-}
-
-/// The same speeds forwards only.
-std::vector<Leg> one_way() {
-  std::vector<Leg> legs;
-  double until = 0;
-  double now = 0;
-  for (const double volts : {3.0, 1.0, 5.0, 2.0, 4.0, 0.5, 3.0, 1.0}) {
-    until += 0.2;
-    legs.push_back({until, now, volts});
-    until += 0.4;
-    legs.push_back({until, volts, volts});
-    now = volts;
-  }
-  return legs;
-}
-
-/// Slow speeds both ways with a shake on top, up to a frequency of 20 Hz.
-std::vector<Leg> shaken() {
-  std::vector<Leg> legs;
-  double until = 0;
-  double now = 0;
-  for (int i = 0; i < 150; ++i) {
-    const double slow = i / 25 % 2 == 0 ? 1 : -1;
-    const double volts = slow + (i % 2 == 0 ? 0.8 : -0.8);
-    until += 0.025 + 0.001 * (i % 25);
-    legs.push_back({until, now, volts});
-    now = volts;
-  }
-  return legs;
-}
 
 FitQuestion asking(const std::vector<std::string>& paths) {
   FitQuestion question;
@@ -259,6 +199,16 @@ TEST(FitWitness, ACrossTestTellsAnotherMachine) {
   EXPECT_GT(found.cross_error.value(), 0.05);
   EXPECT_FALSE(found.passed);
   EXPECT_NE(std::ranges::find(found.codes, "fit.cross-test"), found.codes.end());
+}
+
+// What the pages of the manual learn from is this axis, as it is recorded here.
+TEST(FitWitness, WhatIsShippedIsTheBeltAxis) {
+  for (const auto& [name, text] : shipped_recordings()) {
+    std::ifstream file(std::string(DRYCUT_SOURCE_DIR "/scenes/recordings/") + name);
+    std::stringstream there;
+    there << file.rdbuf();
+    EXPECT_EQ(there.str(), text) << name;
+  }
 }
 
 /// In how many of `seeds` recordings the limits hold the truth, a value each.
