@@ -7,7 +7,6 @@
 #include <array>
 #include <cctype>
 
-#include "base/plain_text.hpp"
 #include "base/text.hpp"
 
 namespace drycut::sim::recordings {
@@ -232,80 +231,6 @@ std::optional<std::pair<std::size_t, std::size_t>> find_mark(const Beginning& be
   return {};
 }
 
-constexpr std::array separators = {'\t', ';', ',', '|', ' ', ':'};
-constexpr std::array decimals = {'.', ','};
-
-/// The data among the first lines: from where a line of data follows another, or the end.
-struct Block {
-  std::size_t lines = 0;  ///< of data, above and below which none is counted
-  std::size_t first = 0;  ///< index of its first line
-  int width = 0;          ///< cells of its first line
-};
-Block block_of(const Beginning& beginning, const Dialect& dialect) {
-  Block block;
-  std::vector<std::string_view> cells;
-  std::optional<std::size_t> before;
-  for (std::size_t i = 0; i < beginning.lines.size(); ++i) {
-    const auto& line = beginning.lines[i];
-    if (is_blank(line)) continue;
-    if (!is_data(line, dialect)) {
-      if (block.lines < 2) before.reset();
-      if (block.lines < 2) block.lines = 0;
-      continue;
-    }
-    if (!before) {
-      before = block.first = i;
-      split(line, dialect, cells);
-      block.width = static_cast<int>(cells.size());
-    }
-    ++block.lines;
-  }
-  return block;
-}
-
-Dialect made(char separator, char decimal, bool is_twincat) {
-  return {separator, decimal, separator == ' ' && !is_twincat};
-}
-
-/// The dialect in which most lines are data; of equals the first in the order above.
-Dialect dialect_of(const Beginning& beginning, const Given& given, bool is_twincat) {
-  auto best = made(given.separator.value_or(','), given.decimal.value_or('.'), is_twincat);
-  auto most = Block();
-  for (const char separator : separators) {
-    if (given.separator && *given.separator != separator) continue;
-    if (!given.separator && separator == ':') continue;  // times of day have it
-    for (const char decimal : decimals) {
-      if ((given.decimal && *given.decimal != decimal) || separator == decimal) continue;
-      const auto dialect = made(separator, decimal, is_twincat);
-      const auto block = block_of(beginning, dialect);
-      // Two cells tell more than one: a line of a single number is data in every dialect.
-      const bool better =
-          block.lines > most.lines || (block.lines == most.lines && most.width < 2 && block.width > 1);
-      if (!better) continue;
-      most = block;
-      best = dialect;
-    }
-  }
-  return best;
-}
-
-std::optional<HeadFault> fault_of_bytes(const Beginning& beginning) {
-  if (beginning.lines.empty()) return HeadFault{HeadFault::Kind::empty};
-  const std::string_view first = beginning.lines.front();
-  if (first.starts_with("\xFF\xFE") || first.starts_with("\xFE\xFF"))
-    return HeadFault{HeadFault::Kind::utf16};
-  int number = 0;
-  for (const auto& line : beginning.lines) {
-    ++number;
-    const auto odd = std::find_if(line.begin(), line.end(), [](char c) {
-      return static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\r' && c != '\f';
-    });
-    if (odd != line.end())
-      return HeadFault{HeadFault::Kind::binary, number, static_cast<int>(odd - line.begin()) + 1};
-  }
-  return {};
-}
-
 /// A comma between cells and in numbers: the data have more cells than the header, or not always as many.
 std::optional<HeadFault> fault_of_commas(const Beginning& beginning, const Above& above, const Head& head) {
   const auto* const last = above.from_below(0);
@@ -348,39 +273,6 @@ const std::vector<std::string>& format_names() {
   return names;
 }
 
-Beginning beginning_of(std::istream& stream) {
-  constexpr std::size_t most_lines = 500;
-  constexpr std::size_t most_bytes = 4U << 20U;
-  Beginning beginning;
-  Lines lines(stream);
-  std::string_view line;
-  std::size_t bytes = 0;
-  while (lines.next(line)) {
-    if (beginning.lines.size() == most_lines || bytes > most_bytes) {
-      beginning.is_whole = false;
-      break;
-    }
-    bytes += line.size();
-    beginning.lines.emplace_back(line);
-  }
-  return beginning;
-}
-
-std::string as_utf8(std::string_view text) {
-  if (!text_fault(text)) return std::string(text);
-  std::string made;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80) {
-      made += byte < 0x20 && c != '\t' ? ' ' : c;
-    } else {
-      made += static_cast<char>(0xC0U | (byte >> 6U));
-      made += static_cast<char>(0x80U | (byte & 0x3FU));
-    }
-  }
-  return made;
-}
-
 Head head_of(const Beginning& beginning, const Given& given, std::optional<HeadFault>& fault) {
   Head head;
   fault = fault_of_bytes(beginning);
@@ -419,29 +311,6 @@ Head head_of(const Beginning& beginning, const Given& given, std::optional<HeadF
   for (auto i = head.columns.size(); i < static_cast<std::size_t>(head.width); ++i)
     head.columns.push_back({""});
   return head;
-}
-
-Problem problem_of(const HeadFault& fault, const std::string& file) {
-  using Kind = HeadFault::Kind;
-  const auto made = [&](Code code, const char* what, const char* remedy) {
-    return Problem{code, file, fault.line, fault.column, what, remedy};
-  };
-  switch (fault.kind) {
-    case Kind::empty:
-      return made("recording.no-rows"_code, "the file is empty", "export the recording again");
-    case Kind::binary:
-      return made("file.not-text"_code, "this is no text", "export the recording as text (CSV)");
-    case Kind::utf16:
-      return made("file.not-text"_code, "this is UTF-16", "save it as plain text in UTF-8");
-    case Kind::ambiguous_comma:
-      return made("recording.ambiguous-comma"_code,
-                  "a comma stands both between cells and in numbers: more cells than columns",
-                  "export it with semicolons or tabs, or with decimal points");
-    case Kind::no_data:
-      break;
-  }
-  return made("recording.no-rows"_code, "there are no rows of data in the first lines",
-              "export it as text with a row a sample");
 }
 
 }  // namespace drycut::sim::recordings

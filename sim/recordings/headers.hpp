@@ -1,13 +1,11 @@
 #pragma once
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "base/problem.hpp"
-#include "sim/recordings/text_table.hpp"
+#include "sim/recordings/dialect.hpp"
 
 namespace drycut::sim::recordings {
 
@@ -40,35 +38,12 @@ struct Head {
   int width = 0;                        ///< cells of the first line of data
 };
 
-/// The first lines of a file, enough for any header.
-struct Beginning {
-  std::vector<std::string> lines;
-  bool is_whole = true;  ///< the file has no more
-};
-Beginning beginning_of(std::istream& stream);
-
 /// What a recording's YAML says of the text; the rest is guessed.
-struct Given {
+struct Given : GivenSigns {
   std::optional<Format> format = {};
-  std::optional<char> separator = {};
-  std::optional<char> decimal = {};
 };
-
-/// What is wrong with a text as a table.
-struct HeadFault {
-  enum class Kind { empty, binary, utf16, ambiguous_comma, no_data };
-  Kind kind;
-  int line = 1;
-  int column = 1;
-};
-
-/// In words.
-Problem problem_of(const HeadFault& fault, const std::string& file);
 
 /// Understands the beginning of a file. `fault` says why not; the result is not to be used then.
 Head head_of(const Beginning& beginning, const Given& given, std::optional<HeadFault>& fault);
-
-/// Text of a file in UTF-8 or, where it is none, in Latin-1, as Windows' tools write it.
-std::string as_utf8(std::string_view text);
 
 }  // namespace drycut::sim::recordings

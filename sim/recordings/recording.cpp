@@ -26,6 +26,7 @@ struct Reader {
   std::size_t nan = 0;
   int first_empty = 0;  ///< line
   int first_nan = 0;
+  int first_clipped = 0;
 };
 
 class Loader {
@@ -39,7 +40,7 @@ class Loader {
     if (!stream) return made;
     const auto beginning = beginning_of(stream);
     std::optional<HeadFault> fault;
-    head_ = head_of(beginning, {recording_.format, recording_.separator, recording_.decimal}, fault);
+    head_ = head_of(beginning, {{recording_.separator, recording_.decimal}, recording_.format}, fault);
     if (fault) {
       problems_.push_back(problem_of(*fault, made.file.string()));
       return made;
@@ -212,7 +213,7 @@ class Loader {
       if (cell.kind == Cell::Kind::text) refuse_text(cells[reader.column], line, number);
       if (!clock.now) continue;
       if (cell.kind == Cell::Kind::number) {
-        append(reader, *clock.now, cell.value, made.series[i]);
+        append(reader, *clock.now, cell.value, number, made.series[i]);
       } else if (cell.kind == Cell::Kind::empty) {
         if (reader.empty++ == 0) reader.first_empty = number;
       } else if (reader.nan++ == 0) {
@@ -221,10 +222,13 @@ class Loader {
     }
   }
 
-  static void append(const Reader& reader, double time, double number, Series& series) {
+  static void append(Reader& reader, double time, double number, int line, Series& series) {
     const auto& channel = *reader.channel;
     constexpr double sign_bit = 32768;
-    if (channel.clipped && number == *channel.clipped) series.clipped.push_back(series.value.size());
+    if (channel.clipped && number == *channel.clipped) {
+      if (series.clipped.empty()) reader.first_clipped = line;
+      series.clipped.push_back(series.value.size());
+    }
     if (channel.numbers != Numbers::plain && number >= sign_bit)
       number = channel.numbers == Numbers::sign_magnitude ? sign_bit - number : number - 2 * sign_bit;
     series.time_s.push_back(time - channel.delay);
@@ -248,7 +252,7 @@ class Loader {
                          "too many problems: the rest is not told", "is this what the format says?"});
   }
 
-  void find(Code code, Finding::Role role, int line, const std::string& text) {
+  void doubt(Code code, Finding::Role role, int line, const std::string& text) {
     findings_.emplace_back(code, fmt::format("{}:{}: {}", recording_.export_path().string(), line, text),
                            role);
   }
@@ -256,23 +260,23 @@ class Loader {
   void tell(const Recording& made) {
     using Role = Finding::Role;
     for (const auto& clock : clocks_)
-      for (const auto& doubt : doubts_of(clock)) find(doubt.code, Role::warning, doubt.line, doubt.text);
+      for (const auto& one : doubts_of(clock)) doubt(one.code, Role::warning, one.line, one.text);
     for (std::size_t i = 0; i < readers_.size(); ++i) {
       const auto& reader = readers_[i];
       const auto& series = made.series[i];
       if (reader.nan > 0)
-        find("recording.nan"_code, Role::warning, reader.first_nan,
-             fmt::format("{}: {} without a number, left out", series.channel,
-                         counted(static_cast<std::int64_t>(reader.nan), "sample")));
+        doubt("recording.nan"_code, Role::warning, reader.first_nan,
+              fmt::format("{}: {} without a number, left out", series.channel,
+                          counted(static_cast<std::int64_t>(reader.nan), "sample")));
       if (reader.empty > 0)
-        find("recording.empty-cells"_code, Role::note, reader.first_empty,
-             fmt::format("{}: {} empty, left out", series.channel,
-                         counted(static_cast<std::int64_t>(reader.empty), "cell")));
+        doubt("recording.empty-cells"_code, Role::note, reader.first_empty,
+              fmt::format("{}: {} empty, left out", series.channel,
+                          counted(static_cast<std::int64_t>(reader.empty), "cell")));
       if (!series.clipped.empty())
-        find("recording.clipped"_code, Role::warning, head_.first_line,
-             fmt::format("{}: {} clipped, from {:g} s on", series.channel,
-                         counted(static_cast<std::int64_t>(series.clipped.size()), "sample"),
-                         series.time_s[series.clipped.front()]));
+        doubt("recording.clipped"_code, Role::warning, reader.first_clipped,
+              fmt::format("{}: {} clipped, from {:g} s on", series.channel,
+                          counted(static_cast<std::int64_t>(series.clipped.size()), "sample"),
+                          series.time_s[series.clipped.front()]));
       if (made.rows > 0 && series.value.empty() && refused_ == 0)
         problems_.push_back(recording_.problem("recording.no-rows"_code, reader.channel->column.place,
                                                fmt::format("{}: its column has no numbers", series.channel),

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/plain_text.hpp"
 #include "base/text.hpp"
 
 namespace drycut::sim::recordings {
@@ -149,6 +150,21 @@ bool is_data(std::string_view line, const Dialect& dialect) {
     has_number = has_number || kind == Cell::Kind::number;
   }
   return has_number;
+}
+
+std::string as_utf8(std::string_view text) {
+  if (!text_fault(text)) return std::string(text);
+  std::string made;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      made += byte < 0x20 && c != '\t' ? ' ' : c;
+    } else {
+      made += static_cast<char>(0xC0U | (byte >> 6U));
+      made += static_cast<char>(0x80U | (byte & 0x3FU));
+    }
+  }
+  return made;
 }
 
 bool is_blank(std::string_view line) {

@@ -57,4 +57,7 @@ bool is_data(std::string_view line, const Dialect& dialect);
 /// The line is no data at all: blank, or the mark that TwinCAT ends a file with.
 bool is_blank(std::string_view line);
 
+/// Text of a file in UTF-8 or, where it is none, in Latin-1, as Windows' tools write it.
+std::string as_utf8(std::string_view text);
+
 }  // namespace drycut::sim::recordings

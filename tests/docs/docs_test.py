@@ -116,7 +116,7 @@ def schema():
 def yaml_of(page):
     import jsonschema
     import yaml
-    sections = set(schema()["else"]["then"]["properties"])
+    sections = set(schema()["else"]["else"]["then"]["properties"])
     wrong = []
     for block in blocks(page):
         if block.language != "yaml":

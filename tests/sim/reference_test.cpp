@@ -39,15 +39,16 @@ void expect_rows(const json& schema, const std::string& text) {
 TEST(Reference, HasEveryKeyOfAScenario) {
   const auto pages = scenario_pages();
   const auto schema = json::parse(studies::json_schema());
-  ASSERT_EQ(pages.size(), 2u);
+  ASSERT_EQ(pages.size(), 3u);
   auto text = text_of(pages[0]);
   // A controller's kinds are sections.
   for (const auto* kind : {"qmove", "lx3vp", "plcopen"}) {
     EXPECT_THAT(text, HasSubstr(std::string("## controller.") + kind + "\n"));
     text += std::string("| ") + kind + " |";
   }
-  expect_rows(schema.at("else"), text);
+  expect_rows(schema.at("else").at("else"), text);
   expect_rows(schema.at("then"), text_of(pages[1]));
+  expect_rows(schema.at("else").at("then"), text_of(pages[2]));
 }
 
 TEST(Reference, SaysWhatAValueMayBeAndItsDefault) {

@@ -19,6 +19,7 @@ struct FileKinds : CommandTest {
              {"line.yaml", "scene: {title: A}\n"},
              {"LINE.YML", "scene: {title: A}\n"},
              {"two.yaml", "scene: {title: A}\ncompare: {scenarios: []}\n"},
+             {"scope.yaml", "file: scope.csv\n"},
              {"session.yaml", "- {scenario: line.yaml}\n"},
              {"x.cnf", "CONST\n"},
              {"x.mod", "END\n"},

@@ -105,7 +105,7 @@ TEST_F(Formats, MrConfigurator2MarksWhatIsClipped) {
   EXPECT_EQ(read.series[1].unit, "rad");
   EXPECT_NEAR(read.series[1].value[0], 100 * 2 * std::numbers::pi / 8192, 1e-12);
   EXPECT_THAT(read.series[1].clipped, ElementsAre(1u));
-  EXPECT_THAT(codes(findings), ElementsAre("recording.clipped"));
+  EXPECT_THAT(doubts(), ElementsAre("7 recording.clipped"));
 }
 
 TEST_F(Formats, RigolsTimeIsComputed) {
