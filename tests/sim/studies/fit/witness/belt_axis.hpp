@@ -83,8 +83,8 @@ inline std::map<std::string, std::string> shipped_recordings() {
     const auto& counts = recording.series[1];
     std::string text = "Time;ActTorque;ActPosition\nms;%;inc\n";
     for (std::size_t i = 0; i < torque.value.size(); ++i)
-      text += fmt::format("{:.0f};{:.1f};{:.0f}\n", torque.time_s[i] * 1000, torque.value[i] / rated * percent,
-                          counts.value[i]);
+      text += fmt::format("{:.0f};{:.1f};{:.0f}\n", torque.time_s[i] * 1000,
+                          torque.value[i] / rated * percent, counts.value[i]);
     return text;
   };
   std::vector<Leg> other;
