@@ -6,6 +6,8 @@
 #include <cmath>
 #include <fstream>
 #include <optional>
+#include <sstream>
+#include <utility>
 
 #include "base/text.hpp"
 #include "sim/file.hpp"
@@ -35,9 +37,13 @@ class Loader {
       : recording_(recording), problems_(problems), findings_(findings) {}
 
   Recording load() {
-    Recording made{recording_.export_path(), 0, 0, {}};
     std::ifstream stream = open();
-    if (!stream) return made;
+    if (!stream) return {recording_.export_path(), 0, 0, {}};
+    return load(stream);
+  }
+
+  Recording load(std::istream& stream) {
+    Recording made{recording_.export_path(), 0, 0, {}};
     const auto beginning = beginning_of(stream);
     std::optional<HeadFault> fault;
     head_ = head_of(beginning, {{recording_.separator, recording_.decimal}, recording_.format}, fault);
@@ -298,6 +304,12 @@ class Loader {
 
 Recording load(const RecordingFile& recording, Problems& problems, std::vector<Finding>& findings) {
   return Loader(recording, problems, findings).load();
+}
+
+Recording load(const RecordingFile& recording, std::string bytes, Problems& problems,
+               std::vector<Finding>& findings) {
+  std::istringstream stream(std::move(bytes));
+  return Loader(recording, problems, findings).load(stream);
 }
 
 }  // namespace drycut::sim::recordings

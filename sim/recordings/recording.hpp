@@ -31,5 +31,8 @@ struct Recording {
 /// Reads the export that a recording names. What cannot be read is a problem, at its place in the YAML or in
 /// the export; what is doubtful a warning or note in `findings`, with the export's line in its text.
 Recording load(const RecordingFile& recording, Problems& problems, std::vector<Finding>& findings);
+/// The same of an export that is in memory.
+Recording load(const RecordingFile& recording, std::string bytes, Problems& problems,
+               std::vector<Finding>& findings);
 
 }  // namespace drycut::sim::recordings

@@ -48,6 +48,7 @@ void strip(scenario::Scenario& scenario) {
   scenario.panel = {};
   scenario.timeline.clear();
   scenario.disturbances.clear();
+  scenario.inputs.clear();
   scenario.record.channels.clear();
   scenario.checks.clear();
   scenario.pictures = {};
