@@ -64,6 +64,7 @@ inline constexpr CodeRow code_rows[] = {
     {"cnf.syntax", "A line of a configuration has the wrong form", "A field is missing, too much or out of place.", "Write the line as the message shows."},
     {"cnf.unknown-name", "A configuration names a section, type or device that is not known", "It is misspelt, or of another controller.", "Take the one that the line suggests."},
     {"cnf.value", "A number or an address of a configuration cannot be taken", "It is out of range, or no card has it.", "Take one of the range that the line names."},
+    {"compare.nothing-shared", "A recording and a run have no channel in common", "They are called otherwise, were not recorded, or at another time.", "Record them in the scenario by the recording's names."},
     {"compare.runs", "There are no two runs to compare", "One alone is named, or the result would stand in one of them.", "Name two runs at least, and another folder for the result."},
     {"compare.tolerance", "A tolerance has the wrong form", "It is no number with its name and unit.", "Write NAME=VALUE, such as length=0.01mm."},
     {"compare.unknown-name", "The runs that are compared have nothing of this name", "It is misspelt, or one of them does not record it.", "Take a name that all runs record."},
