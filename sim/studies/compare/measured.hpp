@@ -28,11 +28,11 @@ struct TimedChannel {
 struct MeasuredChannel {
   std::string name;
   std::string unit;
-  std::vector<double> times;  ///< [s]
-  std::vector<double> measured;
-  std::vector<double> simulated;  ///< between two recorded instants straight on
-  std::vector<double> residual;   ///< simulated less measured
-  double rms = 0;                 ///< of the residual, as all that follows
+  std::vector<double> times = {};  ///< [s]
+  std::vector<double> measured = {};
+  std::vector<double> simulated = {};  ///< between two recorded instants straight on
+  std::vector<double> residual = {};   ///< simulated less measured
+  double rms = 0;                      ///< of the residual, as all that follows
   double mean = 0;
   double worst = 0;
   double worst_at = 0;  ///< [s]
@@ -43,11 +43,12 @@ struct MeasuredChannel {
     std::string unit;
     std::vector<double> values;
   };
-  std::optional<Motion> speed;
-  std::optional<Motion> position;
-  std::optional<double> mean_forwards;  ///< while its plant moves so, faster than a fiftieth of its fastest
-  std::optional<double> mean_backwards;
-  std::optional<double> allowed;  ///< for `worst`, where a tolerance was given
+  std::optional<Motion> speed = {};
+  std::optional<Motion> position = {};
+  // While its plant moves so, faster than a fiftieth of its fastest.
+  std::optional<double> mean_forwards = {};
+  std::optional<double> mean_backwards = {};
+  std::optional<double> allowed = {};  ///< for `worst`, where a tolerance was given
   [[nodiscard]] bool is_kept() const { return !allowed || worst <= *allowed; }
 };
 
