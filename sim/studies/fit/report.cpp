@@ -19,7 +19,7 @@ namespace {
 constexpr double percent = 100;
 
 std::string limits_text(const FittedValue& value) {
-  if (!value.value) return value.known == Known::joined ? "known only together" : "not known";
+  if (!value.value) return value.known == FitKnown::joined ? "known only together" : "not known";
   return fmt::format("{:.5g} .. {:.5g}", *value.low, *value.high);
 }
 

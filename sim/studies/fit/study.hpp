@@ -13,7 +13,7 @@
 
 namespace drycut::sim::studies {
 
-inline constexpr std::array<std::string_view, 3> words_of(Known) { return {"yes", "joined", "no"}; }
+inline constexpr std::array<std::string_view, 3> words_of(FitKnown) { return {"yes", "joined", "no"}; }
 
 /// A value as it was found, in the unit of its row.
 struct FittedValue {
@@ -22,7 +22,7 @@ struct FittedValue {
   std::optional<double> low;    ///< it lies between these with 95 %
   std::optional<double> high;
   std::string unit;
-  Known known = Known::yes;
+  FitKnown known = FitKnown::yes;
   std::string why;                ///< it is not known, and which move would tell; "" where it is
   double before = 0;              ///< in the scenario
   double used = 0;                ///< where the fit ended, known or not

@@ -79,9 +79,9 @@ TEST(FitWitness, OneWayGivesFrictionAndOffsetTogetherOnly) {
   const auto question = asking(rigid);
   const auto found = fit(question, {series_of(axis.recorded({}, 1), question)}, 2);
   const auto& coulomb = value_of(found, "carriage_friction.coulomb");
-  EXPECT_EQ(coulomb.known, Known::joined);
+  EXPECT_EQ(coulomb.known, FitKnown::joined);
   EXPECT_FALSE(coulomb.value || coulomb.low || coulomb.high);
-  EXPECT_EQ(found.torque_offset.known, Known::joined);
+  EXPECT_EQ(found.torque_offset.known, FitKnown::joined);
   EXPECT_FALSE(found.torque_offset.value);
   EXPECT_NE(std::ranges::find(found.codes, "fit.joined"), found.codes.end());
   EXPECT_FALSE(found.passed);
