@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -219,10 +220,36 @@ TEST_F(SpeedLoopOfAnAxis, IsToldWithItsFilterToPaste) {
 TEST_F(SpeedLoopOfAnAxis, WhatDoesNotGoWithItIsTold) {
   options.limit_cycle = true;
   options.min_gain_margin = 6;
+  options.loop.speed = "axis.motor.speed";
+  options.loop.amplitude = 0.1;  // as without it, and still it is not what --advise adds
+  options.loop.settle = 0.5;
   EXPECT_EQ(run(), cli::bad_input);
-  EXPECT_THAT(err, HasSubstr("--limit-cycle"));
-  EXPECT_THAT(err, HasSubstr("--min-gain-margin"));
-  EXPECT_THAT(err, HasSubstr("[option.together]"));
+  for (const auto* option : {"--limit-cycle", "--min-gain-margin", "--speed", "--amplitude", "--settle"})
+    EXPECT_THAT(err, ContainsRegex(fmt::format("(^|\n){}:1:1: .*; .* \\[option.together\\]\n", option)));
+  EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 5) << err;
+}
+
+// Its range is that of the steps, its points are as many as a resonance needs.
+TEST_F(SpeedLoopOfAnAxis, ARangeThatCannotBeMeasuredIsTold) {
+  options.loop.from = 6000;
+  options.loop.to = 5001;
+  options.loop.points = 359;
+  EXPECT_EQ(run(), cli::bad_input);
+  for (const auto* option : {"--from", "--to", "--points"})
+    EXPECT_THAT(err, ContainsRegex(fmt::format("(^|\n){}:1:1: .*; .* \\[option.out-of-range\\]\n", option)));
+  EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 3) << err;
+}
+
+TEST_F(SpeedLoopOfAnAxis, IsMeasuredAtAsManyPointsAsAreAskedFor) {
+  options.loop.from = 200;
+  options.loop.to = 1000;
+  const auto usual = measured().points;
+  EXPECT_EQ(usual.size(), 360);
+  options.loop.points = 400;
+  const auto more = measured().points;
+  EXPECT_EQ(more.size(), 400);
+  EXPECT_NEAR(more.front().frequency, 200, 0.1);
+  EXPECT_NEAR(more.back().frequency, 1000, 0.1);
 }
 
 TEST_F(SpeedLoopOfAnAxis, AMachineWithoutAServoHasNone) {
