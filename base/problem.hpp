@@ -128,6 +128,7 @@ inline constexpr CodeRow code_rows[] = {
     {"fit.not-known", "A value cannot be known from the recording", "Hardly anything in it depends on the value.", "Record the move that the line names."},
     {"fit.offset-or-direction", "An offset of the torque, or friction that differs by direction", "Both are the same torque to whoever looks at torque and motion.", "Measure the torque at standstill without load, or take it for friction with --vary ...backward."},
     {"fit.slow", "A recording is slow for what is looked for", "Too few samples in what happens.", "Record at a higher rate."},
+    {"fit.unexplained", "Much of a recorded torque is left unexplained", "Something acts that the model or the recording does not have: a tool, a clamp, a cut.", "Record the machine without it, or its force, too."},
     {"fit.unknown-value", "A path names no quantity of a plant", "It is misspelt, or no number with a unit.", "Write plants.PLANT.PARAMETER, as drycut plants lists them."},
     {"fit.unused-channel", "A recorded channel is not used", "A replay has no use for it.", "None: it is told for completeness."},
     {"il.coil-twice", "A coil is written in two places", "It has two OUT, or OUT and SET: the last one wins.", "Write it in one place."},

@@ -61,6 +61,12 @@ void read_vary(FitPlan& plan, scenario::Scenario& scenario, Problems& problems) 
   }
 }
 
+bool looks_for_springs(const FitQuestion& question) {
+  return std::ranges::any_of(question.vary, [](const FitPath& path) {
+    return path.row.starts_with("gear.") || path.row.starts_with("nut.");
+  });
+}
+
 std::vector<ReplaySeries> read_recordings(const std::vector<std::filesystem::path>& files, FitPlan& plan,
                                           scenario::Scenario& machine, bool are_sources, Problems& problems) {
   std::vector<ReplaySeries> all;
@@ -70,8 +76,11 @@ std::vector<ReplaySeries> read_recordings(const std::vector<std::filesystem::pat
     if (own.empty()) {
       auto recording = recordings::load(yaml, own, plan.findings);
       if (own.empty()) {
-        if (auto series = replay_series(recording, file, plan.question.plant, machine, own))
+        if (auto series = replay_series(recording, file, plan.question.plant, machine, own)) {
+          // Where the load is tells about what is between motor and load, and of nothing else.
+          if (!looks_for_springs(plan.question)) series->load.reset();
           all.push_back(std::move(*series));
+        }
         if (are_sources) plan.sources.push_back({file, recording.file, recording.checksum, recording.rows});
       }
     }

@@ -336,8 +336,9 @@ void tell_values(const FitBench& bench, const Solved& solved, FitFound& found) {
       for (const double alone : estimate.alone) value.alone.push_back(shown(alone));
     if (estimate.known == FitKnown::yes) {
       value.value = value.used;
-      value.low = shown(estimate.low);
-      value.high = shown(estimate.high);
+      const auto& range = bench.unknowns()[i];
+      value.low = shown(is_offset ? estimate.low : std::max(estimate.low, range.low));
+      value.high = shown(is_offset ? estimate.high : std::min(estimate.high, range.high));
       const auto of = [&](std::size_t other) -> std::optional<double> {
         if (other >= solved.tried.size()) return {};
         return shown(solved.tried[other].values[i]);
@@ -426,6 +427,13 @@ FitFound fit(const FitQuestion& question, const std::vector<ReplaySeries>& recor
   tell_delays(bench, solved.chosen(), found);
   widen(found);
   tell_unknown(found);
+  constexpr double much = 0.1;
+  if (found.relative_error > much)
+    found.tell({"fit.unexplained"_code,
+                fmt::format("{:.3g} % of the torque is left unexplained: something acts on the machine that the "
+                            "model or the recording does not have, and the limits know nothing of it",
+                            found.relative_error * 100),
+                Finding::Role::warning});
   if (by_direction)
     found.tell(
         {"fit.offset-or-direction"_code,
