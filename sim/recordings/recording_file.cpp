@@ -35,8 +35,9 @@ constexpr std::array decimal_words = {SignWord{"point", '.'}, SignWord{"comma", 
 
 template <std::size_t Count>
 scenario::Form sign_form(const std::array<SignWord, Count>& words, std::optional<char>& sign) {
-  std::vector<std::string> names;
-  for (const auto& word : words) names.emplace_back(word.word);
+  std::vector<std::string> names(words.size());
+  std::transform(words.begin(), words.end(), names.begin(),
+                 [](const SignWord& word) { return std::string(word.word); });
   return scenario::choice_form(
       names,
       [&words, &sign] {
@@ -249,8 +250,8 @@ std::string unit_of_time(const std::string& written) {
   return scenario::is_unit(word) && scenario::same_dimension(word, "s") ? word : "";
 }
 
-Conversion conversion_of(const RecordingFile::Channel& channel) {
-  Conversion made;
+Worth worth_of(const RecordingFile::Channel& channel) {
+  Worth made;
   const auto factor = channel.scale * channel.sign;
   const auto one = [](std::string_view unit) { return scenario::to_si(1, unit) - scenario::to_si(0, unit); };
   if (channel.of.unit.empty()) {
