@@ -204,6 +204,9 @@ class Guesser {
                          std::all_of(numbers.begin(), numbers.end(), is_whole);
     const auto positive = [](double number) { return number < sign_bit; };
     if (!is_word || std::none_of(numbers.begin(), numbers.end(), positive)) return;
+    // Counts that merely grow beyond it do so step by step.
+    const auto jumps = [](double a, double b) { return std::abs(a - b) >= sign_bit / 2; };
+    if (std::adjacent_find(numbers.begin(), numbers.end(), jumps) == numbers.end()) return;
     // Which reading keeps the negative numbers as small as the others?
     double magnitude = 0;
     double complement = 0;
