@@ -51,7 +51,7 @@ ExportColumn named(std::string_view text) {
     if (begin == std::string_view::npos || begin == 0 || !text.ends_with(close)) continue;
     const auto unit = trimmed(text.substr(begin + 1, text.size() - begin - 2));
     // "pos (5)" is a name: a number is no unit.
-    if (unit.find_first_not_of("0123456789.,") == std::string_view::npos) continue;
+    if (unit.empty() || parsed<double>(unit)) continue;
     return {std::string(text), std::string(unit == "-" ? "" : unit)};
   }
   return {std::string(text)};
