@@ -220,7 +220,7 @@ TEST(PeriodicErrors, ThatNoMachineHasAreRefused) {
   };
   EXPECT_THAT(objections_to([](RotaryKnifeData& data) { data.drum_eccentricity = 5e-3; }),
               testing::ElementsAre(testing::StartsWith("drum_eccentricity: 5 mm is more than")));
-  EXPECT_THAT(objections_to([](RotaryKnifeData& data) { data.encoder.tooth_error = one_degree; }),
+  EXPECT_THAT(objections_to([](RotaryKnifeData& data) { data.sensors.encoder.tooth_error = one_degree; }),
               testing::ElementsAre(testing::StartsWith("encoder.tooth_error: with 64 teeth")));
 }
 
