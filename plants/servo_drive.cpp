@@ -9,6 +9,7 @@
 #include "base/state_archive.hpp"
 #include "base/units.hpp"
 #include "plants/lag.hpp"
+#include "plants/motor_classes.hpp"
 
 namespace drycut::plants {
 
@@ -301,12 +302,14 @@ Parameters servo_parameters(ServoData& data, const ServoSources& from) {
           sheet),
       row("max_speed", "rpm", "no driving torque is left 5 % above this speed", data.max_speed, 1, 1e5,
           sheet),
+      preset_row("class", "kind of motor, whose cogging and torque_ripple are the defaults", data.motor_class,
+                 motor_classes(), "none is named: an even torque"),
       row("cogging", "N m", "amplitude of the torque of magnets against slots", data.cogging, 0, 1e3,
-          "none: sheets that tell it have 0.5 to 1 % of rated torque"),
+          "servo.class"),
       row("cogging_periods", "its periods a turn: least common multiple of slots and poles",
           data.cogging_periods, 1, 1000, "usual: 12 slots, 10 poles"),
       row("torque_ripple", "%", "amplitude of the torque's ripple, of the torque", data.torque_ripple, 0, 50,
-          "none: usual are 1 to 2 %"),
+          "servo.class"),
       row("torque_ripple_periods", "its periods a turn: six times the pole pairs", data.torque_ripple_periods,
           1, 1000, "usual: 4 pole pairs"),
       row("speed_at_10v", "rpm", "motor speed at a reference of 10 V", data.speed_at_10v, 1, 1e5,

@@ -58,11 +58,13 @@ struct PlantEntry {
   Text type;
   std::unique_ptr<plants::PlantDefinition> definition;     ///< parameters already read
   std::vector<std::pair<std::string, ScenePlace>> places;  ///< of the parameters that the file gives
-  /// A parameter that the model of a motor gives.
+  /// A parameter that the model of a motor gives, or a class.
   struct Modelled {
     std::string parameter;
-    std::string from;  ///< "HG-SR202, sheet: ..."
-    ScenePlace place;  ///< where the scenario names the model
+    std::string from;       ///< "HG-SR202, sheet: ..."
+    ScenePlace place;       ///< where the scenario names it
+    bool by_class = false;  ///< of gear, motor or encoder
+    double value = 0;       ///< that a model gives, of a number [SI]
   };
   std::vector<Modelled> modelled = {};
 };

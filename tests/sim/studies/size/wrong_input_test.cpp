@@ -46,6 +46,13 @@ TEST_F(SizeCommand, BadInputIsToldBeforeAnythingRuns) {
        "[study.out-of-range]",
        [](auto& o) { o.gears = "5..7:20001"; }},
       {"variables.ger: there is no 'ger' in variables", [](auto& o) { o.gears = "variables.ger=5,7"; }},
+      {"--gears:1:16: 'planetery' is no kind of gear; did you mean planetary? [study.argument]",
+       [](auto& o) { o.gears = "5 planetary, 7 planetery"; }},
+      {"plants.knife.gear.efficiency is given: every gear that is tried would keep it",
+       [](auto& o) {
+         o.gears = "5 planetary";
+         o.set = {"plants.knife.gear.efficiency=0.9"};
+       }},
       {"--resistors:1:7: 'warm' is no brake resistor", [](auto& o) { o.resistors = "100 W,warm"; }},
       {"--resistors:1:1: '5 ohm' is no brake resistor", [](auto& o) { o.resistors = "5 ohm"; }},
       {"--resistors:1:1: '5 m' is no brake resistor", [](auto& o) { o.resistors = "5 m"; }},
