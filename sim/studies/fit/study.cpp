@@ -336,8 +336,10 @@ void tell_values(const FitBench& bench, const Solved& solved, FitFound& found) {
       for (const double alone : estimate.alone) value.alone.push_back(shown(alone));
     if (estimate.known == Known::yes) {
       value.value = value.used;
-      value.low = shown(estimate.low);
-      value.high = shown(estimate.high);
+      // No limit lies where the row has no values.
+      const auto& unknown = bench.unknowns()[i];
+      value.low = shown(std::max(estimate.low, unknown.low));
+      value.high = shown(std::min(estimate.high, unknown.high));
       const auto of = [&](std::size_t other) -> std::optional<double> {
         if (other >= solved.tried.size()) return {};
         return shown(solved.tried[other].values[i]);
