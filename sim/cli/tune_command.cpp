@@ -94,8 +94,10 @@ void tune_options(CLI::App& tune, int& status) {
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   tune.add_option("--seed", options.seed, "Seed of the search and the spread")->capture_default_str();
-  tune.add_option("--spread", options.spread,
-                  "PATH=±30% or PATH=LO..HI: try the tuned values on machines that differ; may be repeated")
+  tune.add_option(
+          "--spread", options.spread,
+          "PATH=±30%, PATH=LO..HI, or the fit.json of drycut fit, whose limits are the ranges: try the tuned "
+          "values on machines that differ; may be repeated")
       ->allow_extra_args(false);
   tune.add_option("--spread-runs", options.spread_runs,
                   "How many such machines; fewer where the budget has no room")

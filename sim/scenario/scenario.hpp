@@ -67,6 +67,8 @@ struct PlantEntry {
     double value = 0;       ///< that a model gives, of a number [SI]
   };
   std::vector<Modelled> modelled = {};
+  /// Those that the file gives and that were learnt from recordings, each with where from.
+  std::vector<Modelled> fitted = {};
 };
 
 class Archive;
@@ -399,12 +401,24 @@ struct FaultsSection {
   std::vector<Text> product = {};  ///< names of checks; none: all that look at each cut
 };
 
+/// fitted: {plants.axis.mass: {low: 36.9 kg, high: 37.1 kg, from: move.csv}}: a value of a plant that was
+/// learnt from recordings, as `drycut fit` writes it.
+struct FittedEntry {
+  Text path;  ///< "plants.axis.mass"
+  Text low;   ///< a quantity of the row's dimension
+  Text high;
+  std::string from;  ///< "move.csv"
+};
+
 struct Scenario {
   std::filesystem::path file;
   Text extends;  ///< never kept: for the schema
   std::vector<VariableEntry> variables;
   SceneSection scene;
   std::vector<PlantEntry> plants;
+  /// Those that are in force: the value stands in the same file as its limits and lies between them. One
+  /// that --set, or a file that extends this one, gives anew is fitted no more.
+  std::vector<FittedEntry> fitted;
   std::unique_ptr<ControllerSection> controller;  ///< nullptr without
   std::vector<Wire> wiring;
   std::vector<InputFilter> filters;
