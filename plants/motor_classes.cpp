@@ -1,4 +1,4 @@
-#include "plants/motor_classes.hpp"
+#include "plants/servo_drive.hpp"
 
 namespace drycut::plants {
 

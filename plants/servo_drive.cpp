@@ -9,7 +9,6 @@
 #include "base/state_archive.hpp"
 #include "base/units.hpp"
 #include "plants/lag.hpp"
-#include "plants/motor_classes.hpp"
 
 namespace drycut::plants {
 

@@ -81,6 +81,10 @@ Parameters servo_parameters(ServoData& data, const ServoSources& from = {});
 /// seconds.
 std::vector<PlantDefinition::Objection> servo_objections(const ServoData& data, double inertia, double h);
 
+/// Kinds of servo motors with the usual unevenness of their torque over a turn; values of the parameters
+/// servo.cogging, as a share of servo.rated_torque, and servo.torque_ripple.
+const std::vector<Preset>& motor_classes();
+
 class ServoDrive {
  public:
   ServoDrive(const ServoData& data, Random noise);

@@ -12,17 +12,17 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string base = R"(scene: {step: 100 us, duration: 1 s}
+const std::string unfitted = R"(scene: {step: 100 us, duration: 1 s}
 plants: {axis: {type: linear_axis, mass: 20 kg}}
 )";
-const std::string learnt = R"(extends: base.yaml
+const std::string learnt = R"(extends: unfitted.yaml
 plants: {axis: {mass: 37.0154 kg}}
 fitted:
   plants.axis.mass: {low: 36.997 kg, high: 37034 g, from: "move.csv, other.csv"}
 )";
 
 struct FittedValues : testing::Test {
-  FittedValues() { folder.file("base.yaml", base); }
+  FittedValues() { folder.file("unfitted.yaml", unfitted); }
   Scenario read(const std::string& text, const std::vector<Override>& set = {}) {
     problems.clear();
     return read_scenario_text(text, folder / "line.yaml", set, problems);
@@ -67,7 +67,7 @@ TEST_F(FittedValues, AreFittedNoMoreOnceSomebodyGivesAnotherValue) {
 
 TEST_F(FittedValues, WhatIsNoValueOrNoLimitIsTold) {
   const auto lines = [&](const std::string& entry) {
-    read("extends: base.yaml\nfitted:\n  " + entry + "\n");
+    read("extends: unfitted.yaml\nfitted:\n  " + entry + "\n");
     return lines_of(problems);
   };
   EXPECT_THAT(lines("plants.axis.mas: {low: 1 kg, high: 2 kg, from: a.csv}"),

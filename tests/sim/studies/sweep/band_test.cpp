@@ -17,29 +17,29 @@ using testing::HasSubstr;
 using testing::Not;
 
 // The largest speed that holds is the limit, which the fit knows as 90 to 110 m/min.
-const std::string scenario = R"(variables: {limit: 100 m/min, speed: 60 m/min, end: 0.2 s}
+const std::string banded = R"(variables: {limit: 100 m/min, speed: 60 m/min, end: 0.2 s}
 scene: {step: 1 ms, duration: "${end}"}
 plants: {web: {type: web, speed: "${speed}"}}
 record: {every: 10 ms, channels: [web.speed]}
 checks:
   - {name: slow enough, always: "web.speed <= ${limit}"}
 )";
-const std::string fit =
+const std::string learnt_limits =
     R"({"format": 1, "parameters": [{"path": "variables.limit", "value": 100, "low": 90, "high": 110, "unit": "m/min"}]})";
 
-std::string text_of(const std::filesystem::path& file) {
+std::string read_all(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 struct FitBand : CommandTest {
   FitBand() {
-    sweep.scenario = folder.file("web.yaml", scenario);
+    sweep.scenario = folder.file("web.yaml", banded);
     envelope.scenarios = {sweep.scenario};
     envelope.find_max = {"variables.speed=20..200 m/min:1"};
     sweep.out = folder / "sweep";
     envelope.out = folder / "envelope";
-    file = folder.file("fit.json", fit).string();
+    file = folder.file("fit.json", learnt_limits).string();
   }
   int run_sweep() {
     return captured([&] { return sweep_scenario(sweep); });
@@ -50,7 +50,7 @@ struct FitBand : CommandTest {
   /// The first cells of each row of a table, as numbers.
   std::vector<std::vector<double>> rows(const char* name, int columns) const {
     std::vector<std::vector<double>> all;
-    std::istringstream text(text_of(folder / name));
+    std::istringstream text(read_all(folder / name));
     std::string line;
     std::getline(text, line);
     while (std::getline(text, line)) {
@@ -104,7 +104,7 @@ TEST_F(FitBand, TheBoundHasABand) {
   EXPECT_THAT(out,
               HasSubstr("Largest variables.speed: " + band + " at the 2 corners of the limits of " + file));
   EXPECT_THAT(out, HasSubstr("  note a corner has every value of the fit at one of its limits"));
-  const auto page = text_of(folder / "envelope/report.html");
+  const auto page = read_all(folder / "envelope/report.html");
   EXPECT_THAT(page, AllOf(HasSubstr("at the corners of the limits of"), HasSubstr("the lowest is at"),
                           HasSubstr("variables.limit 90 m/min")));
 }
@@ -130,7 +130,7 @@ TEST_F(FitBand, WithoutAFitNothingIsSaidOfOne) {
   envelope.over = {"variables.limit=90,110 m/min"};
   ASSERT_EQ(run_envelope(), all_passed) << err;
   EXPECT_THAT(out, Not(HasSubstr("corner")));
-  EXPECT_THAT(text_of(folder / "envelope/report.html"), Not(HasSubstr("corners of the limits")));
+  EXPECT_THAT(read_all(folder / "envelope/report.html"), Not(HasSubstr("corners of the limits")));
 }
 
 // The name of a scenario stands before the file as before a path, and counts for the column.
