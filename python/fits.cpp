@@ -43,11 +43,11 @@ py::dict fit(const studies::FitRequest& request, const std::optional<std::filesy
   {
     const py::gil_scoped_release unlocked;
     Problems problems;
+    plan = studies::plan_fit(request, problems);
     if (request.jobs < 1 || request.jobs > most_jobs)
       problems.push_back({"study.out-of-range"_code, "jobs", 1, 1,
                           std::to_string(request.jobs) + " runs at the same time",
                           "1 to " + std::to_string(most_jobs)});
-    plan = studies::plan_fit(request, problems);
     refuse(problems, argument_names);
     std::optional<sim::OutputFolder> folder;
     if (out) folder.emplace(*out, "fit", studies::fit_files, problems);
