@@ -22,7 +22,6 @@
 #include "sim/studies/sweep/band.hpp"
 #include "sim/studies/sweep/report.hpp"
 #include "sim/studies/sweep/study.hpp"
-#include "sim/studies/tune/fitted.hpp"
 
 namespace drycut::sim::cli {
 

@@ -8,7 +8,6 @@
 
 #include "base/text.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/studies/tune/fitted.hpp"
 
 namespace drycut::sim::studies {
 

@@ -1,4 +1,4 @@
-#include "sim/studies/tune/fitted.hpp"
+#include "sim/studies/tune/parameter.hpp"
 
 #include <fmt/format.h>
 

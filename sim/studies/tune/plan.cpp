@@ -10,7 +10,6 @@
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/studies/tune/fitted.hpp"
 #include "sim/studies/tune/patch.hpp"
 #include "sim/studies/tune/trials.hpp"
 

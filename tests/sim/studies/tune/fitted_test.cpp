@@ -1,5 +1,5 @@
 // The limits of a fit as ranges of a study: what tune --spread, sweep and envelope --over take of fit.json.
-#include "sim/studies/tune/fitted.hpp"
+#include "sim/studies/tune/parameter.hpp"
 
 #include <gmock/gmock.h>
 
