@@ -25,7 +25,7 @@ read_recording  such a recording, as numpy arrays
 
 Every other verb of the command line has a function of its name, with the options as arguments (--max-travel is
 max_travel, --from from_; a flag is True, what may be repeated a list, `set` a dict): drycut.size(), drycut.compare(),
-drycut.check() and so on; help(drycut.size) says what it takes. It gives a Ran: status, text, verdict. `verbs` has
+drycut.check() and so on (import is import_); help(drycut.size) says what it takes. It gives a Ran: status, text, verdict. `verbs` has
 all of them likewise: drycut.verbs.run(["a.yaml", "b.yaml"], jobs=2).
 
 Overrides (`set`) are those of the command line's --set: a path in the scenario and a value with its unit as

@@ -3,6 +3,7 @@
 import csv
 import dataclasses
 import inspect
+import keyword
 import json
 import math
 import os
@@ -553,6 +554,7 @@ class VerbsTest(unittest.TestCase):
         names = [line.split()[0] for line in text.split("\n\n")[2].splitlines() if line[2:3].strip()]
         self.assertGreater(len(names), 15)
         for name in names:
+            name += "_" if keyword.iskeyword(name) else ""
             self.assertTrue(callable(getattr(drycut, name)), name)
             self.assertTrue(callable(getattr(drycut.verbs, name)), name)
             self.assertIn(name, drycut.__all__)
