@@ -111,7 +111,7 @@ motors:
 // The notes on a model are on the model's values alone.
 TEST_F(Classes, AreNoMotors) {
   EXPECT_THAT(codes(notes_of_models(knife("servo: {class: iron_core}"))), IsEmpty());
-  EXPECT_THAT(codes(notes_of_models(knife("servo: {class: iron_core, model: HC202}"))), IsEmpty());
+  EXPECT_THAT(codes(notes_of_models(knife("servo: {class: iron_core, model: HC203R}"))), IsEmpty());
   EXPECT_THAT(codes(notes_of_models(knife("servo: {class: iron_core, model: HG-SR202}"))),
               ElementsAre("plant.motor-unchecked"));
 }
