@@ -147,7 +147,7 @@ TEST_F(Classes, OfMainsComeWithTheMotor) {
   EXPECT_THAT(
       told(),
       ElementsAre(HasSubstr(
-          "line.yaml:3:88: knife.servo.supply.voltage: SGMSH-20D is for mains of 400 V, not of 200 V")));
+          "line.yaml:3:85: knife.servo.supply.voltage: SGMSH-20D is for mains of 400 V, not of 200 V")));
 }
 
 }  // namespace
