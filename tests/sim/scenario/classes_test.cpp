@@ -59,7 +59,7 @@ TEST_F(Classes, OfMotorsGiveAShareOfTheRatedTorque) {
     EXPECT_EQ(value(plant, "servo.torque_ripple"), "2 %") << servo;
     EXPECT_THAT(from(plant, "servo.cogging"), StartsWith("iron_core, estimate: "));
   }
-  EXPECT_EQ(value(knife("servo: {class: skewed, model: HG-SR52}"), "servo.cogging"), "0.01195 N m");
+  EXPECT_EQ(value(knife("servo: {class: skewed, model: HG-SR52}"), "servo.cogging"), "0.012 N m");
   EXPECT_EQ(value(knife("servo: {class: skewed}"), "servo.cogging"), "0.0475 N m");
 }
 
