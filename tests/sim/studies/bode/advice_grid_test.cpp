@@ -64,9 +64,9 @@ class GridLoop {
     gain_ = gain_margin(present_);
   }
 
-  /// What is asked of an advice. It looks at gains a tenth apart and at measured frequencies, between which
-  /// the sensitivity may be 0.4 % and 0.6 % more; and it lies at the edge of what a filter may cost, which
-  /// measured points have a little elsewhere.
+  /// What is asked of an advice. It looks at other frequencies, between which the sensitivity may be up to 1
+  /// % more; and it lies at the edge of what a filter may cost, which measured points have a little
+  /// elsewhere.
   struct Limits {
     double sensitivity = 2;
     double room = 0;  ///< [deg], [dB]
@@ -141,7 +141,7 @@ class GridLoop {
     for (std::size_t i = 1; i < loop.size(); ++i) sum += std::arg((1.0 + loop[i]) / (1.0 + loop[i - 1]));
     return sum;
   }
-  /// The smallest over all crossovers [deg].
+  /// The smallest over all crossovers, on either side of -180 deg [deg].
   [[nodiscard]] static double phase_margin(const Responses& loop) {
     double least = 180;
     for (std::size_t i = 1; i < loop.size(); ++i) {
@@ -150,7 +150,7 @@ class GridLoop {
       if ((before > 0) == (after > 0)) continue;
       const auto crossing =
           loop[i - 1] * std::exp(std::log(loop[i] / loop[i - 1]) * before / (before - after));
-      least = std::min(least, std::arg(-crossing) * 180 / std::numbers::pi);
+      least = std::min(least, std::abs(std::arg(-crossing)) * 180 / std::numbers::pi);
     }
     return least;
   }
@@ -209,7 +209,6 @@ class AdviceOfAGrid : public testing::TestWithParam<GridMachine> {};
 
 TEST_P(AdviceOfAGrid, IsWithinTwoPercentOfItsBest) {
   const auto advice = advise(GetParam().measured(360));
-  ASSERT_TRUE(advice.worth());  // one that needs no filter is given none
   const GridLoop loop(GetParam());
   ASSERT_EQ(advice.choices.size(), 3U);
   const auto chosen = [&](auto&& is_it) {
@@ -242,10 +241,12 @@ TEST_P(AdviceOfAGrid, IsWithinTwoPercentOfItsBest) {
   }
 }
 
-// A load of four motors, and a stiff one of half the motor's inertia.
+// A load of four motors, a stiff one of half the motor's inertia, and a lively one. That has gain to spare
+// and needs none of its filters; but its notch has two hills, the lower one of which a coarse grid takes.
 INSTANTIATE_TEST_SUITE_P(Machines, AdviceOfAGrid,
                          testing::Values(GridMachine{2e-2, 3000, 1.5, 150},
-                                         GridMachine{2.5e-3, 8000, 0.6, 500}));
+                                         GridMachine{2.5e-3, 8000, 0.6, 500},
+                                         GridMachine{2e-2, 3000, 0.5, 60}));
 
 }  // namespace
 }  // namespace drycut::sim::studies
