@@ -74,7 +74,7 @@ test-all: test
 	cd $(BUILD) && ctest --output-on-failure -C long -R '^long\.'
 
 # The tests of seconds, once built: all rooms but pictures and scenes, without what runs a machine for long.
-SLOW := *EveryMember*:*Coverage.*:*Random.*:*LongRun.*:*Fuzz.*:*BodeLimitCycle.*:*TuneMargins.*:LargeScenario.*:StLong.*:CompareScene.*:*NoTextCrashes*:*OverAMillion*:*Witness.*:DesignCommand.TablesKeep*:*HasRoomForADay*:TunePlay.*:*BodePushes.*:*DesignFit.*:SweepCommand.*:SweepReport.*:PicturesFilm.*:PlcopenTables.*:LivePast.*:ModbusLx3vpLine.*:SizeCommand.*:Reference.*:EnvelopeSearch.*:*EveryStart*:*NoMemberIsForNothing*:FilterAdvice.*:SpeedLoopOfAnAxis.*
+SLOW := FitWitness.*:*EveryMember*:*Coverage.*:*Random.*:*LongRun.*:*Fuzz.*:*BodeLimitCycle.*:*TuneMargins.*:LargeScenario.*:StLong.*:CompareScene.*:*NoTextCrashes*:*OverAMillion*:*Witness.*:DesignCommand.TablesKeep*:*HasRoomForADay*:TunePlay.*:*BodePushes.*:*DesignFit.*:SweepCommand.*:SweepReport.*:PicturesFilm.*:PlcopenTables.*:LivePast.*:ModbusLx3vpLine.*:SizeCommand.*:Reference.*:EnvelopeSearch.*:*EveryStart*:*NoMemberIsForNothing*:FilterAdvice.*:*AdviceOfAGrid.*:SpeedLoopOfAnAxis.*
 quick: setup
 	$(call install,$(TEST_PACKAGES))
 	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON > /dev/null

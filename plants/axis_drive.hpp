@@ -70,10 +70,15 @@ class AxisDrive {
 
   /// For Plant::drives(), with what it turns, seen at the motor [kg m2].
   [[nodiscard]] std::vector<DriveOfPlant> drives(double load_inertia, const Efficiency& through) {
-    return {{data_.kind == "shared"  ? "motor"
-             : data_.kind == "servo" ? "servo"
-                                     : "drive",
-             &power(), load_inertia, through.driving}};
+    const bool servo = data_.kind == "servo";
+    return {{.name = data_.kind == "shared" ? "motor"
+                     : servo                ? "servo"
+                                            : "drive",
+             .stage = &power(),
+             .load_inertia = load_inertia,
+             .efficiency = through.driving,
+             .cogging = servo ? data_.servo.cogging : 0,
+             .torque_ripple = servo ? data_.servo.torque_ripple : 0}};
   }
 
   // What it adds to a plant's lists.

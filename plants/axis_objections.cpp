@@ -50,9 +50,7 @@ void AxisObjections::contact(const std::string& group, const EndStopData& stop, 
 }
 
 void AxisObjections::screw(const ScrewDriveData& data, double motor_inertia) {
-  const double all =
-      reflected_inertia(data) + (data.nut_stiffness > 0 || data.nut_rigid ? data.screw_inertia : 0);
-  gear(with_stiffness(data.gear, motor_inertia, all), motor_inertia, behind_gear(data));
+  gear(with_stiffness(data.gear, motor_inertia, behind_gear(data)), motor_inertia, on_gear(data));
   if (data.nut_damping > 0 && data.nut_stiffness <= 0)
     object("plant.parameters-contradict"_code, "nut.damping", "the nut has no stiffness of its own",
            "nut.stiffness, or leave it out");

@@ -146,16 +146,19 @@ void put_index(SignalPort& index, double turns_before, double turns, double coun
 Encoder::Encoder(const EncoderData& data, double start, Random noise)
     : pulses(noise),
       data_(data),
-      uneven_(data.eccentricity != 0 || data.tooth_error != 0),
+      uneven_(data.eccentricity != 0 || data.interpolation_error != 0 || data.tooth_error != 0),
       bits_per_turn_((data.reverse ? -4.0 : 4.0) * data.lines),
       start_(start + error(start - std::floor(start))) {}
 
 // A disc whose middle lies e beside the axis, read at the radius R, shows e/R sin(angle) more than it turned.
 double Encoder::error(double part) const {
   if (!uneven_) return 0;
-  return (data_.eccentricity * std::sin(units::turn * part) +
-          data_.tooth_error * std::sin(units::turn * part * data_.teeth)) /
-         units::turn;
+  const double ahead = (data_.eccentricity * std::sin(units::turn * part) +
+                        data_.tooth_error * std::sin(units::turn * part * data_.teeth)) /
+                       units::turn;
+  if (data_.interpolation_error == 0) return ahead;
+  const int periods = data_.signal_periods > 0 ? data_.signal_periods : data_.lines;
+  return ahead + data_.interpolation_error / periods * std::sin(units::turn * part * periods);
 }
 
 void Encoder::sense(const Shaft& shaft, double h) {
@@ -175,10 +178,42 @@ void Encoder::sense(const Shaft& shaft, double h) {
 
 void Encoder::visit(StateArchive& archive) { STATE(archive, pulses, index); }
 
+const std::vector<Preset>& encoder_classes() {
+  constexpr std::string_view once_a_turn = "encoder.eccentricity";
+  constexpr std::string_view in_a_period = "encoder.interpolation_error";
+  constexpr std::string_view even = "no error: a real one has some";
+  constexpr double second = units::turn / 360 / 3600;  // of arc
+  constexpr double minute = 60 * second;
+  static const std::vector<Preset> all = {
+      {"ideal", "encoder without errors", {{once_a_turn, 0, even}, {in_a_period, 0, even}}},
+      {"ttl",
+       "optical, its square waves are counted",
+       {{once_a_turn, 40 * second, "estimate: as sin_cos, the disc is alike"},
+        {in_a_period, 0.03,
+         "Heidenhain, Position Encoders for Servo Drives, p. 29: 19\" at 2048 lines, 76\" at 512"}}},
+      {"sin_cos",
+       "optical, its sine waves are interpolated",
+       {{once_a_turn, 40 * second, "Siemens, 1FK7 configuration manual 12.2006, p. 75: 40\" at 2048 periods"},
+        {in_a_period, 0.01,
+         "Heidenhain, Position Encoders for Servo Drives, p. 29: 6.5\" at 2048 lines, 25\" at 512"}}},
+      {"resolver",
+       "resolver of two poles, from which the amplifier makes the counts",
+       {{once_a_turn, 14 * minute, "Siemens, 1FK7 configuration manual 12.2006, p. 77: less than 14'"},
+        {in_a_period, 0, "its signal period is the turn"}}},
+  };
+  return all;
+}
+
 Parameters encoder_error_parameters(EncoderData& data) {
   return {
+      preset_row("class", "kind of encoder, whose eccentricity and interpolation_error are the defaults",
+                 data.encoder_class, encoder_classes(), "none is named: no errors"),
       row("eccentricity", "deg", "peak of its error once a turn: its disc sits off the axis",
-          data.eccentricity, 0, 5, "ideal: none"),
+          data.eccentricity, 0, 5, "encoder.class"),
+      row("interpolation_error", "%", "peak of its error once a signal period, of that period",
+          data.interpolation_error, 0, 10, "encoder.class"),
+      row("signal_periods", "signal periods of its disc a turn, 0 = as many as lines", data.signal_periods, 0,
+          1000000, "its lines are those of the disc"),
       row("tooth_error", "deg", "peak of its error once a tooth of its gear or coupling", data.tooth_error, 0,
           5, "ideal: none"),
       row("teeth", "teeth, for tooth_error", data.teeth, 1, 100000, "a round number"),
@@ -188,11 +223,11 @@ Parameters encoder_error_parameters(EncoderData& data) {
 }
 
 std::vector<PlantDefinition::Objection> encoder_objections(const EncoderData& data) {
-  if (data.eccentricity + data.tooth_error * data.teeth < 1) return {};
+  const double others = data.eccentricity + units::turn * data.interpolation_error;
+  if (others + data.tooth_error * data.teeth < 1) return {};
   return {{"plant.parameters-contradict"_code, "encoder.tooth_error",
            fmt::format("with {} teeth the count would go back within each", data.teeth),
-           fmt::format("less than {:.3g} deg, or fewer teeth",
-                       (1 - data.eccentricity) / data.teeth * units::degrees)}};
+           fmt::format("less than {:.3g} deg, or fewer teeth", (1 - others) / data.teeth * units::degrees)}};
 }
 
 }  // namespace drycut::plants

@@ -32,8 +32,9 @@ inline constexpr std::string_view no_model = "none";
 struct Preset {
   struct Value {
     std::string_view parameter;
-    double value;             ///< [SI]
-    std::string_view source;  ///< where it is from
+    double value;              ///< [SI]
+    std::string_view source;   ///< where it is from
+    std::string_view of = {};  ///< the parameter of which `value` is the share; "" = it is the value itself
   };
   std::string_view name;
   std::string_view meaning;
@@ -371,11 +372,13 @@ struct DriveRatings {
 
 /// A drive of a plant, for whoever judges it.
 struct DriveOfPlant {
-  std::string name;         ///< within the plant: "servo", "drive"
-  PowerStage* stage;        ///< lives as long as the plant
-  double load_inertia = 0;  ///< all that the motor turns but its rotor, seen at the motor [kg m2]
-  double efficiency = 1;    ///< of all between motor and load while it drives; 1: no losses are counted
-  int alike = 1;            ///< drives that do the same, of which this is one
+  std::string name;          ///< within the plant: "servo", "drive"
+  PowerStage* stage;         ///< lives as long as the plant
+  double load_inertia = 0;   ///< all that the motor turns but its rotor, seen at the motor [kg m2]
+  double efficiency = 1;     ///< of all between motor and load while it drives; 1: no losses are counted
+  int alike = 1;             ///< drives that do the same, of which this is one
+  double cogging = 0;        ///< amplitude of the motor's torque without current [N m]
+  double torque_ripple = 0;  ///< amplitude over its torque
 };
 
 /// Something that turns with the line: what is wrong with it comes back once a turn.

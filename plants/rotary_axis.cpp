@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/problem.hpp"
 #include "base/state_archive.hpp"
 #include "base/units.hpp"
 #include "plants/assembly.hpp"
@@ -14,10 +13,14 @@ namespace drycut::plants {
 
 namespace {
 
-PositionSwitchData home_in_turns(const PositionSwitchData& radians) {
-  return {radians.centre / units::turn, radians.width / units::turn, radians.hysteresis / units::turn,
-          radians.delay};
-}
+constexpr TurningTransducersWords table_words = {
+    .on_load = "encoder.on_table",
+    .on_load_meaning = "the encoder is on the table, not on the motor",
+    .reverse_meaning = "it counts down when the table turns forwards",
+    .home_meaning = "angle of the middle of the home target",
+    .lines_from = "10000 counts a turn",
+    .home_from = "at 0",
+    .hysteresis_from = "estimate: proximity switch on 250 mm radius"};
 
 TransmissionData sprung(const RotaryAxisData& data) {
   return with_stiffness(data.gear, data.drive.rotor_inertia(), data.inertia);
@@ -35,9 +38,7 @@ RotaryAxis::RotaryAxis(const RotaryAxisData& data, World& world)
           {.name = "rotary axis table", .inertia = data.inertia, .revolutions = data.start / units::turn})),
       drive_(data.drive, world, "rotary axis"),
       gear_(sprung(data)),
-      encoder_(data.encoder, data.encoder_on_table ? table_.revolutions() : rotor_.revolutions(),
-               world.random("rotary axis encoder")),
-      home_(home_in_turns(data.home), 1, table_.part) {}
+      sensors_(data.sensors, rotor_, table_, world.random("rotary axis encoder")) {}
 
 // A pendulum's: none where it hangs down.
 double RotaryAxis::weight() const {
@@ -62,14 +63,11 @@ void RotaryAxis::drive(double h) {
 void RotaryAxis::sense(double h) {
   tell_motor_load(h);
   gear_.sense(rotor_, table_, h);
-  encoder_.sense(data_.encoder_on_table ? table_ : rotor_, h);
-  home_.sense(table_.part_before, table_.part, h);
+  sensors_.sense(rotor_, table_, h);
   for (MachineEvent& event : drive_.take_events(rotor_)) happened(std::move(event));
 }
 
-void RotaryAxis::visit(StateArchive& archive) {
-  STATE(archive, drive_, gear_, encoder_, home_, outer_torque_);
-}
+void RotaryAxis::visit(StateArchive& archive) { STATE(archive, drive_, gear_, sensors_, outer_torque_); }
 
 Parameters RotaryAxis::live_parameters() { return live_rows(rotary_axis_parameters(data_)); }
 
@@ -79,18 +77,15 @@ void RotaryAxis::parameters_changed() {
 }
 
 std::vector<Port> RotaryAxis::ports() {
-  std::vector<Port> ports = {
-      {"encoder", &encoder_.pulses.port, "incremental encoder of the motor, or of the table"},
-      {"encoder.index", &encoder_.index, "its index pulse, once a turn"},
-      {"home", &home_.port, "home switch at the table"}};
+  std::vector<Port> ports;
+  sensors_.offer_ports(ports, "incremental encoder of the motor, or of the table",
+                       "home switch at the table");
   drive_.offer_ports(ports);
   return ports;
 }
 
 std::optional<PlugScale> RotaryAxis::scale_of(std::string_view port) const {
-  if (port == "encoder")
-    return PlugScale{
-        4.0 * data_.encoder.lines * (data_.encoder_on_table ? 1 : data_.gear.ratio) / units::turn, true};
+  if (port == "encoder") return PlugScale{data_.sensors.counts_per_radian(data_.gear.ratio), true};
   if (port == "servo.reference") return PlugScale{data_.drive.servo.speed_at_10v / data_.gear.ratio, true};
   return {};
 }
@@ -104,10 +99,8 @@ std::vector<Channel> RotaryAxis::channels() {
       {"gear.torque", "N m", [this] { return gear_.torque(); }, "torque of the gear on the table"},
       {"gear.twist", "deg", [this] { return gear_.twist() * units::degrees; },
        "twist between motor and table, at the table"},
-      {"encoder.count", "", [this] { return static_cast<double>(encoder_.pulses.port.count); },
-       "count of the encoder (x4), after faults"},
-      on_off("home", home_.port.level, "home switch"),
   };
+  sensors_.offer_channels(channels);
   drive_.offer_channels(channels);
   return channels;
 }
@@ -126,8 +119,7 @@ std::vector<Setting> RotaryAxis::settings() {
 std::vector<Fault> RotaryAxis::faults() {
   std::vector<Fault> faults;
   drive_.offer_faults(faults);
-  encoder_.pulses.offer_faults(faults, "encoder");
-  home_.offer_faults(faults, "home");
+  sensors_.offer_faults(faults);
   return faults;
 }
 
@@ -191,7 +183,7 @@ std::vector<Part> RotaryAxis::parts() {
   if (upright_axis)
     picture.box("bed", {0.65 * data_.diameter, 0.03, 0.5 * data_.diameter}, looks::bed,
                 at(data_.place_x, top + 0.015, data_.place_z));
-  const Pose switch_at = place * about_z(data_.home.centre) * at(0, data_.diameter / 2 + 0.03, 0);
+  const Pose switch_at = place * about_z(data_.sensors.home.centre) * at(0, data_.diameter / 2 + 0.03, 0);
   picture.box("home switch", {0.025, 0.05, 0.025}, looks::dark, switch_at);
   picture.on(turning(table_, place));
   picture.box("home flag", {0.02, 0.02, 0.006}, looks::red,
@@ -210,23 +202,8 @@ Parameters rotary_axis_parameters(RotaryAxisData& data) {
               360, "at 0"),
           row("start", "deg", "angle at the start; the encoder counts 0 there", data.start, -360, 360,
               "at 0"),
-          row("encoder.lines", "lines of the encoder per turn; counted four times", data.encoder.lines, 1,
-              1000000, "10000 counts a turn"),
-          row("encoder.on_table", "the encoder is on the table, not on the motor", data.encoder_on_table,
-              "motor encoder"),
-          row("encoder.reverse", "it counts down when the table turns forwards", data.encoder.reverse,
-              "wired the usual way"),
       },
-      group("encoder.", encoder_error_parameters(data.encoder)),
-      Parameters{
-          row("home.angle", "deg", "angle of the middle of the home target", data.home.centre, -360, 360,
-              "at 0"),
-          row("home.width", "deg", "width of the home target", data.home.width, 0.1, 350, "estimate"),
-          row("home.hysteresis", "deg", "the home switch lets go this far behind the target",
-              data.home.hysteresis, 0, 10, "estimate: proximity switch on 250 mm radius"),
-          row("home.delay", "ms", "delay of the home switch", data.home.delay, 0, 100,
-              "estimate: proximity switch of 1 kHz"),
-      },
+      turning_transducer_parameters(data.sensors, table_words),
       group("motor_friction.", shaft_friction_parameters(data.motor_friction,
                                                          {.dry = "dry friction of the motor",
                                                           .viscous = "viscous friction of the motor",
@@ -256,10 +233,7 @@ std::vector<PlantDefinition::Objection> RotaryAxisDefinition::objections(double 
   found.gear(data.gear, inertia, data.inertia);
   found.viscous("motor_friction.viscous", data.motor_friction, inertia, "motor");
   found.viscous("friction.viscous", data.friction, data.inertia, "table");
-  found.add(encoder_objections(data.encoder));
-  if (data.home.width + 2 * data.home.hysteresis >= units::turn)
-    found.object("plant.parameters-contradict"_code, "home.width",
-                 "target and hysteresis cover the whole turn: the switch never lets go", "a narrower target");
+  found.add(turning_transducer_objections(data.sensors));
   found.add(axis_drive_objections(data.drive, inertia, h));
   return found.take();
 }

@@ -6,8 +6,8 @@
 #include "plants/axis_drive.hpp"
 #include "plants/motor_load.hpp"
 #include "plants/plant.hpp"
-#include "plants/transducers.hpp"
 #include "plants/transmission.hpp"
+#include "plants/turning_transducers.hpp"
 
 namespace drycut::plants {
 
@@ -21,9 +21,8 @@ struct RotaryAxisData {
   TransmissionData gear = {10, 52e3, 13, 0};
   Friction motor_friction = {0.1, 0.0005, 0, 1};
   Friction friction = {4, 0.5, 0, 1};
-  EncoderData encoder = {.lines = 2500};
-  bool encoder_on_table = false;
-  PositionSwitchData home = {0, std::numbers::pi / 18, std::numbers::pi / 360, 0.5e-3};  ///< angles [rad]
+  TurningTransducersData sensors = {.encoder = {.lines = 2500},
+                                    .home = {0, std::numbers::pi / 18, std::numbers::pi / 360, 0.5e-3}};
 
   // Pictures only.
   std::string looks = "table";  ///< table: about an upright axis; roller: about one across the line
@@ -67,8 +66,7 @@ class RotaryAxis : public Plant, public TellsMotorLoad {
   Shaft& table_;
   AxisDrive drive_;
   Transmission gear_;
-  Encoder encoder_;
-  PositionSwitch home_;
+  TurningTransducers sensors_;
   double outer_torque_ = 0;  // of the process [N m]
   double weight_ = 0;        // of the unbalance, and friction, in the step under way [N m]
   double rubbing_ = 0;

@@ -28,11 +28,6 @@ TransmissionData sprung(const RotaryKnifeData& data) {
   return with_stiffness(data.gear, data.drive.servo.rotor_inertia, data.geared() / data.motors);
 }
 
-PositionSwitchData in_turns(const PositionSwitchData& radians) {
-  return {radians.centre / units::turn, radians.width / units::turn, radians.hysteresis / units::turn,
-          radians.delay};
-}
-
 }  // namespace
 
 RotaryKnife::RotaryKnife(const RotaryKnifeData& data, World& world, Web& web)
@@ -49,9 +44,7 @@ RotaryKnife::RotaryKnife(const RotaryKnifeData& data, World& world, Web& web)
           {.name = "knife drum", .inertia = data.geared(), .revolutions = data.initial_angle / units::turn})),
       servo_(data.drive, rotor_, world.random("servo")),
       gear_(sprung(data)),
-      encoder_(data.encoder, data.encoder_on_drum ? drum_.revolutions() : rotor_.revolutions(),
-               world.random("encoder")),
-      home_(in_turns(data.home), 1, drum_.part),
+      sensors_(data.sensors, rotor_, drum_, world.random("encoder")),
       cutter_(cutter_data(data, web.data(), radius_), drum_) {}
 
 void RotaryKnife::drive(double h) {
@@ -83,8 +76,7 @@ void RotaryKnife::sense(double h) {
   gear_.sense(rotor_, drum_, h);
   servo_.sense(rotor_);
   for (MachineEvent& event : servo_.take_events(rotor_)) happened(std::move(event));
-  encoder_.sense(data_.encoder_on_drum ? drum_ : rotor_, h);
-  home_.sense(drum_.part_before, drum_.part, h);
+  sensors_.sense(rotor_, drum_, h);
   const Cutter::Outcome outcome = cutter_.sense(drum_, station_.under(0, drum_.speed * along_web_), h);
   if (station_.is_empty()) return;
   if (outcome.separated || outcome.tore || outcome.buckled) report(outcome);
@@ -113,17 +105,14 @@ void RotaryKnife::report(const Cutter::Outcome& outcome) {
 }
 
 std::vector<Port> RotaryKnife::ports() {
-  std::vector<Port> ports = {{"encoder", &encoder_.pulses.port, "incremental encoder of the knife"},
-                             {"encoder.index", &encoder_.index, "its index pulse, once a turn"},
-                             {"home", &home_.port, "home switch on the drum"}};
+  std::vector<Port> ports;
+  sensors_.offer_ports(ports, "incremental encoder of the knife", "home switch on the drum");
   servo_.offer_ports(ports);
   return ports;
 }
 
 std::optional<PlugScale> RotaryKnife::scale_of(std::string_view port) const {
-  if (port == "encoder")
-    return PlugScale{4.0 * data_.encoder.lines * (data_.encoder_on_drum ? 1 : data_.gear.ratio) / units::turn,
-                     true, radius_};
+  if (port == "encoder") return PlugScale{data_.sensors.counts_per_radian(data_.gear.ratio), true, radius_};
   if (port == "servo.reference") return PlugScale{data_.drive.servo.speed_at_10v / data_.gear.ratio, true};
   return {};
 }
@@ -159,10 +148,8 @@ std::vector<Channel> RotaryKnife::channels() {
       {"gear.torque", "N m", [this] { return gear_.torque(); }, "torque of the gear on the drum"},
       {"gear.twist", "deg", [this] { return gear_.twist() * units::degrees; },
        "twist between motor and drum, at the drum"},
-      {"encoder.count", "", [this] { return static_cast<double>(encoder_.pulses.port.count); },
-       "count of the encoder (x4), after faults"},
-      on_off("home", home_.port.level, "home switch"),
   };
+  sensors_.offer_channels(channels);
   servo_.offer_channels(channels);
   return channels;
 }
@@ -225,7 +212,7 @@ std::vector<Recurrence> RotaryKnife::recurrences() {
 }
 
 void RotaryKnife::visit(StateArchive& archive) {
-  STATE(archive, station_, servo_, gear_, encoder_, home_, cutter_, cuts_, last_mismatch_, last_skew_);
+  STATE(archive, station_, servo_, gear_, sensors_, cutter_, cuts_, last_mismatch_, last_skew_);
 }
 
 Parameters RotaryKnife::live_parameters() { return live_rows(rotary_knife_parameters(data_)); }
@@ -239,8 +226,7 @@ void RotaryKnife::parameters_changed() {
 std::vector<Fault> RotaryKnife::faults() {
   std::vector<Fault> faults;
   servo_.offer_faults(faults);
-  encoder_.pulses.offer_faults(faults, "encoder");
-  home_.offer_faults(faults, "home");
+  sensors_.offer_faults(faults);
   return faults;
 }
 

@@ -7,8 +7,8 @@
 #include "plants/plant.hpp"
 #include "plants/servo_axis.hpp"
 #include "plants/station.hpp"
-#include "plants/transducers.hpp"
 #include "plants/transmission.hpp"
+#include "plants/turning_transducers.hpp"
 #include "plants/web.hpp"
 
 namespace drycut::plants {
@@ -33,10 +33,8 @@ struct RotaryKnifeData {
   TransmissionData gear;
   Friction motor_friction = {0.1, 0.0005, 0, 1};
   Friction drum_friction = {2, 0.1, 0, 1};
-  EncoderData encoder;  ///< on the motor or on the drum
-  bool encoder_on_drum = false;
-  /// Home switch on the drum, angles in rad.
-  PositionSwitchData home = {std::numbers::pi, std::numbers::pi / 18, std::numbers::pi / 360, 0.5e-3};
+  TurningTransducersData sensors = {
+      .home = {std::numbers::pi, std::numbers::pi / 18, std::numbers::pi / 360, 0.5e-3}};
 
   /// All that turns with the drum, on its shaft [kg m2].
   [[nodiscard]] double geared() const { return geared_inertia(drum_inertia, counter); }
@@ -96,8 +94,7 @@ class RotaryKnife : public Plant, public TellsMotorLoad {
   Shaft& drum_;
   ServoAxis servo_;
   Transmission gear_;
-  Encoder encoder_;
-  PositionSwitch home_;
+  TurningTransducers sensors_;
   Cutter cutter_;
   int cuts_ = 0;
   double last_mismatch_ = 0;  // [m/s]

@@ -10,6 +10,19 @@
 
 namespace drycut::plants {
 
+namespace {
+
+constexpr TurningTransducersWords drum_words = {
+    .on_load = "encoder.on_drum",
+    .on_load_meaning = "the encoder is on the drum, not on the motor",
+    .reverse_meaning = "it counts down when the blade moves with the web",
+    .home_meaning = "drum angle of the middle of the home target",
+    .lines_from = "8192 counts a turn",
+    .home_from = "opposite to the cut",
+    .hysteresis_from = "estimate: proximity switch on 95 mm radius"};
+
+}  // namespace
+
 Parameters rotary_knife_parameters(RotaryKnifeData& data) {
   return joined(
       Parameters{
@@ -40,23 +53,8 @@ Parameters rotary_knife_parameters(RotaryKnifeData& data) {
               "estimate: then the web gives way"),
           row("mismatch_limit", "mm/s", "speed mismatch at which the web tears or buckles",
               data.mismatch_limit, 0.1, 1e5, "estimate: 10 % of 60 m/min"),
-          row("encoder.lines", "lines of the encoder per turn; counted four times", data.encoder.lines, 1,
-              1000000, "8192 counts a turn"),
-          row("encoder.on_drum", "the encoder is on the drum, not on the motor", data.encoder_on_drum,
-              "motor encoder"),
-          row("encoder.reverse", "it counts down when the blade moves with the web", data.encoder.reverse,
-              "wired the usual way"),
       },
-      group("encoder.", encoder_error_parameters(data.encoder)),
-      Parameters{
-          row("home.angle", "deg", "drum angle of the middle of the home target", data.home.centre, -360, 360,
-              "opposite to the cut"),
-          row("home.width", "deg", "width of the home target", data.home.width, 0.1, 350, "estimate"),
-          row("home.hysteresis", "deg", "the home switch lets go this far behind the target",
-              data.home.hysteresis, 0, 10, "estimate: proximity switch on 95 mm radius"),
-          row("home.delay", "ms", "delay of the home switch", data.home.delay, 0, 100,
-              "estimate: proximity switch of 1 kHz"),
-      },
+      turning_transducer_parameters(data.sensors, drum_words),
       group("motor_friction.", shaft_friction_parameters(data.motor_friction,
                                                          {.dry = "dry friction of the motor",
                                                           .viscous = "viscous friction of the motor",
@@ -93,16 +91,13 @@ std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections(double
                              data.counter.ratio),
                  "motors: 1, or counter.ratio: 1");
   found.add(servo_axis_objections(data.drive, motor_inertia, h));
-  found.add(encoder_objections(data.encoder));
+  found.add(turning_transducer_objections(data.sensors));
   const double most = data.circumference / units::turn / 20;
   if (data.drum_eccentricity > most)
     found.object("plant.parameters-contradict"_code, "drum_eccentricity",
                  fmt::format("{:g} mm is more than a twentieth of the radius: such a drum cuts nothing",
                              data.drum_eccentricity * units::millimetres),
                  fmt::format("at most {:.3g} mm", most * units::millimetres));
-  if (data.home.width + 2 * data.home.hysteresis >= 2 * std::numbers::pi)
-    found.object("plant.parameters-contradict"_code, "home.width",
-                 "target and hysteresis cover the whole turn: the switch never lets go", "a narrower target");
   return found.take();
 }
 

@@ -38,8 +38,11 @@ double reflected_inertia(const ScrewDriveData& data) {
 }
 
 double behind_gear(const ScrewDriveData& data) {
-  if (is_own_body(data)) return data.screw_inertia;
-  return reflected_inertia(data) + (data.nut_rigid ? data.screw_inertia : 0);
+  return reflected_inertia(data) + (is_own_body(data) || data.nut_rigid ? data.screw_inertia : 0);
+}
+
+double on_gear(const ScrewDriveData& data) {
+  return is_own_body(data) ? data.screw_inertia : behind_gear(data);
 }
 
 double load_inertia(const ScrewDriveData& data) {
@@ -98,9 +101,8 @@ ScrewDrive::ScrewDrive(const ScrewDriveData& data, const std::string& name, doub
 void ScrewDrive::take_data(const ScrewDriveData& data, double mass) {
   data_ = data;
   // One that is not known is by all that it moves.
-  data_.gear = with_stiffness(
-      data.gear, plants::motor_inertia(data, rotor_inertia_),
-      reflected_inertia(data) + (screw_ != nullptr || data.nut_rigid ? data.screw_inertia : 0));
+  data_.gear =
+      with_stiffness(data.gear, plants::motor_inertia(data, rotor_inertia_), plants::behind_gear(data));
   before_screw_ = screw_ != nullptr ? data.gear.efficiency : efficiency(data);
   guide_friction_ = data.guide_friction;
   guide_friction_.coulomb += data.guide_coefficient * data.guide_weight * mass * units::gravity;

@@ -41,8 +41,11 @@ struct ScrewDriveData {
 /// The part's mass, seen at the screw [kg m2].
 [[nodiscard]] double reflected_inertia(const ScrewDriveData& data);
 
-/// What turns behind the gear's spring, seen at the screw: the part, the screw or both [kg m2].
+/// All that moves behind the gear's spring, seen at the screw: the part, and the screw unless it turns with
+/// the motor [kg m2].
 [[nodiscard]] double behind_gear(const ScrewDriveData& data);
+/// What of it the spring turns itself: a screw that is a body of its own has the nut's spring behind it.
+[[nodiscard]] double on_gear(const ScrewDriveData& data);
 
 /// All that the motor turns but its rotor, seen there [kg m2].
 [[nodiscard]] double load_inertia(const ScrewDriveData& data);

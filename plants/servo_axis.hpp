@@ -45,7 +45,12 @@ class ServoAxis {
 
   /// For Plant::drives(), with what it turns, seen at the motor [kg m2].
   [[nodiscard]] std::vector<DriveOfPlant> drives(double load_inertia, const Efficiency& through) {
-    return {{"servo", &amplifier_.power(), load_inertia, through.driving}};
+    return {{.name = "servo",
+             .stage = &amplifier_.power(),
+             .load_inertia = load_inertia,
+             .efficiency = through.driving,
+             .cogging = amplifier_.data().cogging,
+             .torque_ripple = amplifier_.data().torque_ripple}};
   }
 
   // What it adds to a plant's lists.

@@ -23,10 +23,11 @@ struct ServoData {
   double max_speed =
       3000 * std::numbers::pi / 30;  ///< 3000 rpm [rad/s]; no driving torque is left 5 % above it
   // What the motor's magnets and windings add, over a turn
-  double cogging = 0;              ///< amplitude, without current too [N m]
-  int cogging_periods = 60;        ///< a turn: the least common multiple of slots and poles
-  double torque_ripple = 0;        ///< amplitude over the torque
-  int torque_ripple_periods = 24;  ///< a turn: six times the pole pairs
+  std::string motor_class = "ideal";  ///< of motor_classes(): the amplitudes unless they are given
+  double cogging = 0;                 ///< amplitude, without current too [N m]
+  int cogging_periods = 60;           ///< a turn: the least common multiple of slots and poles
+  double torque_ripple = 0;           ///< amplitude over the torque
+  int torque_ripple_periods = 24;     ///< a turn: six times the pole pairs
   // Reference input
   double speed_at_10v = 2000 * std::numbers::pi / 30;  ///< [rad/s]
   int adc_bits = 14;                                   ///< over -10 V .. +10 V
@@ -80,6 +81,10 @@ Parameters servo_parameters(ServoData& data, const ServoSources& from = {});
 /// seconds.
 std::vector<PlantDefinition::Objection> servo_objections(const ServoData& data, double inertia, double h);
 
+/// Kinds of servo motors with the usual unevenness of their torque over a turn; values of the parameters
+/// servo.cogging, as a share of servo.rated_torque, and servo.torque_ripple.
+const std::vector<Preset>& motor_classes();
+
 class ServoDrive {
  public:
   ServoDrive(const ServoData& data, Random noise);
@@ -105,6 +110,7 @@ class ServoDrive {
   [[nodiscard]] double speed_reference() const { return filtered_; }  ///< after the filter [rad/s]
   [[nodiscard]] double volts() const { return converted_; }           ///< as converted [V]
   [[nodiscard]] bool saturated() const { return saturated_; }         ///< the torque limit acts
+  [[nodiscard]] const ServoData& data() const { return data_; }
   [[nodiscard]] double utilisation() const { return std::abs(torque_) / data_.rated_torque; }
   [[nodiscard]] PowerStage& power() { return power_; }  ///< the electrical side
   [[nodiscard]] const PowerStage& power() const { return power_; }

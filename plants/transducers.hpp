@@ -82,14 +82,20 @@ void put_index(SignalPort& index, double turns_before, double turns, double coun
 
 /// Incremental encoder on a shaft: counts x4 since the start, and an index pulse once a turn.
 struct EncoderData {
-  int lines = 2048;         ///< per turn; the counter counts four times as many
-  bool reverse = false;     ///< counts down when the shaft turns forwards
+  int lines = 2048;                     ///< per turn; the counter counts four times as many
+  bool reverse = false;                 ///< counts down when the shaft turns forwards
+  std::string encoder_class = "ideal";  ///< of encoder_classes(): the errors below unless they are given
   double eccentricity = 0;  ///< its disc sits off the axis: peak of the error that comes once a turn [rad]
-  double tooth_error = 0;   ///< peak of the error that comes `teeth` times a turn [rad]
-  int teeth = 64;           ///< of its gear or coupling
-  double index_width = 1;   ///< of the index pulse [bits x4]
+  double interpolation_error = 0;  ///< peak of the error that comes once a signal period, over that period
+  int signal_periods = 0;          ///< of its disc, a turn; 0: as many as lines
+  double tooth_error = 0;          ///< peak of the error that comes `teeth` times a turn [rad]
+  int teeth = 64;                  ///< of its gear or coupling
+  double index_width = 1;          ///< of the index pulse [bits x4]
 };
 
+/// Kinds of encoders with their usual errors; values of encoder.eccentricity and
+/// encoder.interpolation_error.
+const std::vector<Preset>& encoder_classes();
 /// Rows of the group `encoder.` for what is not ideal about it.
 Parameters encoder_error_parameters(EncoderData& data);
 /// What is wrong with them, for parameters of the group `encoder.`.

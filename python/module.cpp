@@ -66,5 +66,6 @@ PYBIND11_MODULE(_core, module) {
   add_line(module);
   add_cams(module);
   add_studies(module);
+  add_fits(module);
   add_verbs(module);
 }

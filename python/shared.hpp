@@ -106,6 +106,7 @@ void add_line(py::module_& module);
 void add_cams(py::module_& module);
 void add_runs(py::module_& module);
 void add_studies(py::module_& module);
+void add_fits(py::module_& module);
 void add_verbs(py::module_& module);
 
 }  // namespace drycut::python

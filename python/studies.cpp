@@ -123,9 +123,7 @@ class Asked {
     question.file = call.file;
     question.set = overrides_of(call.set);
     for (const auto& [name, term] : call.figures) question.figures.push_back({name, term});
-    for (const auto& over : call.over)
-      if (auto axis = studies::parse_axis(over, "over", sample.has_value(), problems))
-        axes.push_back(std::move(*axis));
+    axes = studies::parse_axes(call.over, "over", sample.has_value(), problems);
     if (!sought.text.empty())
       bound =
           studies::parse_bound(sought.text, sought.least ? "find_min" : "find_max", sought.least, problems);

@@ -20,10 +20,12 @@ bode        the frequency response of a position loop, with its margins
 tune        values with the least metric that keep all limits
 sweep       a scenario at every point of a grid or a sample
 envelope    the largest value at which everything holds, at every point of a grid
+fit         values of a machine from recordings of the real one
+read_recording  such a recording, as numpy arrays
 
 Every other verb of the command line has a function of its name, with the options as arguments (--max-travel is
 max_travel, --from from_; a flag is True, what may be repeated a list, `set` a dict): drycut.size(), drycut.compare(),
-drycut.check() and so on; help(drycut.size) says what it takes. It gives a Ran: status, text, verdict. `verbs` has
+drycut.check() and so on (import is import_); help(drycut.size) says what it takes. It gives a Ran: status, text, verdict. `verbs` has
 all of them likewise: drycut.verbs.run(["a.yaml", "b.yaml"], jobs=2).
 
 Overrides (`set`) are those of the command line's --set: a path in the scenario and a value with its unit as
@@ -35,6 +37,7 @@ from typing import TYPE_CHECKING, Callable
 
 from ._cams import Cam, Finding, cam
 from ._core import version as __version__
+from ._fits import Channel, Fit, FitValue, Recording, Replay, fit, read_recording
 from ._loops import Bode, Margin, bode
 from ._problems import BadInput, Diverged, Problem
 from ._runs import Check, Event, Run, Simulation, run
@@ -42,8 +45,9 @@ from ._studies import Sweep, Tuning, envelope, sweep, tune
 from ._verbs import Ran
 from ._verbs import verbs as verbs
 
-__all__ = ["BadInput", "Bode", "Cam", "Check", "Diverged", "Event", "Finding", "Margin", "Problem", "Run",
-           "Ran", "Simulation", "Sweep", "Tuning", "bode", "cam", "envelope", "run", "sweep", "tune"]
+__all__ = ["BadInput", "Bode", "Cam", "Channel", "Check", "Diverged", "Event", "Finding", "Fit", "FitValue", "Margin",
+           "Problem", "Ran", "Recording", "Replay", "Run", "Simulation", "Sweep", "Tuning", "bode", "cam", "envelope",
+           "fit", "read_recording", "run", "sweep", "tune"]
 
 if TYPE_CHECKING:
     def __getattr__(name: str) -> Callable[..., Ran]: ...

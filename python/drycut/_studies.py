@@ -87,7 +87,8 @@ def _words(values: Sequence[object], path: str) -> str:
 
 
 def _axes(over: Axes) -> list[str]:
-    return [f"{path}={values if isinstance(values, str) else _words(values, path)}" for path, values in over.items()]
+    return [path if values == "" and path.endswith(".json")  # of a fit, all of it
+            else f"{path}={values if isinstance(values, str) else _words(values, path)}" for path, values in over.items()]
 
 
 @contextlib.contextmanager
@@ -113,7 +114,8 @@ def sweep(file: Path, over: Axes, *, set: Settings | None = None, figures: Mappi
 
     file      scenario (.yaml)
     over      axes by their path in the scenario: "500..3000 mm:26" is 26 values from end to end, "20..300 m/min:9:log"
-              nine of which each is so many times the one before; or a list, ["60 m/min", "80 m/min"], [True, False]
+              nine of which each is so many times the one before; or a list, ["60 m/min", "80 m/min"], [True, False].
+              {"out/fit/fit.json": ""} goes over the limits of all values of a fit, as do Fit.corners and Fit.limits
     set       overrides, before the axes
     figures   columns more, {"peak": "max(abs(knife.motor.torque))"}; terms as of tune()
     sample    so many points that fill the ranges evenly (Sobol), in place of the grid; ranges need no :N
@@ -176,7 +178,8 @@ def tune(files: Path | Sequence[Path], vary: Mapping[str, str], minimise: str, *
     wire, at, amplitude   how margins are measured, as of bode()
     budget         simulated runs of all parts together, as `drycut tune` splits them
     seed           of the search and the spread
-    spread         the best values are tried on machines that differ, {"plants.knife.drum_inertia": "±30%"}
+    spread         the best values are tried on machines that differ, {"plants.knife.drum_inertia": "±30%"}; the
+                   limits of a fit are Fit.limits, or {"out/fit/fit.json": ""}
     spread_runs    so many of them; fewer where the budget has no room
     set, jobs, out, progress as of sweep(); progress counts runs of the budget
 
@@ -186,7 +189,7 @@ def tune(files: Path | Sequence[Path], vary: Mapping[str, str], minimise: str, *
     with _folder(out) as folder:
         got = _core.tune(paths, settings(set), [f"{path}={span}" for path, span in vary.items()], minimise,
                          list(constraints), start, ignore_checks, wire, at, amplitude, budget, seed,
-                         [f"{path}={span}" for path, span in (spread or {}).items()], spread_runs, jobs, folder,
+                         _axes(spread or {}), spread_runs, jobs, folder,
                          out is not None, progress)
     words = ("phase", "note", "checksum")
     got["trials"] = read_csv(got.pop("evaluations"), words)[0]

@@ -121,7 +121,10 @@ void write(const BodeOptions& options, const scenario::Scenario& scenario, const
 }
 
 int advise_filters(const BodeOptions& options, const scenario::Scenario& scenario, Problems problems) {
-  for (const auto& [given, option] : {std::pair(options.limit_cycle, "--limit-cycle"),
+  for (const auto& [given, option] : {std::pair(!options.loop.speed.empty(), "--speed"),
+                                      {options.loop.amplitude.has_value(), "--amplitude"},
+                                      {options.loop.settle.has_value(), "--settle"},
+                                      {options.limit_cycle, "--limit-cycle"},
                                       {options.min_gain_margin.has_value(), "--min-gain-margin"},
                                       {options.min_phase_margin.has_value(), "--min-phase-margin"},
                                       {!options.csv.empty(), "--csv"},
@@ -129,6 +132,7 @@ int advise_filters(const BodeOptions& options, const scenario::Scenario& scenari
     if (given)
       problems.push_back({"option.together"_code, option, 1, 1,
                           "it is of the position loop, --advise of the speed loop", "one of them"});
+  if (scenario.buildable) studies::check_speed_range(scenario, options.loop, problems);
   std::optional<studies::SpeedLoop> loop;
   std::optional<OutputFolder> folder;
   if (problems.empty() && !options.out.empty())
@@ -163,18 +167,25 @@ void bode_options(CLI::App& bode, int& status) {
   bode.add_option("--wire", options.loop.wire, "Analogue reference, as knife.servo.reference");
   bode.add_option("--speed", options.loop.speed, "Channel of the motor's speed, for the speed loop");
   bode.add_option("--at", options.loop.at, "The scenario runs undisturbed until then [s]; else to its end");
-  bode.add_option("--from", options.loop.from, "Lowest frequency [Hz]; else 1, and lower to the crossover");
-  bode.add_option("--to", options.loop.to, "Highest frequency [Hz]; else half the sampling frequency");
-  bode.add_option("--points", options.loop.points, "Frequencies between them, evenly in decades")
+  bode.add_option("--from", options.loop.from,
+                  "Lowest frequency [Hz]; else 1, and lower to the crossover; with --advise 2");
+  bode.add_option("--to", options.loop.to,
+                  "Highest frequency [Hz]; else half the sampling frequency; with --advise a quarter of that "
+                  "of the steps");
+  bode.add_option("--points", options.loop.points,
+                  "Frequencies between them, evenly in decades; with --advise 360 or more, 360 if not given")
       ->check(CLI::Range(2, 1000))
-      ->capture_default_str();
-  bode.add_option("--amplitude", options.loop.amplitude, "Of the sine [V]")->capture_default_str();
-  bode.add_option("--settle", options.loop.settle, "Before each measurement [s]")->capture_default_str();
+      ->default_str(std::to_string(studies::LoopRequest::usual_points));
+  bode.add_option("--amplitude", options.loop.amplitude, "Of the sine [V]")
+      ->default_str(fmt::to_string(studies::LoopRequest::usual_amplitude));
+  bode.add_option("--settle", options.loop.settle, "Before each measurement [s]")
+      ->default_str(fmt::to_string(studies::LoopRequest::usual_settle));
   bode.add_flag(
       "--limit-cycle", options.limit_cycle,
       "Sweep the amplitude too: from which gain on play, stiction or limits keep an oscillation up");
   bode.add_flag("--advise", options.advise,
-                "Measure the speed loop: which notch or low-pass of the servo's torque gains most");
+                "Measure the speed loop: which notch or low-pass of the servo's torque gains most.\nBy a "
+                "sine of 5 % of rated torque at every step; takes --wire, --at, --from, --to and --points");
   bode.add_option("--min-phase-margin", options.min_phase_margin, "Fails if the margin is less [deg]");
   bode.add_option("--min-gain-margin", options.min_gain_margin, "Fails if the margin is less [dB]");
   bode.add_option("--csv", options.csv, "Write the response; - prints it, the report to standard error");

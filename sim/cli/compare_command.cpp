@@ -103,7 +103,7 @@ int compare_with_recording(const CompareOptions& options) {
   refuse_options_of_runs(options, problems);
   for (std::size_t i = 0; i < options.runs.size(); ++i) refuse_own_run(options, i, problems);
   const auto from = from_of(options, problems);
-  studies::Measured measured;
+  studies::MeasuredRun measured;
   if (problems.empty()) {
     const bool first = is_measured(options.runs[0]);
     measured = studies::measure_run(options.runs[first ? 0 : 1], options.runs[first ? 1 : 0],

@@ -96,7 +96,7 @@ Verb fit_verb() {
       "Exit status: 0 all values are known, 1 one is not, or the cross test is above --limit, 2 bad input,\n"
       "3 the machine cannot follow the recording, or a result could not be written",
       {"drycut fit line.yaml --recording move.yaml --vary plants.axis.mass",
-       "  --vary plants.axis.carriage_friction.coulomb --vary plants.axis.carriage_friction.viscous"},
+       "  --vary plants.axis.carriage_friction.coulomb"},
       {"scenario", {FileKind::scenario}},
       fit_options};
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
 
 #include "base/output_file.hpp"
@@ -43,6 +44,7 @@ int import_file(const ImportOptions& options) {
     const auto text = recordings::write(guess);
     try {
       fmt::print("{}", text);
+      std::fflush(stdout);  // before what is told of it
       if (!options.out.empty()) write_file(options.out, text);
     } catch (const std::exception& error) {
       return print_failure(drycut::words_of(error));

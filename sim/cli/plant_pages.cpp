@@ -146,7 +146,10 @@ Sheet presets_of(const plants::Parameter& chooser, const plants::Parameters& par
       auto shown = *std::ranges::find(parameters, value.parameter, &plants::Parameter::name);
       double si = value.value;
       shown.value = &si;
-      sheet.add({preset.name, value.parameter, scenario::value_text(shown), preset.meaning, value.source});
+      sheet.add({preset.name, value.parameter,
+                 value.of.empty() ? scenario::value_text(shown)
+                                  : fmt::format("{:g} % of {}", 100 * value.value, value.of),
+                 preset.meaning, value.source});
     }
   return sheet;
 }

@@ -167,7 +167,8 @@ void size_options(CLI::App& size, int& status) {
       ->capture_default_str();
   size.add_option(
       "--gears", options.gears,
-      "Ratios: 5..20:16, that many from end to end, or 5,7,10; it stays as it is if not given. So that the "
+      "Ratios: 5..20:16, that many from end to end, or 5,7,10; with the kind of the gear its efficiency goes "
+      "along: \"5 planetary, 20 worm\"; it stays as it is if not given. So that the "
       "controller "
       "sees the same machine, the speed at 10 V or the electronic gear goes along, and the lines of a motor "
       "encoder "

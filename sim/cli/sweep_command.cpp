@@ -19,6 +19,7 @@
 #include "sim/file.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/studies/sweep/answer.hpp"
+#include "sim/studies/sweep/band.hpp"
 #include "sim/studies/sweep/report.hpp"
 #include "sim/studies/sweep/study.hpp"
 
@@ -166,10 +167,7 @@ void add_study(CLI::App& command, StudyOptions& options, const char* over_help) 
 int sweep_scenario(const SweepOptions& options) {
   Problems problems;
   const auto sampled = read_sample(options.sample, problems);
-  studies::SweepAxes axes;
-  for (const auto& over : options.over)
-    if (auto axis = studies::parse_axis(over, "--over", !options.sample.empty(), problems))
-      axes.push_back(std::move(*axis));
+  auto axes = studies::parse_axes(options.over, "--over", !options.sample.empty(), problems);
   auto question = read_question(options, options.scenario, problems);
   if (sampled && axes.size() > studies::sobol_axes)
     problems.push_back({"study.out-of-range"_code, "--sample", 1, 1, fmt::format("{} axes", axes.size()),
@@ -202,6 +200,11 @@ std::string name_before(const std::string& option) {
   return colon < option.find('=') ? option.substr(0, colon) : "";
 }
 
+std::string text_behind_name(const std::string& option) {
+  const auto name = name_before(option);
+  return name.empty() ? option : option.substr(name.size() + 1);
+}
+
 /// The options that are for a scenario: those that name it, else those without a name.
 std::vector<std::string> options_for(const std::string& scene, const std::vector<std::string>& options) {
   std::vector<std::string> named;
@@ -231,10 +234,10 @@ void refuse_unknown_names(const std::vector<std::string>& options, const char* o
 /// Reads what stands behind the name with `read`; columns are those of the whole option.
 template <typename Read>
 auto behind_name(const std::string& option, Problems& problems, const Read& read) {
-  const auto name = name_before(option);
-  const auto skipped = name.empty() ? 0 : name.size() + 1;
+  const auto text = text_behind_name(option);
+  const auto skipped = option.size() - text.size();
   Problems own;
-  auto made = read(option.substr(skipped), own);
+  auto made = read(text, own);
   for (auto& problem : own) {
     problem.column += static_cast<int>(skipped);
     problems.push_back(std::move(problem));
@@ -280,13 +283,18 @@ studies::Envelope read_envelope(const EnvelopeOptions& options, const std::files
   Problems own;
   studies::Envelope envelope;
   envelope.scene = file.stem().string();
-  for (const auto& over : options_for(envelope.scene, options.over)) {
-    auto [axis, by] = behind_name(over, own, [](const std::string& text, Problems& told) {
-      return studies::parse_axis(text, "--over", false, told);
+  const auto overs = options_for(envelope.scene, options.over);
+  std::vector<std::string> given;
+  for (const auto& over : overs) given.push_back(text_behind_name(over));
+  given = studies::given_paths(given);
+  for (const auto& over : overs) {
+    auto [axes, by] = behind_name(over, own, [&given](const std::string& text, Problems& told) {
+      return studies::parse_over(text, "--over", false, given, told);
     });
-    if (!axis) continue;
-    shift(axis->parameter, by);
-    envelope.axes.push_back(std::move(*axis));
+    for (auto& axis : axes) {
+      shift(axis.parameter, by);
+      envelope.axes.push_back(std::move(axis));
+    }
   }
   const auto request = read_request(options, envelope.scene, own);
   envelope.question = read_question(options, file, own);
@@ -324,9 +332,11 @@ std::vector<studies::Envelope> read_envelopes(const EnvelopeOptions& options, Pr
 void print_envelope(const studies::Envelope& envelope, bool several) {
   constexpr std::size_t most = 60;
   if (several) fmt::print("{}\n", printable(envelope.scene));
-  const auto points = envelope.axes.empty() ? 0 : envelope.points.size();
+  const auto bands = studies::bands_of(envelope);
+  const auto points = !bands.empty() ? bands.size() : envelope.axes.empty() ? 0 : envelope.points.size();
   for (std::size_t i = 0; i < std::min(points, most); ++i)
-    fmt::print("  {}\n", printable(point_answer(envelope, i)));
+    fmt::print("  {}\n", printable(bands.empty() ? point_answer(envelope, i)
+                                                 : studies::band_answer(envelope, bands[i])));
   if (points > most) fmt::print("  ... and {} points more in {}\n", points - most, envelope_file);
   fmt::print("{}\n", printable(headline(envelope)));
 }
@@ -356,6 +366,7 @@ int envelope_scenario(const EnvelopeOptions& options) {
       looks.insert(looks.end(), own.begin(), own.end());
     }
     if (const auto why = studies::why_again(envelopes); !why.empty()) fmt::print("  note {}\n", why);
+    if (const auto note = studies::band_note(envelopes); !note.empty()) fmt::print("  note {}\n", note);
     fmt::print("{}, {} values tried, {}: {}\nreport: {}\n", counted(points, "point"), looks.size(),
                studies::counts_of(looks), (options.out / envelope_file).string(),
                (options.out / "report.html").string());
@@ -374,7 +385,8 @@ void sweep_options(CLI::App& sweep, int& status) {
   add_study(
       sweep, options,
       "PATH=A..B UNIT:N, N values from end to end (PATH=A..B UNIT:N:log, each so many times the one before), "
-      "or PATH=1,2,5 UNIT; may be repeated");
+      "PATH=1,2,5 UNIT, or the fit.json of drycut fit: both limits of each value, with --sample what lies "
+      "between; may be repeated");
   sweep.get_option("--over")->required();
   sweep.add_option(
       "--sample", options.sample,
@@ -405,7 +417,8 @@ void envelope_options(CLI::App& envelope, int& status) {
   envelope.add_option("scenarios", options.scenarios, "Scenario files (.yaml)")->required();
   add_study(
       envelope, options,
-      "[NAME:]PATH=A..B UNIT:N[:log] or [NAME:]PATH=1,2,5 UNIT; may be repeated. One with NAME: is for the "
+      "[NAME:]PATH=A..B UNIT:N[:log], [NAME:]PATH=1,2,5 UNIT, or [NAME:]FILE, the fit.json of drycut fit: "
+      "both limits of each value, and the bound has a band; may be repeated. One with NAME: is for the "
       "scenarios whose files' names begin so, in place of those without");
   envelope
       .add_option("--find-max", options.find_max,

@@ -79,7 +79,7 @@ void tune_options(CLI::App& tune, int& status) {
   tune.add_option("--wire", options.loop.wire, "Analogue reference where margins are measured, as with bode");
   tune.add_option("--at", options.loop.at, "Margins are measured from then on [s]; else from the end on");
   tune.add_option("--amplitude", options.loop.amplitude, "Of the sine that measures margins [V]")
-      ->capture_default_str();
+      ->default_str(fmt::to_string(studies::LoopRequest::usual_amplitude));
   tune.add_option("--from", options.from, "Metric and constraints look from this time on")
       ->capture_default_str();
   tune.add_flag("--ignore-checks", options.ignore_checks, "The scenarios' failed checks do not count");
@@ -94,8 +94,10 @@ void tune_options(CLI::App& tune, int& status) {
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   tune.add_option("--seed", options.seed, "Seed of the search and the spread")->capture_default_str();
-  tune.add_option("--spread", options.spread,
-                  "PATH=±30% or PATH=LO..HI: try the tuned values on machines that differ; may be repeated")
+  tune.add_option(
+          "--spread", options.spread,
+          "PATH=±30%, PATH=LO..HI, or the fit.json of drycut fit, whose limits are the ranges: try the tuned "
+          "values on machines that differ; may be repeated")
       ->allow_extra_args(false);
   tune.add_option("--spread-runs", options.spread_runs,
                   "How many such machines; fewer where the budget has no room")

@@ -82,7 +82,7 @@ DriveJudge::DriveJudge(const scenario::Scenario& scenario, const std::vector<Nam
   for (const auto& [name, plant] : plants)
     for (const auto& drive : plant->drives()) {
       drives_.push_back({name, drive.name, drive.stage, drive.load_inertia, drive.efficiency, drive.alike,
-                         DriveCycles(seconds(cycle_))});
+                         drive.cogging, drive.torque_ripple, DriveCycles(seconds(cycle_))});
       const auto monitor = fmt::format("{}.{}.mains_ok", name, drive.name);
       drives_.back().tells_mains =
           std::any_of(scenario.wiring.begin(), scenario.wiring.end(),
@@ -283,6 +283,8 @@ record::DriveVerdict DriveJudge::verdict(Drive drive) const {
         Goes::not_with_it, false, verdict.cycles, "the mean is judged");
   verdict.inertia_ratio = drive.load_inertia / ratings.rotor_inertia;
   verdict.efficiency = drive.efficiency;
+  verdict.cogging = drive.cogging;
+  verdict.torque_ripple = drive.torque_ripple;
   verdict.energy = whole ? stage.totals().from_mains : drive.energy / drive.counted;
   verdict.energy_cycles = whole ? 0 : static_cast<int>(drive.counted);
   verdict.trips = drive.trips;

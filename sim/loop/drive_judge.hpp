@@ -90,6 +90,8 @@ class DriveJudge : public record::Observer {
     double load_inertia = 0;
     double efficiency = 1;
     int alike = 1;
+    double cogging = 0;
+    double torque_ripple = 0;
     DriveCycles cycles;
     int counted = 0;                                  ///< cycles
     double energy = 0;                                ///< from the mains in them [J]

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/state_archive.hpp"
-#include "sim/loop/inputs.hpp"
+#include "sim/loop/files_read.hpp"
 
 namespace drycut::sim::loop {
 

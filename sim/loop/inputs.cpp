@@ -12,7 +12,7 @@
 #include "base/text.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/bus.hpp"
-#include "sim/loop/controller_loader.hpp"
+#include "sim/loop/files_read.hpp"
 #include "sim/loop/live_parameters.hpp"
 #include "sim/recordings/recording.hpp"
 #include "sim/scenario/units.hpp"
@@ -20,8 +20,6 @@
 namespace drycut::sim::loop {
 
 namespace {
-
-constexpr std::uintmax_t largest_export = std::uintmax_t{1} << 32U;  // [bytes]
 
 using scenario::RecordedInput;
 
@@ -287,25 +285,6 @@ void Inputs::work(Time now) {
 void Inputs::visit(StateArchive& archive) {
   archive.each("sources_", sources_, [&](Source& source) { STATE(archive, source.written); });
   if (archive.restores()) next_ = 0;  // where it is follows from the time
-}
-
-std::vector<std::pair<std::string, std::string>> read_files_of(const scenario::Scenario& scenario) {
-  std::vector<std::pair<std::string, std::string>> files;
-  Problems ignored;
-  const auto add = [&](const std::string& name, const std::filesystem::path& path) {
-    files.emplace_back(name, read_file(path, ignored, largest_export).value_or(""));
-  };
-  for (const auto& name : controller_files(scenario)) add(name.text, scenario.file.parent_path() / name.text);
-  std::vector<std::string> known;
-  for (const auto& input : scenario.inputs) {
-    if (std::ranges::find(known, input.recording.text) != known.end()) continue;
-    known.push_back(input.recording.text);
-    const auto path = path_of(scenario, input);
-    add(input.recording.text, path);
-    const auto file = recordings::read_recording_text(files.back().second, path, ignored);
-    if (!file.file.text.empty()) add(file.file.text, file.export_path());
-  }
-  return files;
 }
 
 }  // namespace drycut::sim::loop

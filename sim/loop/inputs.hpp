@@ -3,7 +3,6 @@
 #include <functional>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/problem.hpp"
@@ -55,9 +54,5 @@ class Inputs {
   Time next_ = 0;
   End end_;
 };
-
-/// All files that a run of the scenario reads besides itself, by their names in it, with their bytes: the
-/// controller's, recordings and their exports. "" of what cannot be read, which is told by whoever runs it.
-std::vector<std::pair<std::string, std::string>> read_files_of(const scenario::Scenario& scenario);
 
 }  // namespace drycut::sim::loop

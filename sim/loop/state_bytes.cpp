@@ -7,8 +7,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "sim/loop/files_read.hpp"
 #include "sim/loop/fingerprint.hpp"
-#include "sim/loop/inputs.hpp"
 
 namespace drycut::sim::loop {
 

@@ -58,12 +58,14 @@ struct DriveVerdict {
   std::string cycles;  ///< "24 cycles from cut to cut"
   plants::DriveRatings ratings;
   std::vector<DriveFigure> figures;
-  double inertia_ratio = 0;        ///< load over rotor
-  double efficiency = 1;           ///< of all between motor and load; 1: no losses are counted
-  int alike = 1;                   ///< drives that do the same: all figures are those of one
-  double energy = 0;               ///< from the mains, mean of a cycle; where none is known, of the run [J]
-  int energy_cycles = 0;           ///< of so many cycles; 0: none is known
-  bool steady = false;             ///< a steady cycle was found: what the drive bears for ever is known
+  double inertia_ratio = 0;  ///< load over rotor
+  double efficiency = 1;     ///< of all between motor and load; 1: no losses are counted
+  double cogging = 0;        ///< amplitude of the motor's torque without current; 0: none is counted [N m]
+  double torque_ripple = 0;  ///< amplitude over its torque; 0: none is counted
+  int alike = 1;             ///< drives that do the same: all figures are those of one
+  double energy = 0;         ///< from the mains, mean of a cycle; where none is known, of the run [J]
+  int energy_cycles = 0;     ///< of so many cycles; 0: none is known
+  bool steady = false;       ///< a steady cycle was found: what the drive bears for ever is known
   std::vector<std::string> trips;  ///< "tripped by overload at 3.2 s", "pulled out at 3.2 s"
   /// When the torque limit acted outside of what is judged: "twice, 0.12 s in all, first at 0.8 s"; "" =
   /// never.
@@ -74,8 +76,8 @@ struct DriveVerdict {
   /// from one run: friction and load stay, the rest of the torque goes with the speed. 1 where all are; 0
   /// where friction and load alone are too much.
   double advised = 1;
-  /// Begin and end of the last ten of the cycles, or fewer; of the stretch that is judged where there are none
-  /// [s].
+  /// Begin and end of the last ten of the cycles, or fewer; of the stretch that is judged where there are
+  /// none [s].
   std::vector<std::pair<double, double>> last_cycles;
   // Of every record instant or cycle, for pictures and for sizing.
   std::vector<std::pair<double, double>> cycle_points;  ///< mean size of speed [rad/s], rms torque [N m]
@@ -94,6 +96,8 @@ struct DriveVerdict {
     archive("figures", self.figures);
     archive("inertia_ratio", self.inertia_ratio);
     archive("efficiency", self.efficiency);
+    archive("cogging", self.cogging);
+    archive("torque_ripple", self.torque_ripple);
     archive("alike", self.alike);
     archive("energy", self.energy);
     archive("energy_cycles", self.energy_cycles);

@@ -9,9 +9,9 @@
 
 namespace drycut::sim::recordings {
 
-std::optional<std::pair<double, double>> Clock::take(const Cell& cell, int line) {
+std::optional<std::pair<double, double>> Clock::take(const DataCell& cell, int line) {
   now.reset();
-  if (cell.kind != Cell::Kind::number) return {};
+  if (cell.kind != DataCell::Kind::number) return {};
   const double since = cell.value * (source.column == none ? source.step : source.unit);
   // A date counts from 1970; here the first sample is the beginning.
   constexpr double years = 3e8;

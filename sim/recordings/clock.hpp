@@ -31,7 +31,7 @@ struct Clock {
   int first_repeated = 0;  ///< line
 
   /// Takes the time of a row. From when to when it goes back, if it does; the row has no time then.
-  std::optional<std::pair<double, double>> take(const Cell& cell, int line);
+  std::optional<std::pair<double, double>> take(const DataCell& cell, int line);
   /// Where the time with that index stands.
   [[nodiscard]] int line_of(std::size_t index) const;
 };

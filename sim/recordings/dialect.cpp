@@ -16,11 +16,11 @@ Dialect made(char separator, char decimal, bool single_blanks) {
 
 }  // namespace
 
-Beginning beginning_of(std::istream& stream) {
+FirstLines first_lines_of(std::istream& stream) {
   constexpr std::size_t most_lines = 500;
   constexpr std::size_t most_bytes = 4U << 20U;
-  Beginning beginning;
-  Lines lines(stream);
+  FirstLines beginning;
+  LineStream lines(stream);
   std::string_view line;
   std::size_t bytes = 0;
   while (lines.next(line)) {
@@ -34,7 +34,7 @@ Beginning beginning_of(std::istream& stream) {
   return beginning;
 }
 
-Block block_of(const Beginning& beginning, const Dialect& dialect) {
+Block block_of(const FirstLines& beginning, const Dialect& dialect) {
   Block block;
   std::vector<std::string_view> cells;
   std::optional<std::size_t> before;
@@ -58,7 +58,7 @@ Block block_of(const Beginning& beginning, const Dialect& dialect) {
   return block;
 }
 
-Dialect dialect_of(const Beginning& beginning, const GivenSigns& given, bool single_blanks) {
+Dialect dialect_of(const FirstLines& beginning, const GivenSigns& given, bool single_blanks) {
   auto best = made(given.separator.value_or(','), given.decimal.value_or('.'), single_blanks);
   auto most = Block();
   for (const char separator : separators) {
@@ -79,7 +79,7 @@ Dialect dialect_of(const Beginning& beginning, const GivenSigns& given, bool sin
   return best;
 }
 
-std::optional<HeadFault> fault_of_bytes(const Beginning& beginning) {
+std::optional<HeadFault> fault_of_bytes(const FirstLines& beginning) {
   if (beginning.lines.empty()) return HeadFault{HeadFault::Kind::empty};
   const std::string_view first = beginning.lines.front();
   if (first.starts_with("\xFF\xFE") || first.starts_with("\xFE\xFF"))

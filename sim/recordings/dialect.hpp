@@ -11,11 +11,11 @@
 namespace drycut::sim::recordings {
 
 /// The first lines of a file, enough for any header.
-struct Beginning {
+struct FirstLines {
   std::vector<std::string> lines;
   bool is_whole = true;  ///< the file has no more
 };
-Beginning beginning_of(std::istream& stream);
+FirstLines first_lines_of(std::istream& stream);
 
 /// The data among the first lines: from where a line of data follows another, or the end.
 struct Block {
@@ -24,7 +24,7 @@ struct Block {
   int width = 0;          ///< cells of its first line
   int cells = 0;          ///< of that or of the line above, whichever has more
 };
-Block block_of(const Beginning& beginning, const Dialect& dialect);
+Block block_of(const FirstLines& beginning, const Dialect& dialect);
 
 /// What is known of a dialect.
 struct GivenSigns {
@@ -32,7 +32,7 @@ struct GivenSigns {
   std::optional<char> decimal = {};
 };
 /// The dialect in which most lines are data. `single_blanks`: of the separator ' ' each ends a cell.
-Dialect dialect_of(const Beginning& beginning, const GivenSigns& given, bool single_blanks);
+Dialect dialect_of(const FirstLines& beginning, const GivenSigns& given, bool single_blanks);
 
 /// What is wrong with a text as a table.
 struct HeadFault {
@@ -46,6 +46,6 @@ struct HeadFault {
 Problem problem_of(const HeadFault& fault, const std::string& file);
 
 /// What shows before any dialect is known.
-std::optional<HeadFault> fault_of_bytes(const Beginning& beginning);
+std::optional<HeadFault> fault_of_bytes(const FirstLines& beginning);
 
 }  // namespace drycut::sim::recordings

@@ -20,13 +20,13 @@ namespace {
 using Values = std::vector<double>;
 
 /// The columns of the first rows; what is no number is left out.
-std::vector<Values> first_rows(const Beginning& beginning, const Head& head) {
+std::vector<Values> first_rows(const FirstLines& beginning, const ExportHead& head) {
   std::vector<Values> columns(head.columns.size());
   std::vector<std::string_view> cells;
   for (auto i = static_cast<std::size_t>(head.first_line - 1); i < beginning.lines.size(); ++i) {
     split(beginning.lines[i], head.dialect, cells);
     for (std::size_t c = 0; c < columns.size(); ++c)
-      if (const auto cell = cell_at(cells, c, head.dialect.decimal); cell.kind == Cell::Kind::number)
+      if (const auto cell = cell_at(cells, c, head.dialect.decimal); cell.kind == DataCell::Kind::number)
         columns[c].push_back(cell.value);
   }
   return columns;
@@ -48,27 +48,27 @@ Rise rise_of(const Values& numbers) {
 }
 
 /// Units as exports write them, as drycut does.
-struct Spelling {
+struct UnitSpelling {
   std::string_view written;
   std::string_view unit;
 };
-constexpr std::array spellings = {Spelling{"1/min", "rpm"},
-                                  Spelling{"r/min", "rpm"},
-                                  Spelling{"u/min", "rpm"},
-                                  Spelling{"min-1", "rpm"},
-                                  Spelling{"volt", "V"},
-                                  Spelling{"volts", "V"},
-                                  Spelling{"ampere", "A"},
-                                  Spelling{"inc", "counts"},
-                                  Spelling{"incr", "counts"},
-                                  Spelling{"pls", "counts"},
-                                  Spelling{"pulse", "counts"},
-                                  Spelling{"\u00b0", "deg"},
-                                  Spelling{"\u00b0/s", "deg/s"},
-                                  Spelling{"\u2030", "permille"},
-                                  Spelling{"1/1000", "permille"},
-                                  Spelling{"mm/sec", "mm/s"},
-                                  Spelling{"sec", "s"}};
+constexpr std::array spellings = {UnitSpelling{"1/min", "rpm"},
+                                  UnitSpelling{"r/min", "rpm"},
+                                  UnitSpelling{"u/min", "rpm"},
+                                  UnitSpelling{"min-1", "rpm"},
+                                  UnitSpelling{"volt", "V"},
+                                  UnitSpelling{"volts", "V"},
+                                  UnitSpelling{"ampere", "A"},
+                                  UnitSpelling{"inc", "counts"},
+                                  UnitSpelling{"incr", "counts"},
+                                  UnitSpelling{"pls", "counts"},
+                                  UnitSpelling{"pulse", "counts"},
+                                  UnitSpelling{"\u00b0", "deg"},
+                                  UnitSpelling{"\u00b0/s", "deg/s"},
+                                  UnitSpelling{"\u2030", "permille"},
+                                  UnitSpelling{"1/1000", "permille"},
+                                  UnitSpelling{"mm/sec", "mm/s"},
+                                  UnitSpelling{"sec", "s"}};
 
 std::string unit_of(const std::string& written) {
   for (const auto& [known, unit] : spellings)
@@ -88,7 +88,7 @@ std::string channel_name(const std::string& header, std::size_t column) {
 
 class Guesser {
  public:
-  Guesser(const Beginning& beginning, const Head& head)
+  Guesser(const FirstLines& beginning, const ExportHead& head)
       : head_(head), columns_(first_rows(beginning, head)) {}
 
   Guess guess(std::string file, std::filesystem::path yaml) {
@@ -115,11 +115,11 @@ class Guesser {
   [[nodiscard]] std::string reference(std::size_t column) const {
     const auto& name = head_.columns[column].name;
     const auto same = std::count_if(head_.columns.begin(), head_.columns.end(),
-                                    [&](const Column& other) { return other.name == name; });
+                                    [&](const ExportColumn& other) { return other.name == name; });
     return name.empty() || same > 1 ? std::to_string(column + 1) : name;
   }
 
-  [[nodiscard]] std::size_t find(bool Column::*is) const {
+  [[nodiscard]] std::size_t find(bool ExportColumn::*is) const {
     for (std::size_t i = 0; i < head_.columns.size(); ++i)
       if (head_.columns[i].*is) return i;
     return none;
@@ -127,8 +127,8 @@ class Guesser {
 
   void time() {
     auto& time = guess_.recording.time;
-    const auto told = find(&Column::is_time);
-    const auto counted = find(&Column::counts_samples);
+    const auto told = find(&ExportColumn::is_time);
+    const auto counted = find(&ExportColumn::counts_samples);
     if (head_.format == Format::twincat) {
       time.unit.text = "ms";
       return remark("time:", "each channel has the column of time before it");
@@ -204,6 +204,9 @@ class Guesser {
                          std::all_of(numbers.begin(), numbers.end(), is_whole);
     const auto positive = [](double number) { return number < sign_bit; };
     if (!is_word || std::none_of(numbers.begin(), numbers.end(), positive)) return;
+    // Counts that merely grow beyond it do so step by step.
+    const auto jumps = [](double a, double b) { return std::abs(a - b) >= sign_bit / 2; };
+    if (std::adjacent_find(numbers.begin(), numbers.end(), jumps) == numbers.end()) return;
     // Which reading keeps the negative numbers as small as the others?
     double magnitude = 0;
     double complement = 0;
@@ -226,7 +229,7 @@ class Guesser {
     return made;
   }
 
-  const Head& head_;
+  const ExportHead& head_;
   std::vector<Values> columns_;
   std::size_t skip_ = none;
   Guess guess_;
@@ -250,7 +253,7 @@ Guess guess(const std::filesystem::path& file, const std::filesystem::path& yaml
     read_file(file, problems);
     return {};
   }
-  const auto beginning = beginning_of(stream);
+  const auto beginning = first_lines_of(stream);
   std::optional<HeadFault> fault;
   const auto head = head_of(beginning, {}, fault);
   if (!fault) return Guesser(beginning, head).guess(relative_to(file, yaml), yaml);

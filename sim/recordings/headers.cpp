@@ -40,30 +40,30 @@ struct Above {
   static std::optional<double> number_in(std::string_view text) {
     if (const auto colon = text.rfind(':'); colon != std::string_view::npos) text.remove_prefix(colon + 1);
     const auto cell = cell_of(trimmed(text), text.find('.') == std::string_view::npos ? ',' : '.');
-    return cell.kind == Cell::Kind::number ? std::optional(cell.value) : std::nullopt;
+    return cell.kind == DataCell::Kind::number ? std::optional(cell.value) : std::nullopt;
   }
 };
 
 /// "Torque [N m]", "pos (5)", "Speed in rpm": the name without its unit, and the unit.
-Column named(std::string_view text) {
+ExportColumn named(std::string_view text) {
   for (const auto& [open, close] : {std::pair{'[', ']'}, {'(', ')'}}) {
     const auto begin = text.rfind(open);
     if (begin == std::string_view::npos || begin == 0 || !text.ends_with(close)) continue;
     const auto unit = trimmed(text.substr(begin + 1, text.size() - begin - 2));
     // "pos (5)" is a name: a number is no unit.
-    if (unit.empty() || is_digit(unit.front())) continue;
+    if (unit.empty() || parsed<double>(unit)) continue;
     return {std::string(text), std::string(unit == "-" ? "" : unit)};
   }
   return {std::string(text)};
 }
 
-bool says_time(const Column& column) {
+bool says_time(const ExportColumn& column) {
   return is_one_of(std::array{"time", "t", "zeit", "timestamp", "time stamp", "second", "seconds", "date"},
                    trimmed(std::string_view(column.name).substr(0, column.name.find_first_of("[("))));
 }
 
 // TwinCAT Scope: rows `key, value, ...`, where the key stands over each column of time.
-void read_twincat(const Above& above, Head& head) {
+void read_twincat(const Above& above, ExportHead& head) {
   const auto* const types = above.row("Data-Type");  // has no blanks in it, whatever the separator
   if (types == nullptr) return;
   const auto width = types->size();
@@ -78,7 +78,7 @@ void read_twincat(const Above& above, Head& head) {
       head.columns.push_back({"", "ms", none, true});
       continue;
     }
-    Column column{names != nullptr && i < names->size() ? names->at(i) : "", "", time};
+    ExportColumn column{names != nullptr && i < names->size() ? names->at(i) : "", "", time};
     const auto unit = units != nullptr && i < units->size() ? units->at(i) : "";
     if (!unit.starts_with('(')) column.unit = trimmed(std::string_view(unit).substr(0, unit.find('(')));
     for (const auto* key : {"ScaleFactor", "Unit ScaleFactor", "Unit Offset"})
@@ -111,7 +111,7 @@ constexpr std::array measured = {
 };
 
 // MR Configurator2: the names stand in the row of the units, over them which analogue channel it is.
-void read_mr_configurator2(const Above& above, Head& head) {
+void read_mr_configurator2(const Above& above, ExportHead& head) {
   if (const auto interval = above.number("Sampling time interval(ms)")) head.interval = *interval / 1000;
   const auto* const names = above.from_below(0);
   const auto* const channels = above.from_below(1);
@@ -122,7 +122,7 @@ void read_mr_configurator2(const Above& above, Head& head) {
       continue;
     }
     const bool unused = names->at(i).empty() || same_word(names->at(i), "Not selected");
-    Column column{unused && i < channels->size() ? channels->at(i) : names->at(i)};
+    ExportColumn column{unused && i < channels->size() ? channels->at(i) : names->at(i)};
     column.is_unused = unused;
     for (const auto& [begins, unit] : measured)
       if (column.unit.empty() && lower(column.name).starts_with(begins)) column.unit = unit;
@@ -131,7 +131,7 @@ void read_mr_configurator2(const Above& above, Head& head) {
 }
 
 // Rigol: start and increment stand behind the names, their numbers behind the units.
-void read_rigol(const Above& above, Head& head) {
+void read_rigol(const Above& above, ExportHead& head) {
   const auto& names = above.rows.front();
   const auto* const units = above.rows.size() > 1 ? &above.rows[1] : nullptr;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -148,14 +148,14 @@ void read_rigol(const Above& above, Head& head) {
 }
 
 // Siglent: `Second,Volt` is the last row; which channels they are stands behind `Vertical Scale`.
-void read_siglent(const Above& above, Head& head) {
+void read_siglent(const Above& above, ExportHead& head) {
   head.interval = above.number("Sample Interval");
   if (const auto rate = above.number("Sample Rate"); rate && *rate > 0) head.interval = 1 / *rate;
   const auto* const units = above.from_below(0);
   const auto* const scales = above.row("Vertical Scale");
   if (units == nullptr) return;
   for (std::size_t i = 0; i < units->size(); ++i) {
-    Column column{units->at(i), units->at(i), none, i == 0};
+    ExportColumn column{units->at(i), units->at(i), none, i == 0};
     if (i > 0 && scales != nullptr && i < scales->size())
       if (const auto colon = scales->at(i).find(':'); colon != std::string::npos)
         column.name = scales->at(i).substr(0, colon);
@@ -163,7 +163,7 @@ void read_siglent(const Above& above, Head& head) {
   }
 }
 
-void read_halsampler(const Above&, Head&) {}
+void read_halsampler(const Above&, ExportHead&) {}
 
 bool is_row_of_names(const Row* row, int width) {
   if (row == nullptr || static_cast<int>(row->size()) > width + 1 || row->empty()) return false;
@@ -181,7 +181,7 @@ bool is_row_of_units(const Row& row) {
 }
 
 // Any other: names above the data, units below the names or behind each.
-void read_csv(const Above& above, Head& head) {
+void read_csv(const Above& above, ExportHead& head) {
   const auto* names = above.from_below(0);
   const Row* units = nullptr;
   if (is_row_of_names(names, head.width) && is_row_of_names(above.from_below(1), head.width) &&
@@ -203,7 +203,7 @@ void read_csv(const Above& above, Head& head) {
 struct FormatRow {
   std::string_view name;
   std::string_view mark;  ///< a cell of its header that no other has; "" = it has none
-  void (*read)(const Above& above, Head& head);
+  void (*read)(const Above& above, ExportHead& head);
 };
 constexpr std::array formats = {
     // in the order of Format
@@ -216,7 +216,7 @@ constexpr std::array formats = {
 };
 
 /// Where the mark of a format stands as a whole cell; nullopt if it does not.
-std::optional<std::pair<std::size_t, std::size_t>> find_mark(const Beginning& beginning,
+std::optional<std::pair<std::size_t, std::size_t>> find_mark(const FirstLines& beginning,
                                                              const FormatRow& format) {
   for (std::size_t i = 0; i < beginning.lines.size() && !format.mark.empty(); ++i) {
     const std::string_view line = beginning.lines[i];
@@ -232,7 +232,8 @@ std::optional<std::pair<std::size_t, std::size_t>> find_mark(const Beginning& be
 }
 
 /// A comma between cells and in numbers: the data have more cells than the header, or not always as many.
-std::optional<HeadFault> fault_of_commas(const Beginning& beginning, const Above& above, const Head& head) {
+std::optional<HeadFault> fault_of_commas(const FirstLines& beginning, const Above& above,
+                                         const ExportHead& head) {
   const auto* const last = above.from_below(0);
   const bool is_remark = last != nullptr && last->front().starts_with('#');
   auto columns = head.columns.size();
@@ -247,7 +248,7 @@ std::optional<HeadFault> fault_of_commas(const Beginning& beginning, const Above
   return {};
 }
 
-void cut_above(const Beginning& beginning, std::size_t lines, const Dialect& dialect, bool is_twincat,
+void cut_above(const FirstLines& beginning, std::size_t lines, const Dialect& dialect, bool is_twincat,
                Above& above) {
   std::vector<std::string_view> cells;
   for (std::size_t i = 0; i < lines; ++i) {
@@ -266,15 +267,16 @@ void cut_above(const Beginning& beginning, std::size_t lines, const Dialect& dia
 
 const std::vector<std::string>& format_names() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const auto& row : formats) all.emplace_back(row.name);
+    std::vector<std::string> all(formats.size());
+    std::transform(formats.begin(), formats.end(), all.begin(),
+                   [](const FormatRow& row) { return std::string(row.name); });
     return all;
   }();
   return names;
 }
 
-Head head_of(const Beginning& beginning, const Given& given, std::optional<HeadFault>& fault) {
-  Head head;
+ExportHead head_of(const FirstLines& beginning, const Given& given, std::optional<HeadFault>& fault) {
+  ExportHead head;
   fault = fault_of_bytes(beginning);
   if (fault) return head;
   auto known = given;

@@ -17,7 +17,7 @@ const std::vector<std::string>& format_names();
 inline constexpr std::size_t none = static_cast<std::size_t>(-1);
 
 /// What the header of a file says of a column.
-struct Column {
+struct ExportColumn {
   std::string name;             ///< "" = it has none
   std::string unit = {};        ///< as the file has it: "V", "%", "1/min"; "" = it does not say
   std::size_t time = none;      ///< the column with its time, where the format has one beside it
@@ -28,11 +28,11 @@ struct Column {
 };
 
 /// What stands above the data, understood.
-struct Head {
+struct ExportHead {
   Format format = Format::csv;
   Dialect dialect = {};
   int first_line = 1;  ///< of the data
-  std::vector<Column> columns = {};
+  std::vector<ExportColumn> columns = {};
   std::optional<double> interval = {};  ///< between two samples [s]
   double start = 0;                     ///< of the first sample [s]
   int width = 0;                        ///< cells of the first line of data
@@ -44,6 +44,6 @@ struct Given : GivenSigns {
 };
 
 /// Understands the beginning of a file. `fault` says why not; the result is not to be used then.
-Head head_of(const Beginning& beginning, const Given& given, std::optional<HeadFault>& fault);
+ExportHead head_of(const FirstLines& beginning, const Given& given, std::optional<HeadFault>& fault);
 
 }  // namespace drycut::sim::recordings

@@ -19,10 +19,10 @@ namespace drycut::sim::recordings {
 namespace {
 
 /// Where a channel's numbers are and what becomes of them.
-struct Reader {
+struct ColumnReader {
   std::size_t column = none;
   std::size_t clock = 0;
-  Conversion conversion;
+  Worth worth;
   const RecordingFile::Channel* channel = nullptr;
   std::size_t empty = 0;  ///< cells
   std::size_t nan = 0;
@@ -44,7 +44,7 @@ class Loader {
 
   Recording load(std::istream& stream) {
     Recording made{recording_.export_path(), 0, 0, {}};
-    const auto beginning = beginning_of(stream);
+    const auto beginning = first_lines_of(stream);
     std::optional<HeadFault> fault;
     head_ = head_of(beginning, {{recording_.separator, recording_.decimal}, recording_.format}, fault);
     if (fault) {
@@ -54,8 +54,7 @@ class Loader {
     const auto before = problems_.size();
     for (const auto& channel : recording_.channels) place(channel);
     if (problems_.size() != before) return made;
-    for (const auto& reader : readers_)
-      made.series.push_back({reader.channel->name.text, reader.conversion.unit});
+    for (const auto& reader : readers_) made.series.push_back({reader.channel->name.text, reader.worth.unit});
     stream.clear();
     stream.seekg(0);
     read(stream, made);
@@ -109,17 +108,18 @@ class Loader {
   }
 
   static std::string numbers(const std::vector<std::size_t>& columns) {
-    std::vector<std::string> all;
-    for (const auto column : columns) all.push_back(std::to_string(column + 1));
+    std::vector<std::string> all(columns.size());
+    std::transform(columns.begin(), columns.end(), all.begin(),
+                   [](std::size_t column) { return std::to_string(column + 1); });
     return listed(all);
   }
 
   void place(const RecordingFile::Channel& channel) {
-    Reader reader;
+    ColumnReader reader;
     reader.channel = &channel;
     reader.column = find(channel.column);
     if (reader.column == none) return;
-    reader.conversion = conversion_of(channel);
+    reader.worth = worth_of(channel);
     if (const auto source = time_of(channel, reader.column)) {
       reader.clock = clock_of(*source);
       readers_.push_back(reader);
@@ -171,7 +171,7 @@ class Loader {
 
   void read(std::istream& stream, Recording& made) {
     const auto file = made.file.string();
-    Lines lines(stream);
+    LineStream lines(stream);
     std::string_view line;
     std::vector<std::string_view> cells;
     std::size_t row = 0;
@@ -203,9 +203,9 @@ class Loader {
             Recording& made) {
     for (auto& clock : clocks_) {
       const auto cell = clock.source.column == none
-                            ? Cell{Cell::Kind::number, static_cast<double>(row)}
+                            ? DataCell{DataCell::Kind::number, static_cast<double>(row)}
                             : cell_at(cells, clock.source.column, head_.dialect.decimal);
-      if (cell.kind == Cell::Kind::text) refuse_text(cells[clock.source.column], line, number);
+      if (cell.kind == DataCell::Kind::text) refuse_text(cells[clock.source.column], line, number);
       const auto went_back = clock.take(cell, number);
       if (went_back)
         refuse("recording.time-goes-back"_code, number, 1,
@@ -216,11 +216,11 @@ class Loader {
       auto& reader = readers_[i];
       const auto& clock = clocks_[reader.clock];
       const auto cell = cell_at(cells, reader.column, head_.dialect.decimal);
-      if (cell.kind == Cell::Kind::text) refuse_text(cells[reader.column], line, number);
+      if (cell.kind == DataCell::Kind::text) refuse_text(cells[reader.column], line, number);
       if (!clock.now) continue;
-      if (cell.kind == Cell::Kind::number) {
+      if (cell.kind == DataCell::Kind::number) {
         append(reader, *clock.now, cell.value, number, made.series[i]);
-      } else if (cell.kind == Cell::Kind::empty) {
+      } else if (cell.kind == DataCell::Kind::empty) {
         if (reader.empty++ == 0) reader.first_empty = number;
       } else if (reader.nan++ == 0) {
         reader.first_nan = number;
@@ -228,7 +228,7 @@ class Loader {
     }
   }
 
-  static void append(Reader& reader, double time, double number, int line, Series& series) {
+  static void append(ColumnReader& reader, double time, double number, int line, Series& series) {
     const auto& channel = *reader.channel;
     constexpr double sign_bit = 32768;
     if (channel.clipped && number == *channel.clipped) {
@@ -238,7 +238,7 @@ class Loader {
     if (channel.numbers != Numbers::plain && number >= sign_bit)
       number = channel.numbers == Numbers::sign_magnitude ? sign_bit - number : number - 2 * sign_bit;
     series.time_s.push_back(time - channel.delay);
-    series.value.push_back(number * reader.conversion.factor + reader.conversion.offset);
+    series.value.push_back(number * reader.worth.factor + reader.worth.offset);
   }
 
   void refuse_text(std::string_view cell, std::string_view line, int number) {
@@ -293,9 +293,9 @@ class Loader {
   const RecordingFile& recording_;
   Problems& problems_;
   std::vector<Finding>& findings_;
-  Head head_;
+  ExportHead head_;
   std::vector<Clock> clocks_;
-  std::vector<Reader> readers_;
+  std::vector<ColumnReader> readers_;
   int refused_ = 0;
   bool is_given_up_ = false;
 };

@@ -35,8 +35,9 @@ constexpr std::array decimal_words = {SignWord{"point", '.'}, SignWord{"comma", 
 
 template <std::size_t Count>
 scenario::Form sign_form(const std::array<SignWord, Count>& words, std::optional<char>& sign) {
-  std::vector<std::string> names;
-  for (const auto& word : words) names.emplace_back(word.word);
+  std::vector<std::string> names(words.size());
+  std::transform(words.begin(), words.end(), names.begin(),
+                 [](const SignWord& word) { return std::string(word.word); });
   return scenario::choice_form(
       names,
       [&words, &sign] {
@@ -46,6 +47,12 @@ scenario::Form sign_form(const std::array<SignWord, Count>& words, std::optional
         return static_cast<std::size_t>(found - words.begin());
       },
       [&words, &sign](std::size_t number) { sign = words.at(number).sign; });
+}
+
+/// Without a default that would be told and written.
+scenario::Form if_given(bool given, scenario::Form form) {
+  if (!given) form.write = [] { return std::string(); };
+  return form;
 }
 
 scenario::Form optional_number(std::optional<double>& value) {
@@ -73,8 +80,8 @@ void visit_time(Archive& archive, RecordingFile::TimeBase& time) {
   archive.value({"column", "its header, or its number from 1", !time.column.text.empty()},
                 scenario::form(time.column));
   archive.value({"unit", "of the column: ms", !time.unit.text.empty()}, scenario::form(time.unit));
-  archive.value({"rate", "samples a second; with a column, that has the number of the sample", time.rate > 0},
-                scenario::form(time.rate, "Hz", 1e-6, 1e12, "1e-6 Hz to 1e12 Hz"));
+  archive.value({"rate", "samples a second; with a column, that has the number of the sample"},
+                if_given(time.rate > 0, scenario::form(time.rate, "Hz", 1e-6, 1e12, "1e-6 Hz to 1e12 Hz")));
   archive.value({"start", "time of the first sample, where no column says it", time.start != 0},
                 scenario::form(time.start, "s", -1e9, 1e9, "-1e9 s to 1e9 s"));
   archive.judge([&time](MapReader& reader) {
@@ -141,8 +148,8 @@ void visit(Archive& archive, RecordingFile::Channel& channel) {
   archive.value({"unit", "of the column: N m, rpm, \"%\", counts", !unit.text.empty()},
                 scenario::form(channel.unit));
   archive.require("unit", "the file may not say it: look at the tool's settings; \"\" is a pure number");
-  archive.value({"of", "what 100 %, or `full` counts, are: 9.55 N m", !of.unit.empty()},
-                scenario::form(channel.of));
+  archive.value({"of", "what 100 %, or `full` counts, are: 9.55 N m"},
+                if_given(!of.unit.empty(), scenario::form(channel.of)));
   archive.value({"full", "so many of the column are `of`: 8192 counts of: 1 rev", full != 1},
                 scenario::form(channel.full, "", 1e-12, 1e18, "a number above 0"));
   archive.value({"scale", "its numbers are multiplied by it: 0.1 of tenths", scale != 1},
@@ -163,10 +170,10 @@ void visit(Archive& archive, RecordingFile& recording) {
   archive.value({"file", "the export of the machine's tool"}, scenario::path_form(recording.file));
   archive.require("file", "name the export: file: scope.csv");
   archive.value({"format", "who wrote it"}, scenario::choice_form(format_names(), recording.format));
-  archive.value({"separator", "what stands between its cells", recording.separator.has_value()},
-                sign_form(separator_words, recording.separator));
-  archive.value({"decimal", "what stands in its numbers", recording.decimal.has_value()},
-                sign_form(decimal_words, recording.decimal));
+  archive.value({"separator", "what stands between its cells; else as most rows of numbers come of it"},
+                if_given(recording.separator.has_value(), sign_form(separator_words, recording.separator)));
+  archive.value({"decimal", "what stands in its numbers; else likewise"},
+                if_given(recording.decimal.has_value(), sign_form(decimal_words, recording.decimal)));
   const auto& time = recording.time;
   const bool has_time = !time.column.text.empty() || !time.unit.text.empty() || time.rate > 0;
   archive.section({"time", "a column, or a rate; else as the format has it", has_time},
@@ -249,8 +256,8 @@ std::string unit_of_time(const std::string& written) {
   return scenario::is_unit(word) && scenario::same_dimension(word, "s") ? word : "";
 }
 
-Conversion conversion_of(const RecordingFile::Channel& channel) {
-  Conversion made;
+Worth worth_of(const RecordingFile::Channel& channel) {
+  Worth made;
   const auto factor = channel.scale * channel.sign;
   const auto one = [](std::string_view unit) { return scenario::to_si(1, unit) - scenario::to_si(0, unit); };
   if (channel.of.unit.empty()) {

@@ -77,12 +77,12 @@ std::vector<std::string> units_of_channel(const std::string& name);
 std::string unit_of_time(const std::string& written);
 
 /// What a number of the column is worth: si = number * factor + offset.
-struct Conversion {
+struct Worth {
   double factor = 1;
   double offset = 0;
   std::string unit;  ///< SI: "N m"
 };
 /// The units must be sound.
-Conversion conversion_of(const RecordingFile::Channel& channel);
+Worth worth_of(const RecordingFile::Channel& channel);
 
 }  // namespace drycut::sim::recordings

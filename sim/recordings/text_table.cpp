@@ -12,7 +12,7 @@
 
 namespace drycut::sim::recordings {
 
-bool Lines::fill() {
+bool LineStream::fill() {
   constexpr std::size_t block = 1U << 20U;
   buffer_.erase(0, at_);
   at_ = 0;
@@ -26,7 +26,7 @@ bool Lines::fill() {
   return got > 0;
 }
 
-bool Lines::next(std::string_view& line) {
+bool LineStream::next(std::string_view& line) {
   auto end = buffer_.find('\n', at_);
   constexpr std::size_t longest = 64U << 20U;  // what is longer is no text
   while (end == std::string::npos && buffer_.size() - at_ < longest) {
@@ -104,19 +104,19 @@ std::optional<double> time_of_day(std::string_view text) {
   const auto seconds = cell_of(rest, rest.find(',') == std::string_view::npos ? '.' : ',');
   const bool fits =
       hours.value_or(24) < 24 && minutes.value_or(60) < 60 && !rest.empty() && is_digit(rest[0]);
-  if (!fits || seconds.kind != Cell::Kind::number || seconds.value >= 61) return {};
+  if (!fits || seconds.kind != DataCell::Kind::number || seconds.value >= 61) return {};
   return ((days * 24 + *hours) * 60 + *minutes) * 60 + seconds.value;
 }
 
 }  // namespace
 
-Cell cell_of(std::string_view text, char decimal) {
+DataCell cell_of(std::string_view text, char decimal) {
   if (text.empty()) return {};
   std::array<char, 64> pointed{};
   const auto whole = text;
   if (decimal != '.' && text.find(decimal) != std::string_view::npos) {
     if (text.size() > pointed.size() || text.find('.') != std::string_view::npos)
-      return {Cell::Kind::text, 0};
+      return {DataCell::Kind::text, 0};
     std::replace_copy(text.begin(), text.end(), pointed.begin(), decimal, '.');
     text = {pointed.data(), text.size()};
   }
@@ -124,20 +124,20 @@ Cell cell_of(std::string_view text, char decimal) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end == text.data() + text.size()) {
-    if (error == std::errc() && std::isfinite(value)) return {Cell::Kind::number, value};
+    if (error == std::errc() && std::isfinite(value)) return {DataCell::Kind::number, value};
     // Too small for a double is 0 to every drive.
     if (error == std::errc::result_out_of_range && text.find("e-") != std::string_view::npos)
-      return {Cell::Kind::number, 0};
-    if (error == std::errc()) return {Cell::Kind::not_a_number, 0};
+      return {DataCell::Kind::number, 0};
+    if (error == std::errc()) return {DataCell::Kind::not_a_number, 0};
   }
   if (whole.find(':') != std::string_view::npos)
-    if (const auto seconds = time_of_day(whole)) return {Cell::Kind::number, *seconds};
+    if (const auto seconds = time_of_day(whole)) return {DataCell::Kind::number, *seconds};
   const bool is_none = is_one_of(std::array{"nan", "-nan", "1.#qnan", "-1.#ind", "-", "--", "---"}, whole);
-  return {is_none ? Cell::Kind::not_a_number : Cell::Kind::text, 0};
+  return {is_none ? DataCell::Kind::not_a_number : DataCell::Kind::text, 0};
 }
 
-Cell cell_at(const std::vector<std::string_view>& cells, std::size_t index, char decimal) {
-  return index < cells.size() ? cell_of(cells[index], decimal) : Cell();
+DataCell cell_at(const std::vector<std::string_view>& cells, std::size_t index, char decimal) {
+  return index < cells.size() ? cell_of(cells[index], decimal) : DataCell();
 }
 
 bool is_data(std::string_view line, const Dialect& dialect) {
@@ -146,8 +146,8 @@ bool is_data(std::string_view line, const Dialect& dialect) {
   bool has_number = false;
   for (const auto cell : cells) {
     const auto kind = cell_of(cell, dialect.decimal).kind;
-    if (kind == Cell::Kind::text) return false;
-    has_number = has_number || kind == Cell::Kind::number;
+    if (kind == DataCell::Kind::text) return false;
+    has_number = has_number || kind == DataCell::Kind::number;
   }
   return has_number;
 }

@@ -17,9 +17,9 @@ struct Dialect {
 };
 
 /// The lines of a text of any length, one at a time, whatever ends them. A byte-order mark is left out.
-class Lines {
+class LineStream {
  public:
-  explicit Lines(std::istream& stream) : stream_(stream) {}
+  explicit LineStream(std::istream& stream) : stream_(stream) {}
   /// False at the end. `line` is good until the next call.
   bool next(std::string_view& line);
   /// Of the line given last, from 1.
@@ -41,15 +41,15 @@ class Lines {
 void split(std::string_view line, const Dialect& dialect, std::vector<std::string_view>& cells);
 
 /// What a cell of data is.
-struct Cell {
+struct DataCell {
   enum class Kind { number, empty, not_a_number, text };
   Kind kind = Kind::empty;
   double value = 0;
 };
 /// A time of day, with or without a date, counts as a number: seconds, since 1970 if there is a date.
-Cell cell_of(std::string_view text, char decimal);
+DataCell cell_of(std::string_view text, char decimal);
 /// The same of a text that may be missing.
-Cell cell_at(const std::vector<std::string_view>& cells, std::size_t index, char decimal);
+DataCell cell_at(const std::vector<std::string_view>& cells, std::size_t index, char decimal);
 
 /// True if all cells of the line are data, and one of them is a number.
 bool is_data(std::string_view line, const Dialect& dialect);

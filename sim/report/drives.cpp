@@ -117,6 +117,15 @@ renders::ReportTable drive_table(const std::vector<record::DriveVerdict>& verdic
           fmt::format("efficiency from motor to load{}",
                       verdict.efficiency < 1 ? "" : "\nno losses of gear or screw are counted"),
           fmt::format("{:.3g}", verdict.efficiency), "", ""}});
+    if (!verdict.ratings.works_at_limit) {
+      const bool even = verdict.cogging <= 0 && verdict.torque_ripple <= 0;
+      table.rows.push_back(
+          {{"",
+            fmt::format("cogging; ripple of the torque\n{}",
+                        even ? "none is counted" : "amplitudes, not in the motor's rms torque"),
+            fmt::format("{}; {:.3g} %", number_text(verdict.cogging, "N m"), 100 * verdict.torque_ripple), "",
+            ""}});
+    }
     const auto of = verdict.energy_cycles == 0   ? std::string("whole run")
                     : verdict.energy_cycles == 1 ? "the one cycle"
                                                  : fmt::format("mean of {} cycles", verdict.energy_cycles);

@@ -101,10 +101,15 @@ renders::ReportTable parameter_table(const scenario::PlantEntry& entry) {
                        [&](const auto& p) { return p.first == name; });
   };
   const auto from = [&](const plants::Parameter& parameter) {
+    const auto among = [&](const auto& values) {
+      const auto found =
+          std::ranges::find(values, parameter.name, &scenario::PlantEntry::Modelled::parameter);
+      return found == values.end() ? nullptr : &found->from;
+    };
+    if (const auto* fitted = among(entry.fitted)) return *fitted;
     if (given(parameter.name)) return std::string("the scenario");
-    const auto modelled = std::find_if(entry.modelled.begin(), entry.modelled.end(),
-                                       [&](const auto& m) { return m.parameter == parameter.name; });
-    return modelled == entry.modelled.end() ? std::string(parameter.source) : modelled->from;
+    const auto* modelled = among(entry.modelled);
+    return modelled == nullptr ? std::string(parameter.source) : *modelled;
   };
   for (const auto& parameter : entry.definition->parameters()) {
     table.rows.push_back(

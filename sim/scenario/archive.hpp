@@ -133,6 +133,7 @@ class Archive {
 void visit(Archive& archive, Scenario& scenario);
 void visit(Archive& archive, VariableEntry& variable);
 void visit(Archive& archive, PlantEntry& plant);
+void visit(Archive& archive, FittedEntry& entry);
 void visit(Archive& archive, Wire& wire);
 void visit(Archive& archive, InputFilter& filter);
 void visit(Archive& archive, Stimulus& stimulus);

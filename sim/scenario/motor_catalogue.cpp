@@ -330,7 +330,7 @@ std::vector<Finding> notes_of_models(const PlantEntry& plant) {
     std::string motor;
     std::vector<std::string_view> sources;
     for (const auto& value : plant.modelled) {
-      if (!value.parameter.starts_with(group)) continue;
+      if (value.by_class || !value.parameter.starts_with(group)) continue;
       const auto comma = value.from.find(", ");
       motor = value.from.substr(0, comma);
       sources.push_back(std::string_view(value.from).substr(comma + 2));

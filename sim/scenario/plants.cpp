@@ -91,29 +91,63 @@ void take_models(const YamlNode& node, PlantEntry& plant, MotorCatalogue& catalo
       if (parameter == parameters.end()) continue;  // on the name plate only
       form(*parameter)
           .read(YamlNode(YamlNode::Kind::scalar, value.text), {full, model->text.place}, findings);
-      plant.modelled.push_back(
-          {parameter->name, fmt::format("{}, {}", motor->name.text, value.from), model->text.place});
+      const auto* const* const number = std::get_if<double*>(&parameter->value);
+      plant.modelled.push_back({parameter->name, fmt::format("{}, {}", motor->name.text, value.from),
+                                model->text.place, false, number == nullptr ? 0 : **number});
     }
   }
 }
 
-// The values of the presets that a plant names, the same way.
-void take_presets(const YamlNode& node, PlantEntry& plant) {
+// The values of the presets that a plant names, but those that are given: after all has been read, for some
+// are shares of others. What a model gives is given, unless the scenario itself names the preset.
+void take_presets(PlantEntry& plant) {
   const auto parameters = plant.definition->parameters();
+  const auto number = [&](std::string_view name) -> double& {
+    return *std::get<double*>(std::ranges::find(parameters, name, &plants::Parameter::name)->value);
+  };
+  const auto given = [&](std::string_view name) {
+    return std::ranges::find(plant.places, name, &decltype(plant.places)::value_type::first);
+  };
+  const auto modelled = [&](std::string_view name) {
+    return std::ranges::find(plant.modelled, name, &PlantEntry::Modelled::parameter);
+  };
   for (const auto& row : parameters) {
-    const auto* const word = row.presets == nullptr ? nullptr : value_of(node, row.name);
-    if (word == nullptr || word->kind != YamlNode::Kind::scalar) continue;
-    const auto preset = std::find_if(row.presets->begin(), row.presets->end(),
-                                     [&](const auto& known) { return known.name == word->text.text; });
-    if (preset == row.presets->end()) continue;  // refused where the word itself is read
+    if (row.presets == nullptr) continue;
+    const auto named = given(row.name);
+    const bool by_model = named == plant.places.end();
+    if (by_model && modelled(row.name) == plant.modelled.end()) continue;
+    const auto place = by_model ? modelled(row.name)->place : named->second;
+    const auto preset =
+        std::ranges::find(*row.presets, *std::get<std::string*>(row.value), &plants::Preset::name);
+    if (preset == row.presets->end()) continue;  // refused where the word itself was read
     for (const auto& value : preset->values) {
-      const auto parameter = std::find_if(parameters.begin(), parameters.end(), [&](const auto& candidate) {
-        return candidate.name == value.parameter;
-      });
-      *std::get<double*>(parameter->value) = value.value;
-      plant.modelled.push_back(
-          {parameter->name, fmt::format("{}, {}", preset->name, value.source), word->text.place});
+      if (given(value.parameter) != plant.places.end()) continue;
+      const auto known = modelled(value.parameter);
+      if (known != plant.modelled.end() && by_model) continue;
+      number(value.parameter) = value.of.empty() ? value.value : value.value * number(value.of);
+      PlantEntry::Modelled made{std::string(value.parameter),
+                                fmt::format("{}, {}", preset->name, value.source), place, true};
+      if (known == plant.modelled.end())
+        plant.modelled.push_back(std::move(made));
+      else
+        *known = std::move(made);
     }
+  }
+}
+
+// A motor on mains of another class than its sheet is for would have another torque over speed.
+void object_to_mains(const PlantEntry& plant, Findings& findings) {
+  constexpr double same_class = 0.2;  // 380 V to 480 V beside 400 V
+  for (const auto& row : plant.definition->parameters()) {
+    if (!row.name.ends_with(".supply.voltage")) continue;
+    const auto rated = std::ranges::find(plant.modelled, row.name, &PlantEntry::Modelled::parameter);
+    if (rated == plant.modelled.end()) continue;
+    const double mains = *std::get<double*>(row.value);
+    if (std::abs(mains / rated->value - 1) <= same_class) continue;
+    findings.add("plant.parameters-contradict"_code, place_of(plant, row.name),
+                 fmt::format("{}.{}: {} is for mains of {:g} V, not of {:g} V", plant.name.text, row.name,
+                             rated->from.substr(0, rated->from.find(", ")), rated->value, mains),
+                 "leave it out: the motor's comes with it; or another motor");
   }
 }
 
@@ -310,8 +344,9 @@ std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants
     if (!plant) continue;
     MapReader reader(entry.value, "plants." + name, findings);
     take_models(entry.value, *plant, catalogue, findings);
-    take_presets(entry.value, *plant);
     visit(reader, *plant);
+    take_presets(*plant);
+    object_to_mains(*plant, findings);
     // An objection to a default would only be an echo.
     if (reader.is_sound()) object(*plant, plant->definition->objections(seconds(step)), findings);
     plants.push_back(std::move(*plant));

@@ -58,13 +58,17 @@ struct PlantEntry {
   Text type;
   std::unique_ptr<plants::PlantDefinition> definition;     ///< parameters already read
   std::vector<std::pair<std::string, ScenePlace>> places;  ///< of the parameters that the file gives
-  /// A parameter that the model of a motor gives.
+  /// A parameter that the model of a motor gives, or a class.
   struct Modelled {
     std::string parameter;
-    std::string from;  ///< "HG-SR202, sheet: ..."
-    ScenePlace place;  ///< where the scenario names the model
+    std::string from;       ///< "HG-SR202, sheet: ..."
+    ScenePlace place;       ///< where the scenario names it
+    bool by_class = false;  ///< of gear, motor or encoder
+    double value = 0;       ///< that a model gives, of a number [SI]
   };
   std::vector<Modelled> modelled = {};
+  /// Those that the file gives and that were learnt from recordings, each with where from.
+  std::vector<Modelled> fitted = {};
 };
 
 class Archive;
@@ -409,12 +413,24 @@ struct FaultsSection {
   std::vector<Text> product = {};  ///< names of checks; none: all that look at each cut
 };
 
+/// fitted: {plants.axis.mass: {low: 36.9 kg, high: 37.1 kg, from: move.csv}}: a value of a plant that was
+/// learnt from recordings, as `drycut fit` writes it.
+struct FittedEntry {
+  Text path;  ///< "plants.axis.mass"
+  Text low;   ///< a quantity of the row's dimension
+  Text high;
+  std::string from;  ///< "move.csv"
+};
+
 struct Scenario {
   std::filesystem::path file;
   Text extends;  ///< never kept: for the schema
   std::vector<VariableEntry> variables;
   SceneSection scene;
   std::vector<PlantEntry> plants;
+  /// Those that are in force: the value stands in the same file as its limits and lies between them. One
+  /// that --set, or a file that extends this one, gives anew is fitted no more.
+  std::vector<FittedEntry> fitted;
   std::unique_ptr<ControllerSection> controller;  ///< nullptr without
   std::vector<Wire> wiring;
   std::vector<InputFilter> filters;

@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
+#include "sim/scenario/sections.hpp"
 
 namespace drycut::sim::scenario {
 
@@ -371,6 +372,9 @@ void visit(Archive& archive, Scenario& scenario) {
   archive.plants({"plants", "the machine's parts, by names of your own; 'drycut plants' lists the types",
                   !scenario.plants.empty()},
                  scenario.plants);
+  archive.names({"fitted", "values of plants that were learnt from recordings: 'drycut fit' writes it",
+                 !scenario.fitted.empty()},
+                scenario.fitted, &FittedEntry::path);
   archive.controller({"controller", "one of them", scenario.controller != nullptr}, scenario.controller);
   archive.names(
       {"wiring", "terminal of the controller: plant.plug, or panel.switch", !scenario.wiring.empty()},
@@ -412,6 +416,7 @@ void visit(Archive& archive, Scenario& scenario) {
                     "filters are of a controller's cards, and there is no controller",
                     "add one, or leave the filters out");
     judge_product(reader, scenario);
+    take_fitted(scenario, reader.is_sound(), reader.findings());
     refuse_same_name(scenario.checks, "checks", "rename one; the first is at line {}", reader.findings());
     for (const auto& check : scenario.checks)
       if (check.every && *check.every < scenario.record.every)
@@ -424,9 +429,8 @@ void visit(Archive& archive, Scenario& scenario) {
 
 const std::vector<std::string>& section_names() {
   static const std::vector<std::string> names = {
-      "extends", "variables", "scene",    "plants",       "controller", "wiring",
-      "filters", "panel",     "timeline", "disturbances", "inputs",     "record",
-      "drives",  "checks",    "faults",   "pictures",     "opcua"};
+      "extends",  "variables",    "scene",  "plants", "fitted", "controller", "wiring", "filters",  "panel",
+      "timeline", "disturbances", "inputs", "record", "drives", "checks",     "faults", "pictures", "opcua"};
   return names;
 }
 

@@ -18,4 +18,8 @@ std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants
 /// missing keys added where a default stands.
 void apply_override(YamlNode& root, const Override& override, int source, Findings& findings);
 
+/// Keeps of `fitted` what is in force, tells the plants of it, and says what is wrong. `names_are_known`: a
+/// plant that could not be read is no name that is wrong.
+void take_fitted(Scenario& scenario, bool names_are_known, Findings& findings);
+
 }  // namespace drycut::sim::scenario

@@ -23,9 +23,15 @@ DRYCUT_FUZZ(text) {
   auto& recording = made.recording;
   if (recording.time.unit.text.empty() && recording.time.rate == 0) recording.time.rate = 1000;
   for (auto& channel : recording.channels) channel.unit.text = "V";
+  const auto yaml = write(recording);
+  const auto again = read_recording_text(yaml, recording.path, problems);
+  fuzz::expect_placed(problems, yaml);
+  if (!problems.empty()) return;
   std::vector<Finding> findings;
-  const auto read = load(recording, problems, findings);
-  fuzz::expect_placed(problems, text);
+  const auto read = load(again, problems, findings);
+  // Some stand in the YAML, some in the export.
+  for (const auto& problem : problems)
+    fuzz::expect_placed({problem}, problem.file == file.string() ? text : yaml);
   for (const auto& series : read.series)
     for (std::size_t i = 1; i < series.time_s.size(); ++i)
       if (!(series.time_s[i] > series.time_s[i - 1])) fuzz::broken("times rise");

@@ -116,6 +116,35 @@ TEST(UnevenEncoder, ShowsTheSinesOfItsDiscAndItsTeeth) {
   EXPECT_GT(largest, 0.1 / 360 * 10000);
 }
 
+// Half way between two lines' edges it shows as much too far as it does too little half a period on.
+TEST(UnevenEncoder, ErrsWithinEachSignalPeriod) {
+  for (const int periods : {0, 100}) {  // as many as lines; of a disc whose signals are interpolated
+    const EncoderData data = {.lines = 2500, .interpolation_error = 0.03, .signal_periods = periods};
+    const int disc = periods > 0 ? periods : data.lines;
+    World world;
+    Shaft& shaft = world.add_shaft({.name = "shaft", .inertia = 1});
+    Encoder encoder(data, 0, Random());
+    const double step = 0.1 / disc;  // a tenth of a period
+    shaft.speed = step * turn / h;
+    double largest = 0;
+    int indexes = 0;
+    for (int i = 1; i <= 40 * disc; ++i) {
+      world.step(h);
+      encoder.sense(shaft, h);
+      const double exact = shaft.revolutions();
+      const double shown = exact + 0.03 / disc * std::sin(turn * disc * exact);
+      EXPECT_NEAR(encoder.pulses.port.now, 10000 * shown, 1e-5);
+      largest = std::max(largest, std::abs(encoder.pulses.port.now - 10000 * exact));
+      for (const SignalPort::Edge& edge : encoder.index.edges) {
+        indexes += edge.rising ? 1 : 0;
+        EXPECT_EQ(encoder.pulses.port.count_at(edge.fraction) % 10000, 0);
+      }
+    }
+    EXPECT_NEAR(largest, 10000 * 0.03 / disc * std::sin(0.3 * turn), 1e-4 * 10000 / disc);
+    EXPECT_GE(indexes, 3);
+  }
+}
+
 TEST(UnevenEncoder, TellsHowLongItsIndexPulseLasts) {
   World world;
   Shaft& shaft = world.add_shaft({.name = "shaft", .inertia = 1, .revolutions = 0.5});
@@ -220,7 +249,7 @@ TEST(PeriodicErrors, ThatNoMachineHasAreRefused) {
   };
   EXPECT_THAT(objections_to([](RotaryKnifeData& data) { data.drum_eccentricity = 5e-3; }),
               testing::ElementsAre(testing::StartsWith("drum_eccentricity: 5 mm is more than")));
-  EXPECT_THAT(objections_to([](RotaryKnifeData& data) { data.encoder.tooth_error = one_degree; }),
+  EXPECT_THAT(objections_to([](RotaryKnifeData& data) { data.sensors.encoder.tooth_error = one_degree; }),
               testing::ElementsAre(testing::StartsWith("encoder.tooth_error: with 64 teeth")));
 }
 

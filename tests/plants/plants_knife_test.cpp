@@ -145,7 +145,7 @@ TEST(RotaryKnife, EncoderCountsTheMotorAndItsIndexComesFiveTimesADrumTurn) {
 
 TEST(RotaryKnife, EncoderMayBeOnTheDrum) {
   RotaryKnifeDefinition definition;
-  definition.data.encoder_on_drum = true;
+  definition.data.sensors.encoder_on_load = true;
   KnifeLine line(definition);
   line.reference(2.5);
   line.run(2);
@@ -248,7 +248,7 @@ TEST(RotaryKnife, ObjectsToParametersThatDoNotGoTogether) {
       {[](auto& d) { d.drive.servo.max_speed = 100; }, {"servo.max_speed: "}},
       {[](auto& d) { d.drive.servo.rated_torque = 30; }, {"servo.peak_torque: "}},
       {[](auto& d) { d.drive.servo.torque_at_max_speed = 30; }, {"servo.torque_at_max_speed: "}},
-      {[](auto& d) { d.home.width = 6.28; }, {"home.width: "}},
+      {[](auto& d) { d.sensors.home.width = 6.28; }, {"home.width: "}},
   });
 }
 

@@ -57,7 +57,7 @@ TEST(RotaryAxis, ATorqueOfTheProcessTurnsMotorAndTable) {
 // Without end: no digit is lost in a thousand turns.
 TEST(RotaryAxis, CountsEveryTurn) {
   auto definition = frictionless();
-  definition.data.encoder_on_table = true;
+  definition.data.sensors.encoder_on_load = true;
   Table table(definition);
   table.table().speed = 10;
   table.rotor().speed = 100;

@@ -259,7 +259,7 @@ std::vector<Case> cases() {
                    RotaryKnifeDefinition knife;
                    knife.data.circumference = 0.2;
                    knife.data.drive.servo.offset = 0.01;
-                   knife.data.encoder.eccentricity = 0.01;
+                   knife.data.sensors.encoder.eccentricity = 0.01;
                    knife.data.drum_eccentricity = 1e-4;
                    site.add("web", web).add("knife", knife).built();
                    follow_the_web(site, 1);
@@ -275,7 +275,7 @@ std::vector<Case> cases() {
                    knife.data.counter.kind = "blades";
                    knife.data.motors = 2;
                    knife.data.circumference = 0.2;
-                   knife.data.encoder_on_drum = true;
+                   knife.data.sensors.encoder_on_load = true;
                    site.add("web", web).add("knife", knife).built();
                    follow_the_web(site, 1);
                  },

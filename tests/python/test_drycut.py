@@ -1,7 +1,10 @@
 """The Python package against the program: same numbers, same problems."""
 
 import csv
+import dataclasses
 import inspect
+import keyword
+import json
 import math
 import os
 import pathlib
@@ -551,6 +554,7 @@ class VerbsTest(unittest.TestCase):
         names = [line.split()[0] for line in text.split("\n\n")[2].splitlines() if line[2:3].strip()]
         self.assertGreater(len(names), 15)
         for name in names:
+            name += "_" if keyword.iskeyword(name) else ""
             self.assertTrue(callable(getattr(drycut, name)), name)
             self.assertTrue(callable(getattr(drycut.verbs, name)), name)
             self.assertIn(name, drycut.__all__)
@@ -596,6 +600,83 @@ class VerbsTest(unittest.TestCase):
             drycut.convert("none", to="csv")
 
 
+class FitTest(unittest.TestCase):
+    """A belt axis and its recordings: what drycut fit says of them."""
+
+    RECORDINGS = os.path.join(SCENES, "recordings")
+    MASS = "plants.axis.mass"
+
+    @classmethod
+    def setUpClass(cls):
+        cls.machine = os.path.join(cls.RECORDINGS, "belt_axis.yaml")
+        cls.move = os.path.join(cls.RECORDINGS, "belt_axis_move.yaml")
+        other = os.path.join(cls.RECORDINGS, "belt_axis_other_move.yaml")
+        cls.vary = [cls.MASS, "plants.axis.carriage_friction.coulomb", "plants.axis.carriage_friction.viscous"]
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.ours, cls.theirs = (os.path.join(cls.folder.name, name) for name in ("ours", "theirs"))
+        cls.fit = drycut.fit(cls.machine, recordings=[cls.move], vary=cls.vary, test=[other], limit=5, jobs=2, out=cls.ours)
+        drycut.verbs.fit(cls.machine, recording=[cls.move], vary=cls.vary, test=[other], limit=5, jobs=2, out=cls.theirs)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_has_the_facts_and_the_files_of_the_command(self):
+        said = json.loads(pathlib.Path(self.theirs, "fit.json").read_text(encoding="utf-8"))
+        self.assertEqual([vars(one) for one in self.fit.parameters.values()], said.pop("parameters"))
+        self.assertEqual(vars(self.fit.torque_offset), said.pop("torque_offset"))
+        for name, value in said.items():
+            self.assertEqual(getattr(self.fit, name), value, name)
+        for name in ("fit.json", "fitted.yaml", "report.html", "verdict.json"):
+            self.assertEqual(pathlib.Path(self.ours, name).read_bytes(), pathlib.Path(self.theirs, name).read_bytes(), name)
+        self.assertTrue(self.fit.passed)
+
+    def test_limits_are_ranges_of_other_studies(self):
+        mass = self.fit.parameters[self.MASS]
+        self.assertEqual(self.fit.settings[self.MASS], f"{mass.value!r} kg")
+        swept = drycut.sweep(self.machine, {self.MASS: self.fit.corners[self.MASS]})
+        np.testing.assert_allclose(swept.points[self.MASS], [mass.low, mass.high], rtol=1e-14)
+        again = drycut.sweep(self.machine, {os.path.join(self.ours, "fit.json"): ""})
+        self.assertEqual((again.axes, again.shape), (self.vary, (2, 2, 2)))
+        np.testing.assert_allclose(again.points[self.MASS][[0, -1]], [mass.low, mass.high], rtol=1e-14)
+        sampled = drycut.sweep(self.machine, self.fit.limits, sample=4)
+        hair = 1e-12 * mass.high  # of 15 digits
+        self.assertGreater(min(sampled.points[self.MASS]), mass.low - hair)
+        self.assertLess(max(sampled.points[self.MASS]), mass.high + hair)
+
+    def test_a_value_that_is_not_known_has_no_limits(self):
+        lost = dataclasses.replace(self.fit.parameters[self.MASS], value=None, low=None, high=None, known="joined")
+        fit = dataclasses.replace(self.fit, parameters={**self.fit.parameters, self.MASS: lost})
+        self.assertNotIn(self.MASS, fit.settings)
+        with self.assertRaises(drycut.BadInput) as told:
+            fit.limits
+        self.assertEqual(told.exception.problems[0].code, "fit.not-known")
+
+    def test_replays_are_arrays(self):
+        replay, = self.fit.replays
+        self.assertEqual(len(self.fit.tests), 1)
+        self.assertEqual(len({len(getattr(replay, name)) for name in ("times", "torque", "torque_left", "speed", "position")}), 1)
+        rms = np.sqrt(np.mean(replay.torque_left**2) / np.mean(replay.torque**2))
+        self.assertLess(rms, 0.01)
+
+    def test_reads_a_recording(self):
+        recording = drycut.read_recording(self.move)
+        with open(recording.file, encoding="utf-8") as file:
+            rows = list(csv.reader(file, delimiter=";"))[1:]
+        self.assertEqual(list(recording.channels), ["axis.motor.torque", "axis.encoder.count"])
+        torque = recording.channels["axis.motor.torque"]
+        self.assertEqual((torque.unit, len(torque.time)), ("N m", recording.rows))
+        written = np.array([row[1] for row in rows[-recording.rows:]], dtype=float)
+        np.testing.assert_allclose(torque.value, written / 100 * 9.5, rtol=1e-12)
+
+    def test_tells_what_does_not_fit(self):
+        with self.assertRaises(drycut.BadInput) as told:
+            drycut.fit(self.machine, recordings=[], vary=["plants.axis.mas"], jobs=0)
+        self.assertEqual({problem.file for problem in told.exception.problems}, {"jobs", "vary", "recordings"})
+        with self.assertRaises(drycut.BadInput):
+            drycut.read_recording("none.yaml")
+
+
 class HelpTest(unittest.TestCase):
     """help(drycut) is the manual page: every argument and every field is told of."""
 
@@ -635,7 +716,8 @@ class HelpTest(unittest.TestCase):
             self.assertIn("Success", mypy(os.path.dirname(drycut.__file__)))
             uses = {"drycut.run('x.yaml').checks[0].margin + 1": "None", "drycut.run(3)": "run",
                     "drycut.Simulation('x.yaml').write(1, 2)": "str", "drycut.sweep('x.yaml')": "over",
-                    "drycut.bode('x.yaml').phase_margin.value": "None"}
+                    "drycut.bode('x.yaml').phase_margin.value": "None",
+                    "drycut.fit('x.yaml', recordings=[], vary=[]).parameters['y'].low + 1": "None"}
             for line, told in uses.items():
                 with open(os.path.join(folder, "use.py"), "w", encoding="utf-8") as file:
                     file.write(f"import drycut\n{line}\n")

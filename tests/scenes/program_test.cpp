@@ -218,7 +218,7 @@ TEST_F(ProgramTest, CommandLinesThatCannotBeRead) {
        {"drycut cam: --device: there is no 'lx3pv'; did you mean lx3vp? [option.unknown-choice]\n"}},
       {"cam x.csv --max-velocity fast",
        {"drycut cam: --max-velocity: 'fast' is no number; give one [option.value]\n"}},
-      {"check", {"drycut check: files are missing; give it: Scenarios (.yaml), "}},
+      {"check", {"drycut check: files are missing; give it: Scenarios and recordings (.yaml), "}},
       {"check --schema x",
        {"drycut check: files and --schema do not go together; leave one of them out [option.together]\n"}},
       {"design",

@@ -4,7 +4,10 @@
 // = (Jm i + J / i) times the drum's rms acceleration, least where i^2 = J / Jm.
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "sim/cli/size_command.hpp"
 #include "sim/studies/recorded_csv.hpp"
@@ -13,12 +16,18 @@
 namespace drycut::sim::cli {
 namespace {
 
+constexpr double drum = 0.41;
+constexpr double rotor = 46.8e-4;
+constexpr double rated = 9.5;
+
 struct KnifeSizing : CommandTest {
   TestFolder folder;
-};
+  SizeOptions options;
+  studies::CsvRow heading;
+  std::vector<studies::CsvRow> rows;
 
-TEST_F(KnifeSizing, TheLeastTorqueIsWhereTheInertiasMatch) {
-  folder.file("knife.yaml", "extends: " + (source_root / "scenes/rotary_knife_mc_camin.yaml").string() + R"(
+  KnifeSizing() {
+    folder.file("knife.yaml", "extends: " + (source_root / "scenes/rotary_knife_mc_camin.yaml").string() + R"(
 scene: {duration: 10 s}
 plants:
   web: {shear_strength: 0 MPa}
@@ -34,60 +43,89 @@ timeline: # at 60 m/min the wheel gives whole counts a cycle: no counting noise 
 checks:
   - {name: no error, always: panel.fault == 0 && error_id == 0}
 )");
-  SizeOptions options;
-  options.scenario = folder / "knife.yaml";
-  options.out = folder / "out";
-  options.motors = "HG-SR202";
-  const double step = 0.25;
-  options.gears = "8..11:13";
-  options.jobs = 2;
-  ASSERT_EQ(captured([&] { return size_drive(options); }), all_passed) << err;
+    options.scenario = folder / "knife.yaml";
+    options.out = folder / "out";
+    options.motors = "HG-SR202";
+    options.jobs = 2;
+  }
 
-  constexpr double drum = 0.41;
-  constexpr double rotor = 46.8e-4;
-  constexpr double rated = 9.5;
-  const double length = 0.8;
-  const double speed = 1;
-  const double time = (length - 0.12) / speed;
-  const double blade = std::sqrt(120.0 / 7 * std::pow(0.6 - length, 2) / std::pow(time, 3) * speed / length);
-  const double turning = blade / (0.6 / (2 * std::numbers::pi));
+  /// Rms of the drum's acceleration [rad/s2].
+  static double turning() {
+    const double length = 0.8;
+    const double speed = 1;
+    const double time = (length - 0.12) / speed;
+    return std::sqrt(120.0 / 7 * std::pow(0.6 - length, 2) / std::pow(time, 3) * speed / length) /
+           (0.6 / (2 * std::numbers::pi));
+  }
 
-  std::ifstream stream(options.out / "size.csv", std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
-  Problems problems;
-  cams::TableProblems broken("size.csv", problems);
-  studies::CsvRows rows(text, broken);
-  studies::CsvRow heading;
-  studies::CsvRow row;
-  ASSERT_TRUE(rows.next(heading));
-  const auto column = [&](const std::string& name) {
+  void size(const std::string& gears) {
+    options.gears = gears;
+    ASSERT_EQ(captured([&] { return size_drive(options); }), all_passed) << err;
+    std::ifstream stream(options.out / "size.csv", std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    Problems problems;
+    cams::TableProblems broken("size.csv", problems);
+    studies::CsvRows lines(text, broken);
+    ASSERT_TRUE(lines.next(heading));
+    for (studies::CsvRow row; lines.next(row);) {
+      EXPECT_EQ(cell(row, "verdict"), "fits") << cell(row, "reason");
+      rows.push_back(row);
+    }
+  }
+  std::string cell(const studies::CsvRow& row, const std::string& name) const {
     for (std::size_t i = 0; i < heading.cells.size(); ++i)
-      if (heading.cells[i].text == name) return i;
+      if (heading.cells[i].text == name) return std::string(row.cells.at(i).text);
     ADD_FAILURE() << name;
-    return std::size_t{0};
-  };
-  const auto number = [&](const std::string& name) {
-    return studies::number_of(row.cells.at(column(name)).text).value_or(NAN);
-  };
+    return "";
+  }
+  double number(const studies::CsvRow& row, const std::string& name) const {
+    return studies::number_of(cell(row, name)).value_or(NAN);
+  }
+  double torque(const studies::CsvRow& row) const {
+    return number(row, "rms torque [% of its rating]") / 100 * rated;
+  }
+};
+
+TEST_F(KnifeSizing, TheLeastTorqueIsWhereTheInertiasMatch) {
+  const double step = 0.25;
+  size("8..11:13");
   double least = INFINITY;
   double best = 0;
-  int count = 0;
-  while (rows.next(row)) {
-    EXPECT_EQ(row.cells.at(column("verdict")).text, "fits") << row.cells.at(column("reason")).text;
-    const double gear = number("gear ratio");
-    const double torque = number("rms torque [% of its rating]") / 100 * rated;
-    const double expected = (rotor * gear + drum / gear) * turning;
-    EXPECT_NEAR(torque, expected, 0.005 * expected) << gear;
-    EXPECT_NEAR(number("inertia ratio"), drum / (gear * gear) / rotor, 1e-5) << gear;
-    if (torque < least) {
-      least = torque;
-      best = gear;
-    }
-    ++count;
+  for (const auto& row : rows) {
+    const double gear = number(row, "gear ratio");
+    const double expected = (rotor * gear + drum / gear) * turning();
+    EXPECT_NEAR(torque(row), expected, 0.005 * expected) << gear;
+    EXPECT_NEAR(number(row, "inertia ratio"), drum / (gear * gear) / rotor, 1e-5) << gear;
+    if (torque(row) >= least) continue;
+    least = torque(row);
+    best = gear;
   }
-  EXPECT_EQ(count, 13);
+  EXPECT_EQ(rows.size(), 13U);
   EXPECT_NEAR(best, std::sqrt(drum / rotor), step);  // 9.36
-  EXPECT_NEAR(least, 2 * std::sqrt(drum * rotor) * turning, 0.005 * least);
+  EXPECT_NEAR(least, 2 * std::sqrt(drum * rotor) * turning(), 0.005 * least);
+}
+
+// The drum's part of the torque is over the efficiency while the motor speeds it up and times 2 -
+// 1/efficiency while it brakes, as long each, for the cam is the same forwards and backwards.
+TEST_F(KnifeSizing, TheKindOfAGearTakesItsEfficiencyAlong) {
+  size("7 coupling, 8 planetary, 9 worm, 10 planetary_2");
+  ASSERT_EQ(rows.size(), 4U);
+  const std::map<std::string, double> efficiencies = {
+      {"coupling", 1}, {"planetary", 0.97}, {"worm", 0.75}, {"planetary_2", 0.94}};
+  const std::map<std::string, double> ratios = {
+      {"coupling", 7}, {"planetary", 8}, {"worm", 9}, {"planetary_2", 10}};
+  for (const auto& row : rows) {
+    const double gear = number(row, "gear ratio");
+    const auto values = cell(row, "other values of the gear");
+    const auto kind = values.substr(0, values.find(';'));
+    ASSERT_TRUE(efficiencies.contains(kind)) << values;
+    const double efficiency = efficiencies.at(kind);
+    const double speeding = rotor * gear + drum / gear / efficiency;
+    const double braking = rotor * gear + drum / gear * (2 - 1 / efficiency);
+    const double expected = std::sqrt((speeding * speeding + braking * braking) / 2) * turning();
+    EXPECT_NEAR(torque(row), expected, 0.01 * expected) << kind;
+    EXPECT_EQ(gear, ratios.at(kind));
+  }
 }
 
 }  // namespace

@@ -16,64 +16,76 @@ constexpr double worth_having = 1.122;
 
 plants::NotchData no_notch() { return {}; }
 
-/// Of a closed loop at some factor of its gain.
-struct Closed {
-  double sensitivity = 0;  ///< largest
-  double turned = 0;       ///< by which 1 + L turns from the first frequency to the last [rad]
-  double left = 0;         ///< |L| at the last frequency
-};
+/// What may be left of |L| at the last frequency, for what comes after it is not known.
+constexpr double most_left = 0.4;
 
-Closed closed(const std::vector<BodePoint>& points, double factor) {
-  Closed loop;
-  std::complex<double> before;
+/// By which 1 + L turns from the first frequency to the last [rad].
+double turned(const std::vector<BodePoint>& points, double factor) {
+  double sum = 0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    sum += std::arg((1.0 + factor * points[i].open_loop) / (1.0 + factor * points[i - 1].open_loop));
+  return sum;
+}
+
+/// `as`: as the loop turns that was measured, which is stable; one that turns otherwise goes round -1
+/// (Nyquist).
+bool is_kept(const std::vector<BodePoint>& points, double factor, double as) {
+  return factor * std::abs(points.back().open_loop) <= most_left &&
+         std::all_of(points.begin(), points.end(),
+                     [&](const BodePoint& point) {
+                       return std::abs(1.0 + factor * point.open_loop) * kept_sensitivity >= 1;
+                     }) &&
+         std::abs(turned(points, factor) - as) < std::numbers::pi / 2;
+}
+
+/// Every factor above which a loop may be kept no more.
+std::vector<double> ends_of(const std::vector<BodePoint>& points) {
+  std::vector<double> ends = {most_left / std::abs(points.back().open_loop)};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto now = 1.0 + factor * points[i].open_loop;
-    loop.sensitivity = std::max(loop.sensitivity, 1 / std::abs(now));
-    if (i > 0) loop.turned += std::arg(now / before);
-    before = now;
+    // |1 + k L| is 1/S where k2 |L|2 + 2 k re L + 1 - 1/S2 = 0, and less up to the other root.
+    const auto now = points[i].open_loop;
+    const double square = std::norm(now);
+    const double under = now.real() * now.real() - (1 - 1 / (kept_sensitivity * kept_sensitivity)) * square;
+    if (now.real() < 0 && under > 0) ends.push_back((-now.real() - std::sqrt(under)) / square);
+    if (i == 0) continue;
+    // And 1 + k L turns the other way round where -1 lies between two points.
+    const auto before = points[i - 1].open_loop;
+    if ((before.imag() > 0) == (now.imag() > 0)) continue;
+    const double share = before.imag() / (before.imag() - now.imag());
+    const double crossed = before.real() + share * (now.real() - before.real());
+    if (crossed < 0) ends.push_back(-1 / crossed);
   }
-  if (!points.empty()) loop.left = factor * std::abs(points.back().open_loop);
-  return loop;
+  return ends;
 }
 
 /// The largest factor of gain, from the gain in force on, that keeps the sensitivity: it goes up from there,
-/// or down to where it is kept. `turned`: as the loop turns that was measured, which is stable; one that
-/// turns otherwise goes round -1 (Nyquist). What comes after the last frequency is not known: little may be
-/// left there.
-double most_gain(const std::vector<BodePoint>& points, double turned) {
-  constexpr double step = 1.1;
-  constexpr double most_left = 0.4;
-  const auto is_kept = [&](double factor) {
-    const auto loop = closed(points, factor);
-    return loop.sensitivity <= kept_sensitivity && loop.left <= most_left &&
-           std::abs(loop.turned - turned) < std::numbers::pi / 2;
-  };
-  double kept = 1;
-  if (!is_kept(kept)) {
-    while (kept > 1 / largest_factor && !is_kept(kept)) kept /= step;
-    if (!is_kept(kept)) return 1 / largest_factor;
-  } else {
-    while (kept < largest_factor && is_kept(kept * step)) kept *= step;
+/// or down to where it is kept. `as`: see is_kept().
+double most_gain(const std::vector<BodePoint>& points, double as) {
+  auto ends = ends_of(points);
+  if (is_kept(points, 1, as)) {
+    double most = largest_factor;
+    for (const double end : ends)
+      if (end >= 1) most = std::min(most, end);
+    return most;
   }
-  double over = kept * step;
-  for (int i = 0; i < 12; ++i) {
-    const double middle = std::sqrt(kept * over);
-    (is_kept(middle) ? kept : over) = middle;
-  }
-  return kept;
+  std::sort(ends.begin(), ends.end(), std::greater<>());
+  constexpr double just_below = 1 - 1e-9;
+  for (const double end : ends)
+    if (end < 1 && end > 1 / largest_factor && is_kept(points, end * just_below, as)) return end;
+  return 1 / largest_factor;
 }
 
 /// The least of it with the filters a little beside their place, for no machine resonates where it was
 /// measured.
 double most_gain(const SpeedLoop& loop, const plants::TorqueFilterData& filters) {
   constexpr double beside = 0.05;
-  const double turned = closed(loop.points, 1).turned;
+  const double as = turned(loop.points, 1);
   double least = largest_factor;
   for (const double times : {1 - beside, 1.0, 1 + beside}) {
     auto moved = filters;
     moved.low_pass /= times;
     for (auto& notch : moved.notches) notch.frequency *= times;
-    least = std::min(least, most_gain(points_with(loop, moved), turned));
+    least = std::min(least, most_gain(points_with(loop, moved), as));
   }
   return least;
 }
@@ -92,6 +104,44 @@ double most_with(const SpeedLoop& loop, const Margins& present, const plants::To
   return std::log(most_gain(loop, filters)) - over;
 }
 
+/// Whether point `i` and the next one have neighbours, all about evenly spaced: none between them was lost.
+bool in_a_row(const std::vector<BodePoint>& points, std::size_t i) {
+  if (i < 1 || i + 2 >= points.size()) return false;
+  const auto gap = [&](std::size_t k) { return std::log(points[k + 1].frequency / points[k].frequency); };
+  const auto [least, most] = std::minmax({gap(i - 1), gap(i), gap(i + 1)});
+  return most < 1.5 * least;
+}
+
+/// L half-way between point `i` and the next one: over the logarithm of the frequency its own is taken as the
+/// cubic through both and their neighbours.
+BodePoint half_way(const std::vector<BodePoint>& points, std::size_t i) {
+  auto point = points[i];
+  point.frequency = std::sqrt(points[i].frequency * points[i + 1].frequency);
+  std::complex<double> sum;
+  for (std::size_t k = i - 1; k <= i + 2; ++k) {
+    auto value = std::log(points[k].open_loop / points[i].open_loop);  // of phases the nearest turn
+    for (std::size_t j = i - 1; j <= i + 2; ++j)
+      if (j != k)
+        value *= std::log(point.frequency / points[j].frequency) /
+                 std::log(points[k].frequency / points[j].frequency);
+    sum += value;
+  }
+  point.open_loop *= std::exp(sum);
+  return point;
+}
+
+/// The loop with a point more between each two. A search ends at the edge of what is kept, and a resonance
+/// would go over that between the points.
+SpeedLoop finer(const SpeedLoop& loop) {
+  auto fine = loop;
+  fine.points.clear();
+  for (std::size_t i = 0; i < loop.points.size(); ++i) {
+    fine.points.push_back(loop.points[i]);
+    if (in_a_row(loop.points, i)) fine.points.push_back(half_way(loop.points, i));
+  }
+  return fine;
+}
+
 using Merit = std::function<double(const std::vector<double>&)>;
 
 /// A kind of filter with its values as numbers from 0 to 1.
@@ -107,52 +157,81 @@ plants::NotchData notch_of(const SpeedLoop& loop, const std::vector<double>& x) 
   return {between(10, highest, x[0]), between(0.03, 0.7, x[1]), between(0.2, 1, x[2])};
 }
 
-/// Where on a grid, finer in its first value than in the others, `merit` is the largest.
-std::vector<double> best_of_grid(std::size_t values, const Merit& merit) {
-  const auto steps = [values](std::size_t i) { return i > 0 ? 4 : values == 1 ? 60 : 24; };
-  std::vector<double> best;
-  double most = -1e9;
-  std::vector<double> x(values, 0);
+/// A place with its merit.
+struct Found {
+  std::vector<double> x;
+  double merit = -1e9;
+};
+
+/// The best at this first value, on a grid of the others.
+Found best_at(double first, std::size_t values, const Merit& merit) {
+  constexpr int steps = 4;
+  Found best;
   std::vector<int> place(values, 0);
   for (bool more = true; more;) {
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = place[i] / static_cast<double>(steps(i));
-    if (const double now = merit(x); now > most) {
-      most = now;
-      best = x;
-    }
+    std::vector<double> x = {first};
+    for (std::size_t i = 1; i < values; ++i) x.push_back(place[i] / static_cast<double>(steps));
+    if (const double now = merit(x); now > best.merit) best = {x, now};
     more = false;
-    for (std::size_t i = 0; i < place.size() && !more; ++i) {
-      more = place[i] < steps(i);
+    for (std::size_t i = 1; i < values && !more; ++i) {
+      more = place[i] < steps;
       place[i] = more ? place[i] + 1 : 0;
     }
   }
   return best;
 }
 
-/// Uphill from `x`.
-std::vector<double> climbed(std::vector<double> x, Merit merit) {
-  nlopt::opt method(nlopt::LN_SBPLX, static_cast<unsigned>(x.size()));
+/// Where to start uphill: over the first value, which has one hill beside the other, the highest of those
+/// that a grid shows.
+std::vector<Found> best_of_grid(std::size_t values, const Merit& merit) {
+  constexpr int steps = 48;
+  constexpr std::size_t hills = 3;
+  std::vector<Found> row;
+  for (int i = 0; i <= steps; ++i) row.push_back(best_at(i / static_cast<double>(steps), values, merit));
+  std::vector<Found> tops;
+  for (std::size_t i = 0; i < row.size(); ++i)
+    if ((i == 0 || row[i].merit > row[i - 1].merit) &&
+        (i + 1 == row.size() || row[i].merit >= row[i + 1].merit))
+      tops.push_back(row[i]);
+  std::stable_sort(tops.begin(), tops.end(),
+                   [](const Found& a, const Found& b) { return a.merit > b.merit; });
+  if (tops.size() > hills) tops.resize(hills);
+  return tops;
+}
+
+/// Uphill from there, and again from where that ended: a search can take the edge of a ridge for its top.
+Found climbed(Found best, Merit merit) {
+  nlopt::opt method(nlopt::LN_SBPLX, static_cast<unsigned>(best.x.size()));
   method.set_lower_bounds(0);
   method.set_upper_bounds(1);
   method.set_xtol_abs(1e-4);
-  method.set_maxeval(600);
+  method.set_maxeval(300);
   method.set_initial_step(0.05);
   method.set_max_objective([](const std::vector<double>& at, std::vector<double>& /*gradient*/,
                               void* of) { return (*static_cast<Merit*>(of))(at); },
                            &merit);
-  double found = 0;
-  try {
-    method.optimize(x, found);
-  } catch (const nlopt::roundoff_limited&) {  // it is where it can be
+  constexpr double hardly = 1e-3;
+  for (bool higher = true; higher;) {
+    Found found = best;
+    try {
+      method.optimize(found.x, found.merit);
+    } catch (const nlopt::roundoff_limited&) {  // it is where it can be
+      found.merit = merit(found.x);
+    }
+    higher = found.merit > best.merit + hardly;
+    if (found.merit > best.merit) best = std::move(found);
   }
-  return x;
+  return best;
 }
 
 FilterChoice best_of(const SpeedLoop& loop, const Margins& present, const Family& family) {
   const Merit merit = [&](const std::vector<double>& x) {
     return most_with(loop, present, family.filters(x));
   };
-  return judged_with(loop, family.filters(climbed(best_of_grid(family.values, merit), merit)));
+  Found best;
+  for (auto& top : best_of_grid(family.values, merit))
+    if (auto found = climbed(std::move(top), merit); found.merit > best.merit) best = std::move(found);
+  return judged_with(loop, family.filters(best.x));
 }
 
 }  // namespace
@@ -169,8 +248,8 @@ FilterChoice judged_with(const SpeedLoop& loop, const plants::TorqueFilterData& 
 FilterAdvice advise(SpeedLoop measured) {
   FilterAdvice advice;
   advice.loop = std::move(measured);
-  const auto& loop = advice.loop;
-  if (loop.points.empty()) return advice;
+  if (advice.loop.points.empty()) return advice;
+  const auto loop = finer(advice.loop);
   advice.present = judged_with(loop, loop.filters);
   const Family low_pass = {
       1, [&](const std::vector<double>& x) {

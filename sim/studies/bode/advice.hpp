@@ -36,7 +36,7 @@ struct FilterAdvice {
 
 /// The loop with other filters, margins and largest factor.
 FilterChoice judged_with(const SpeedLoop& loop, const plants::TorqueFilterData& filters);
-/// The best low-pass, the best notch and the best pair of notches, by the largest factor.
+/// The best low-pass, the best notch and the best second notch beside that one, by the largest factor.
 FilterAdvice advise(SpeedLoop loop);
 
 }  // namespace drycut::sim::studies

@@ -5,6 +5,7 @@
 
 #include <complex>
 #include <utility>
+#include <vector>
 
 #include "renders/report.hpp"
 #include "sim/report/report.hpp"
@@ -15,23 +16,6 @@ namespace drycut::sim::studies {
 namespace {
 
 constexpr double percent = 100;
-
-/// Gains [dB] and phases [deg] of the loop with other filters.
-struct Curve {
-  std::vector<double> gains;
-  std::vector<double> angles;
-};
-
-Curve curve_of(const std::vector<BodePoint>& points) {
-  Curve curve;
-  std::vector<std::complex<double>> open;
-  for (const auto& point : points) {
-    open.push_back(point.open_loop);
-    curve.gains.push_back(decibels(point.open_loop));
-  }
-  curve.angles = phases(open);
-  return curve;
-}
 
 std::string filter_text(const plants::TorqueFilterData& filters) {
   std::vector<std::string> parts;
@@ -151,13 +135,16 @@ void write_advice_report(const FilterAdvice& advice, const scenario::Scenario& s
   auto& gain = plot.panels[0];
   auto& phase = plot.panels[1];
   const auto draw = [&](const std::string& label, const FilterChoice& choice) {
-    const auto points = points_with(advice.loop, choice.filters);
-    const auto [gains, angles] = curve_of(points);
-    std::vector<double> x;
-    x.reserve(points.size());
-    for (const auto& point : points) x.push_back(point.frequency);
-    gain.curves.push_back({label, x, gains});
-    phase.curves.push_back({label, x, angles});
+    std::vector<double> frequencies;
+    std::vector<double> gains;
+    std::vector<std::complex<double>> responses;
+    for (const auto& point : points_with(advice.loop, choice.filters)) {
+      frequencies.push_back(point.frequency);
+      gains.push_back(decibels(point.open_loop));
+      responses.push_back(point.open_loop);
+    }
+    gain.curves.push_back({label, frequencies, gains});
+    phase.curves.push_back({label, frequencies, phases(responses)});
   };
   draw("present", advice.present);
   draw("advised", advice.choices.front());

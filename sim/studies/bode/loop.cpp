@@ -94,23 +94,17 @@ std::optional<SweepPlan> plan_of(const LoopRequest& request, const scenario::Sce
   plan.at = start_of(scenario, request);
   plan.step = scenario.scene.step;
   plan.sampling = std::max(simulation.output_period(at_wire.terminal), plan.step);
-  plan.amplitude = request.amplitude;
-  plan.settle = request.settle;
+  plan.amplitude = request.sine();
+  plan.settle = request.settle.value_or(LoopRequest::usual_settle);
   const double highest = 0.5 / seconds(plan.sampling);
   const double to = request.to.value_or(highest);
   const double from = request.from.value_or(std::min(1.0, to / 100));
-  if (to > highest)
-    problems.push_back({"option.out-of-range"_code, "--to", 1, 1,
-                        fmt::format("{} Hz is above half the sampling frequency of {} ms", to,
-                                    seconds(plan.sampling) * 1000),
-                        fmt::format("give at most {} Hz", highest)});
-  if (from >= to)
-    problems.push_back({"option.out-of-range"_code, "--from", 1, 1,
-                        fmt::format("{} Hz is not below --to, {} Hz", from, to), "give a lower frequency"});
+  check_range(from, to, plan.sampling, problems);
+  const int points = request.points.value_or(LoopRequest::usual_points);
   constexpr double window = 2;     // long enough for tens of periods where a loop crosses over [s]
   constexpr double lowest = 0.02;  // a crossover below it takes minutes to measure [Hz]
   if (!request.from) plan.lowest = lowest;
-  if (problems.size() == before) plan.tones = plan_tones(from, to, request.points, plan.sampling, window);
+  if (problems.size() == before) plan.tones = plan_tones(from, to, points, plan.sampling, window);
   return plan;
 }
 
@@ -170,9 +164,21 @@ void check_request(const LoopRequest& request, Problems& problems) {
   check_number("--amplitude", request.amplitude, 0.001, 10, "V", problems);
   check_number("--from", request.from, 0.001, 1e6, "Hz", problems);
   check_number("--to", request.to, 0.001, 1e6, "Hz", problems);
-  if (request.points < 2 || request.points > 1000)
+  if (request.points && (*request.points < 2 || *request.points > 1000))
     problems.push_back({"option.out-of-range"_code, "--points", 1, 1,
-                        fmt::format("{} is out of range", request.points), "give 2 to 1000"});
+                        fmt::format("{} is out of range", *request.points), "give 2 to 1000"});
+}
+
+void check_range(double from, double to, Time sampling, Problems& problems) {
+  const double highest = 0.5 / seconds(sampling);
+  if (to > highest)
+    problems.push_back(
+        {"option.out-of-range"_code, "--to", 1, 1,
+         fmt::format("{} Hz is above half the sampling frequency of {} ms", to, seconds(sampling) * 1000),
+         fmt::format("give at most {} Hz", highest)});
+  if (from >= to)
+    problems.push_back({"option.out-of-range"_code, "--from", 1, 1,
+                        fmt::format("{} Hz is not below --to, {} Hz", from, to), "give a lower frequency"});
 }
 
 void check_loop(const scenario::Scenario& scenario, const LoopRequest& request, Problems& problems) {

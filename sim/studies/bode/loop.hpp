@@ -44,10 +44,16 @@ struct LoopRequest {
   std::optional<std::string> at;  ///< "6 s", "6" = 6 s; absent = the end of the scenario
   std::optional<double> from;  ///< [Hz], absent = 1 (a hundredth of `to` if less), and lower to the crossover
   std::optional<double> to;    ///< [Hz], absent = half the sampling frequency
-  int points = 40;
-  double amplitude = 0.1;  ///< [V]
-  double settle = 0.5;     ///< [s]
-  bool pushes = true;      ///< where there is play or stiction: whether it hunts after a push
+  std::optional<int> points;   ///< absent = usual_points
+  std::optional<double> amplitude;  ///< [V], absent = usual_amplitude
+  std::optional<double> settle;     ///< [s], absent = usual_settle
+  bool pushes = true;               ///< where there is play or stiction: whether it hunts after a push
+
+  static constexpr int usual_points = 40;
+  static constexpr double usual_amplitude = 0.1;
+  static constexpr double usual_settle = 0.5;
+
+  [[nodiscard]] double sine() const { return amplitude.value_or(usual_amplitude); }  ///< [V]
 
   template <typename Archive, typename Self>
   static void visit(Archive& archive, Self& self) {
@@ -99,6 +105,8 @@ void check_request(const LoopRequest& request, Problems& problems);
 void disarm(loop::Simulation& simulation);
 /// When the measurement begins: --at, else the end of the scenario.
 Time start_of(const scenario::Scenario& scenario, const LoopRequest& request);
+/// A range that is none, or above half the frequency of the `sampling` of the loop that is measured.
+void check_range(double from, double to, Time sampling, Problems& problems);
 /// What of the request does not fit the scenario.
 void check_loop(const scenario::Scenario& scenario, const LoopRequest& request, Problems& problems);
 /// The same with the controller's compute_time set to 0 besides, where the scenario has one.

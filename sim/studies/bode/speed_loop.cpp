@@ -87,7 +87,23 @@ bool measure_tone(SpeedTwins& twins, const TestTone& tone, double amplitude, Bod
   return true;
 }
 
+/// Lowest and highest frequency [Hz].
+std::pair<double, double> range_of(const scenario::Scenario& scenario, const LoopRequest& request) {
+  constexpr double lowest = 2;
+  return {request.from.value_or(lowest), request.to.value_or(0.25 / seconds(scenario.scene.step))};
+}
+
 }  // namespace
+
+void check_speed_range(const scenario::Scenario& scenario, const LoopRequest& request, Problems& problems) {
+  const auto [from, to] = range_of(scenario, request);
+  check_range(from, to, scenario.scene.step, problems);
+  if (request.points.value_or(least_speed_points) < least_speed_points)
+    problems.push_back(
+        {"option.out-of-range"_code, "--points", 1, 1,
+         fmt::format("between {} frequencies --advise would miss a resonance", *request.points),
+         fmt::format("give {} to 1000", least_speed_points)});
+}
 
 std::optional<SpeedLoop> measure_speed_loop(const scenario::Scenario& scenario, const LoopRequest& request,
                                             Problems& problems, const std::function<void(double)>& progress) {
@@ -111,11 +127,10 @@ std::optional<SpeedLoop> measure_speed_loop(const scenario::Scenario& scenario, 
   const auto at = start_of(scenario, request);
   while (excited.time() < at)
     if (!twins.advance(0)) break;
-  constexpr double lowest = 2;
   constexpr double window = 2;
-  constexpr int points = 360;  // a resonance has some in its width
-  const auto tones = plan_tones(request.from.value_or(lowest), request.to.value_or(0.25 / measured.step),
-                                std::max(request.points, points), scenario.scene.step, window);
+  const auto [from, to] = range_of(scenario, request);
+  const auto tones =
+      plan_tones(from, to, request.points.value_or(least_speed_points), scenario.scene.step, window);
   for (const auto& tone : tones) {
     BodePoint point;
     point.frequency = tone.frequency(scenario.scene.step);

@@ -28,9 +28,15 @@ struct SpeedLoop {
 /// Amplitude of the sine, over the rated torque.
 inline constexpr double test_share = 0.05;
 
+/// Frequencies at least, and if nothing is asked for: a resonance has some in its width.
+inline constexpr int least_speed_points = 360;
+
+/// What of the request's range and points does not fit the scenario's steps.
+void check_speed_range(const scenario::Scenario& scenario, const LoopRequest& request, Problems& problems);
+
 /// Measures the speed loop of the drive that --wire names, or of the only servo, from `request`'s time on,
-/// at 360 points or more from 2 Hz to a quarter of the steps' frequency. nullopt and problems if the request
-/// does not fit.
+/// at its points from its lowest frequency, absent = 2 Hz, to its highest, absent = a quarter of the steps'
+/// frequency. The sine is always the same. nullopt and problems if the request does not fit.
 std::optional<SpeedLoop> measure_speed_loop(const scenario::Scenario& scenario, const LoopRequest& request,
                                             Problems& problems,
                                             const std::function<void(double)>& progress = {});

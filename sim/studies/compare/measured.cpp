@@ -108,7 +108,7 @@ class Overlayer {
       if (!series.time_s.empty()) begin_ = std::min(begin_, series.time_s.front());
   }
 
-  void lay(Measured& made, const std::vector<std::string>& without, Problems& problems) {
+  void lay(MeasuredRun& made, const std::vector<std::string>& without, Problems& problems) {
     std::vector<std::string> known;
     for (const auto& series : recording_.series) {
       known.push_back(series.channel);
@@ -219,8 +219,8 @@ class Overlayer {
   double begin_ = std::numeric_limits<double>::infinity();
 };
 
-void allow(Measured& made, const std::vector<ComparedRun>& runs, const std::vector<std::string>& tolerances,
-           Problems& problems) {
+void allow(MeasuredRun& made, const std::vector<ComparedRun>& runs,
+           const std::vector<std::string>& tolerances, Problems& problems) {
   const auto allowances = read_allowances(tolerances, problems);
   std::vector<std::string> shared;
   for (const auto& channel : made.channels) shared.push_back(channel.name);
@@ -252,10 +252,10 @@ std::vector<int> directions_of(const MeasuredChannel::Motion& speed) {
   return ways;
 }
 
-Measured measure_run(const std::filesystem::path& recording, const std::filesystem::path& run, double from,
-                     const std::vector<std::string>& without, const std::vector<std::string>& tolerances,
-                     Problems& problems) {
-  Measured made;
+MeasuredRun measure_run(const std::filesystem::path& recording, const std::filesystem::path& run, double from,
+                        const std::vector<std::string>& without, const std::vector<std::string>& tolerances,
+                        Problems& problems) {
+  MeasuredRun made;
   made.file = recording;
   const auto file = recordings::read_recording_file(recording, problems);
   recordings::Recording read;

@@ -55,7 +55,7 @@ struct MeasuredChannel {
 /// Which way a plant moves: 1, -1, or 0 where it hardly does.
 std::vector<int> directions_of(const MeasuredChannel::Motion& speed);
 
-struct Measured {
+struct MeasuredRun {
   std::filesystem::path file;  ///< the recording's YAML
   ComparedRun run;
   std::vector<MeasuredChannel> channels;
@@ -66,8 +66,8 @@ struct Measured {
 /// Reads both and lays them over each other, from `from` [s] on. `without`: channels that are left out.
 /// Tolerances judge the channels that they name; one without a name judges the others. What is wrong goes to
 /// `problems`, and then the result is not to be used.
-Measured measure_run(const std::filesystem::path& recording, const std::filesystem::path& run, double from,
-                     const std::vector<std::string>& without, const std::vector<std::string>& tolerances,
-                     Problems& problems);
+MeasuredRun measure_run(const std::filesystem::path& recording, const std::filesystem::path& run, double from,
+                        const std::vector<std::string>& without, const std::vector<std::string>& tolerances,
+                        Problems& problems);
 
 }  // namespace drycut::sim::studies

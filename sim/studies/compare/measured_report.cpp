@@ -89,7 +89,7 @@ renders::Plot motion_plot(const MeasuredChannel& channel, const MeasuredChannel:
   return plot;
 }
 
-std::vector<renders::Plot> residual_plots(const Measured& measured) {
+std::vector<renders::Plot> residual_plots(const MeasuredRun& measured) {
   std::vector<renders::Plot> plots;
   for (const auto& channel : measured.channels) {
     plots.push_back(time_plot(channel));
@@ -108,11 +108,11 @@ renders::ReportTable shown_table(const Prose& title, const Table& table) {
   return page;
 }
 
-bool is_judged(const Measured& measured) {
+bool is_judged(const MeasuredRun& measured) {
   return std::ranges::any_of(measured.channels, [](const auto& one) { return one.allowed.has_value(); });
 }
 
-record::Verdict residual_verdict(const Measured& measured) {
+record::Verdict residual_verdict(const MeasuredRun& measured) {
   record::Verdict verdict;
   verdict.title = fmt::format("{} against {}", measured.file.filename().string(),
                               measured.run.folder.lexically_normal().string());
@@ -128,7 +128,7 @@ record::Verdict residual_verdict(const Measured& measured) {
   return verdict;
 }
 
-renders::Report residual_page(const Measured& measured, const std::vector<std::string>& tolerances) {
+renders::Report residual_page(const MeasuredRun& measured, const std::vector<std::string>& tolerances) {
   auto page = report::page_of(residual_verdict(measured));
   page.scenario = measured.file.string();
   page.summary.push_back(shown_table("What the run leaves of what was measured: simulated less measured",
@@ -144,7 +144,7 @@ renders::Report residual_page(const Measured& measured, const std::vector<std::s
 
 }  // namespace
 
-Table residual_table(const Measured& measured) {
+Table residual_table(const MeasuredRun& measured) {
   Table table({{"channel", "channel"},
                {"unit", "unit"},
                {"samples", "samples"},
@@ -169,7 +169,7 @@ Table residual_table(const Measured& measured) {
   return table;
 }
 
-std::string residual_sentence(const Measured& measured) {
+std::string residual_sentence(const MeasuredRun& measured) {
   const auto told = [](const MeasuredChannel& channel) {
     return fmt::format("{} by {:.4g}{} at {:g} s at most{}", channel.name, channel.worst,
                        channel.unit.empty() ? "" : " " + channel.unit, channel.worst_at,
@@ -183,8 +183,8 @@ std::string residual_sentence(const Measured& measured) {
                      told(*worst));
 }
 
-int write_measured(const Measured& measured, const std::vector<std::string>& tolerances, OutputFolder& folder,
-                   bool pictures) {
+int write_measured(const MeasuredRun& measured, const std::vector<std::string>& tolerances,
+                   OutputFolder& folder, bool pictures) {
   write_file(folder.add("comparison.csv"), residual_table(measured).csv());
   if (pictures) report::write_report(residual_page(measured, tolerances), residual_plots(measured), folder);
   const auto verdict = residual_verdict(measured);

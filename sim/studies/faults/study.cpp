@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "sim/loop/files_read.hpp"
 #include "sim/loop/fingerprint.hpp"
-#include "sim/loop/inputs.hpp"
 #include "sim/record/json.hpp"
 #include "sim/studies/kept_lines.hpp"
 #include "sim/studies/override_json.hpp"

@@ -61,6 +61,31 @@ void read_vary(FitPlan& plan, scenario::Scenario& scenario, Problems& problems) 
   }
 }
 
+/// A torque whose column says that it is what was asked for.
+void doubt_commanded(const recordings::RecordingFile& yaml, const std::string& plant,
+                     std::vector<Finding>& findings) {
+  for (const auto& channel : yaml.channels) {
+    if (channel.name.text != plant + ".motor.torque") continue;
+    const auto column = lower(channel.column.text);
+    for (const std::string_view word : {"command", "cmd", "target", "demand", "setpoint", "soll"})
+      if (column.find(word) != std::string::npos) {
+        findings.emplace_back(
+            "fit.commanded"_code,
+            fmt::format("{}: {} is of the column '{}', which may be what was asked for; viscous friction "
+                        "comes out far too large then. Take the measured torque or current",
+                        yaml.path.filename().string(), channel.name.text, channel.column.text),
+            Finding::Role::warning);
+        break;
+      }
+  }
+}
+
+bool looks_for_springs(const FitQuestion& question) {
+  return std::ranges::any_of(question.vary, [](const FitPath& path) {
+    return path.row.starts_with("gear.") || path.row.starts_with("nut.");
+  });
+}
+
 std::vector<ReplaySeries> read_recordings(const std::vector<std::filesystem::path>& files, FitPlan& plan,
                                           scenario::Scenario& machine, bool are_sources, Problems& problems) {
   std::vector<ReplaySeries> all;
@@ -68,10 +93,14 @@ std::vector<ReplaySeries> read_recordings(const std::vector<std::filesystem::pat
     Problems own;
     const auto yaml = recordings::read_recording_file(file, own);
     if (own.empty()) {
+      doubt_commanded(yaml, plan.question.plant, plan.findings);
       auto recording = recordings::load(yaml, own, plan.findings);
       if (own.empty()) {
-        if (auto series = replay_series(recording, file, plan.question.plant, machine, own))
+        if (auto series = replay_series(recording, file, plan.question.plant, machine, own)) {
+          // Where the load is tells about what is between motor and load, and of nothing else.
+          if (!looks_for_springs(plan.question)) series->load.reset();
           all.push_back(std::move(*series));
+        }
         if (are_sources) plan.sources.push_back({file, recording.file, recording.checksum, recording.rows});
       }
     }

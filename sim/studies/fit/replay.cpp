@@ -99,8 +99,8 @@ std::vector<double> step_times(double from, double step, std::size_t count) {
 /// A channel of the running machine without jumps, its speeds added up.
 class Followed {
  public:
-  Followed(loop::Simulation& simulation, const ReplaySeries& series)
-      : read_(simulation.names().reading(series.channel)->read), kind_(series.kind) {}
+  Followed(loop::Simulation& simulation, const std::string& channel, Kind kind)
+      : read_(simulation.names().reading(channel)->read), kind_(kind) {}
 
   /// Its value now, `h` seconds after the last time.
   double now(double h) {
@@ -227,6 +227,7 @@ std::optional<ReplaySeries> replay_series(const recordings::Recording& recording
     } else if (one.of_load && one.kind != Kind::speed && !made.load &&
                (counted || made.channel.find(".motor.") != std::string::npos)) {
       made.load = own;
+      made.load_kind = one.kind;
     }
   }
   if (!found) {
@@ -266,7 +267,7 @@ Plausible measure_answer(const scenario::Scenario& scenario, const ReplaySeries&
   for (const double times : {3.0, 6.0}) {
     const auto machine = machine_of(scenario);
     const auto speed = machine->names().reading(series.plant + ".motor.speed")->read;
-    Followed channel(*machine, series);
+    Followed channel(*machine, series.channel, series.kind);
     machine->names().target(test_torque(series))->write(times * largest);
     const double begin = channel.now(h);
     double angle = 0;
@@ -292,10 +293,10 @@ std::optional<Replayed> replay(const scenario::Scenario& scenario, const ReplayS
   for (double& value : torque) value = errors.torque_scale * value - errors.torque_offset;
   const auto motion = resampled(series.motion, series.from, h, steps);
   std::vector<double> load;
-  std::function<double()> load_now;
+  std::optional<Followed> load_now;
   if (series.load) {
     load = resampled(*series.load, series.from + errors.load_delay, h, steps);
-    load_now = machine->names().reading(series.load->channel)->read;
+    load_now.emplace(*machine, series.load->channel, series.load_kind);
   }
   std::vector<std::pair<std::vector<double>, devices::ControllerValue>> inputs;
   for (const auto& one : series.inputs)
@@ -312,7 +313,7 @@ std::optional<Replayed> replay(const scenario::Scenario& scenario, const ReplayS
   Replayed found;
   found.step = static_cast<double>(group) * h;
   found.position_unit = series.kind == Kind::speed ? "turns" : series.motion.unit;
-  Followed followed(*machine, series);
+  Followed followed(*machine, series.channel, series.kind);
   const double offset = motion.front() - followed.now(0);
   double error = 0;
   struct Sums {
@@ -331,7 +332,7 @@ std::optional<Replayed> replay(const scenario::Scenario& scenario, const ReplayS
     sums.torque += torque[k];
     sums.speed += motor_speed();
     sums.position += series.kind == Kind::speed ? now / seconds_a_minute : now;
-    if (load_now) sums.load += load_now() - load[k];
+    if (load_now) sums.load += load_now->now(h) - load[k];
     if (!machine->advance()) return {};
     if ((k + 1) % group != 0) continue;
     const auto count = static_cast<double>(group);

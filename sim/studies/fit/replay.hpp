@@ -26,6 +26,7 @@ struct ReplaySeries {
   recordings::Series motion;
   std::string channel;
   Kind kind = Kind::position;
+  Kind load_kind = Kind::position;
   std::optional<recordings::Series> load;       ///< position of the load besides, in its channel's unit
   std::vector<recordings::Series> inputs = {};  ///< what acts on the machine besides: web speed, a force
   std::optional<double> start = {};             ///< of the plant, where the recording says it [SI]

@@ -19,7 +19,7 @@ namespace {
 constexpr double percent = 100;
 
 std::string limits_text(const FittedValue& value) {
-  if (!value.value) return value.known == Known::joined ? "known only together" : "not known";
+  if (!value.value) return value.known == FitKnown::joined ? "known only together" : "not known";
   return fmt::format("{:.5g} .. {:.5g}", *value.low, *value.high);
 }
 
@@ -31,6 +31,13 @@ std::vector<std::string> keys_of(const std::string& path) {
     at = dot + 1;
   }
   return keys;
+}
+
+/// "move.csv, other_move.csv"
+std::string sources_text(const FitPlan& plan) {
+  std::vector<std::string> names;
+  for (const auto& source : plan.sources) names.push_back(source.from.filename().string());
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::string other_cutoffs_text(const FittedValue& value) {
@@ -240,6 +247,7 @@ std::string fitted_text(const FitPlan& plan, const FitFound& found, const std::f
   text += fmt::format("extends: {}\n", nlohmann::json(scenario.generic_string()).dump());
   std::string entries;
   std::vector<std::string> open;
+  std::string limits;
   auto values = found.parameters;
   std::ranges::sort(values, {}, &FittedValue::path);
   for (const auto& value : values) {
@@ -254,11 +262,15 @@ std::string fitted_text(const FitPlan& plan, const FitFound& found, const std::f
       entries += std::string(2 * i, ' ') + keys[i] + ":";
       if (i + 1 < keys.size()) entries += "\n";
     }
-    entries += fmt::format(" {:.6g}{}{}  # {}; before {:.5g}\n", *value.value, value.unit.empty() ? "" : " ",
-                           value.unit, limits_text(value), value.before);
+    const auto quantity = [&](double number) {
+      return fmt::format("{:.6g}{}{}", number, value.unit.empty() ? "" : " ", value.unit);
+    };
+    entries += fmt::format(" {}  # before {:.5g}\n", quantity(*value.value), value.before);
+    limits += fmt::format("  {}: {{low: {}, high: {}, from: {}}}\n", value.path, quantity(*value.low),
+                          quantity(*value.high), nlohmann::json(sources_text(plan)).dump());
     open = keys;
   }
-  return text + entries;
+  return text + entries + (limits.empty() ? "" : "fitted:\n" + limits);
 }
 
 int write_fit(const FitPlan& plan, const FitFound& found, OutputFolder& folder, bool pictures) {

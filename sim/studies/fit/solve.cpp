@@ -181,13 +181,13 @@ MatrixXd score_covariance(const MatrixXd& slopes, const VectorXd& left, const st
 /// The 97.5 % quantile that goes with lags up to a tenth of the data (Kiefer and Vogelsang 2005, table 1).
 constexpr double quantile = 1.9659 + 2.9694 * 0.1 + 0.4160 * 0.01 - 0.5324 * 0.001;
 
-/// The singular values and directions of the slopes' unit columns.
-struct Directions {
+/// The singular values and columns of the slopes' unit columns.
+struct UnitColumns {
   VectorXd norms;
   VectorXd values;
   MatrixXd of;  ///< a column a singular value
 
-  explicit Directions(const MatrixXd& slopes) : norms(slopes.colwise().norm()) {
+  explicit UnitColumns(const MatrixXd& slopes) : norms(slopes.colwise().norm()) {
     MatrixXd unit = slopes;
     for (Index i = 0; i < unit.cols(); ++i)
       if (norms[i] > 0) unit.col(i) /= norms[i];
@@ -196,7 +196,7 @@ struct Directions {
     of = svd.matrixV();
   }
   [[nodiscard]] bool tells(Index k) const { return values[k] * most_condition >= values[0]; }
-  /// The inverse of the normal matrix, without the directions that nothing tells.
+  /// The inverse of the normal matrix, without the columns that nothing tells.
   [[nodiscard]] MatrixXd inverse() const {
     MatrixXd sum = MatrixXd::Zero(norms.size(), norms.size());
     for (Index k = 0; k < values.size(); ++k)
@@ -210,26 +210,27 @@ struct Directions {
   }
 };
 
-void judge(FitSolution& solution, const Directions& directions, const Functor& functor, double whole) {
+void judge(FitSolution& solution, const UnitColumns& columns, const Functor& functor, double whole) {
   auto& estimates = solution.estimates;
-  for (Index k = 0; k < directions.values.size(); ++k) {
-    if (directions.tells(k)) continue;
+  for (Index k = 0; k < columns.values.size(); ++k) {
+    if (columns.tells(k)) continue;
     std::vector<std::size_t> of;
-    for (Index i = 0; i < directions.norms.size(); ++i)
-      if (std::abs(directions.of(i, k)) >= least_part) of.push_back(static_cast<std::size_t>(i));
+    for (Index i = 0; i < columns.norms.size(); ++i)
+      if (std::abs(columns.of(i, k)) >= least_part) of.push_back(static_cast<std::size_t>(i));
     for (const auto one : of) {
-      estimates[one].known = of.size() > 1 ? Known::joined : Known::no;
+      estimates[one].known = of.size() > 1 ? FitKnown::joined : FitKnown::no;
       for (const auto other : of)
         if (other != one) estimates[one].with.push_back(other);
     }
   }
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     auto& one = estimates[i];
-    if (one.known != Known::yes) continue;
+    if (one.known != FitKnown::yes) continue;
     const double half = (one.high - one.low) / 2;
-    const double effect = half / functor.step(i) * directions.norms[static_cast<Index>(i)] / whole;
-    const bool moves = directions.norms[static_cast<Index>(i)] > 1e-9 * whole;
-    if (!moves || (half > known_within * std::abs(one.value) && effect > least_effect)) one.known = Known::no;
+    const double effect = half / functor.step(i) * columns.norms[static_cast<Index>(i)] / whole;
+    const bool moves = columns.norms[static_cast<Index>(i)] > 1e-9 * whole;
+    if (!moves || (half > known_within * std::abs(one.value) && effect > least_effect))
+      one.known = FitKnown::no;
   }
 }
 
@@ -250,14 +251,14 @@ FitSolution solve_fit(const std::vector<FitUnknown>& unknowns, const ResidualsOf
   MatrixXd slopes(functor.values(), functor.inputs());
   (void)functor(x, left);
   (void)functor.df(x, slopes);
-  const Directions directions(slopes);
-  const MatrixXd inverse = directions.inverse();
+  const UnitColumns columns(slopes);
+  const MatrixXd inverse = columns.inverse();
   const MatrixXd covariance = inverse * score_covariance(slopes, left, functor.sizes()) * inverse;
 
   FitSolution solution;
   solution.norm = left.norm();
-  const double least = directions.values[directions.values.size() - 1];
-  solution.condition = least > 0 ? directions.values[0] / least : std::numeric_limits<double>::infinity();
+  const double least = columns.values[columns.values.size() - 1];
+  solution.condition = least > 0 ? columns.values[0] / least : std::numeric_limits<double>::infinity();
   const auto values = functor.values_of(x);
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
     const auto at = static_cast<Index>(i);
@@ -265,12 +266,12 @@ FitSolution solve_fit(const std::vector<FitUnknown>& unknowns, const ResidualsOf
                                  least_half * std::abs(values[i]));
     solution.estimates.push_back({values[i], values[i] - half, values[i] + half});
   }
-  judge(solution, directions, functor, whole);
+  judge(solution, columns, functor, whole);
 
   // What each recording alone says, by one step from where they meet.
   Index from = 0;
   for (const Index size : functor.sizes()) {
-    const Directions own(slopes.middleRows(from, size));
+    const UnitColumns own(slopes.middleRows(from, size));
     const VectorXd step =
         -own.inverse() * slopes.middleRows(from, size).transpose() * left.segment(from, size);
     for (std::size_t i = 0; i < unknowns.size(); ++i)

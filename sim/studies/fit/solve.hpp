@@ -20,13 +20,13 @@ using Residuals = std::vector<Eigen::VectorXd>;
 using ResidualsOf = std::function<std::vector<Residuals>(const std::vector<std::vector<double>>& sets)>;
 
 /// How well a value is known. joined: with others only; no: hardly anything depends on it.
-enum class Known { yes, joined, no };
+enum class FitKnown { yes, joined, no };
 
 struct FitEstimate {
   double value = 0;
   double low = 0;  ///< it lies between these with 95 %
   double high = 0;
-  Known known = Known::yes;
+  FitKnown known = FitKnown::yes;
   std::vector<std::size_t> with = {};  ///< joined: the numbers of the others
   std::vector<double> alone = {};      ///< as each recording alone would have it
 };

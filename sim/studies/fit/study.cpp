@@ -154,7 +154,7 @@ double apart(const AtCutoff& one, const AtCutoff& other, std::size_t values) {
     const auto& a = one.solution.estimates[i];
     const auto& b = other.solution.estimates[i];
     if (a.known != b.known) return std::numeric_limits<double>::infinity();
-    if (a.known != Known::yes) continue;
+    if (a.known != FitKnown::yes) continue;
     const double limits = (a.high - a.low + b.high - b.low) / 2 + rounding * std::abs(a.value);
     most = std::max(most, std::abs(a.value - b.value) / limits);
   }
@@ -166,7 +166,7 @@ std::pair<std::ptrdiff_t, double> worth(const AtCutoff& one, std::size_t values)
   std::pair<std::ptrdiff_t, double> sum{0, 0};
   for (std::size_t i = 0; i < values; ++i) {
     const auto& estimate = one.solution.estimates[i];
-    if (estimate.known != Known::yes) continue;
+    if (estimate.known != FitKnown::yes) continue;
     ++sum.first;
     sum.second -= std::log(estimate.high - estimate.low);
   }
@@ -334,10 +334,11 @@ void tell_values(const FitBench& bench, const Solved& solved, FitFound& found) {
     value.used = shown(estimate.value);
     if (estimate.alone.size() > 1)
       for (const double alone : estimate.alone) value.alone.push_back(shown(alone));
-    if (estimate.known == Known::yes) {
+    if (estimate.known == FitKnown::yes) {
       value.value = value.used;
-      value.low = shown(estimate.low);
-      value.high = shown(estimate.high);
+      const auto& range = bench.unknowns()[i];
+      value.low = shown(is_offset ? estimate.low : std::max(estimate.low, range.low));
+      value.high = shown(is_offset ? estimate.high : std::min(estimate.high, range.high));
       const auto of = [&](std::size_t other) -> std::optional<double> {
         if (other >= solved.tried.size()) return {};
         return shown(solved.tried[other].values[i]);
@@ -389,7 +390,7 @@ void widen(FitFound& found) {
 void tell_unknown(FitFound& found) {
   const auto tell = [&](const FittedValue& value, const std::string& what) {
     if (value.value) return;
-    const bool joined = value.known == Known::joined;
+    const bool joined = value.known == FitKnown::joined;
     found.tell({joined ? "fit.joined"_code : "fit.not-known"_code,
                 fmt::format("{} is {}: {}", what,
                             joined ? "known only together with another value" : "not known", value.why),
@@ -426,6 +427,13 @@ FitFound fit(const FitQuestion& question, const std::vector<ReplaySeries>& recor
   tell_delays(bench, solved.chosen(), found);
   widen(found);
   tell_unknown(found);
+  constexpr double much = 0.1;
+  if (found.relative_error > much)
+    found.tell({"fit.unexplained"_code,
+                fmt::format("{:.3g} % of the torque is left unexplained: something acts on the machine that the "
+                            "model or the recording does not have, and the limits know nothing of it",
+                            found.relative_error * 100),
+                Finding::Role::warning});
   if (by_direction)
     found.tell(
         {"fit.offset-or-direction"_code,

@@ -13,22 +13,22 @@
 
 namespace drycut::sim::studies {
 
-inline constexpr std::array<std::string_view, 3> words_of(Known) { return {"yes", "joined", "no"}; }
+inline constexpr std::array<std::string_view, 3> words_of(FitKnown) { return {"yes", "joined", "no"}; }
 
 /// A value as it was found, in the unit of its row.
 struct FittedValue {
-  std::string path;             ///< "plants.axis.mass"
-  std::optional<double> value;  ///< none where it is not known
-  std::optional<double> low;    ///< it lies between these with 95 %
-  std::optional<double> high;
+  std::string path;               ///< "plants.axis.mass"
+  std::optional<double> value{};  ///< none where it is not known
+  std::optional<double> low{};    ///< it lies between these with 95 %
+  std::optional<double> high{};
   std::string unit;
-  Known known = Known::yes;
-  std::string why;                ///< it is not known, and which move would tell; "" where it is
-  double before = 0;              ///< in the scenario
-  double used = 0;                ///< where the fit ended, known or not
-  std::vector<double> alone;      ///< as each recording alone would have it
-  std::optional<double> coarser;  ///< at half the cutoff
-  std::optional<double> finer;    ///< at twice
+  FitKnown known = FitKnown::yes;
+  std::string why{};                ///< it is not known, and which move would tell; "" where it is
+  double before = 0;                ///< in the scenario
+  double used = 0;                  ///< where the fit ended, known or not
+  std::vector<double> alone{};      ///< as each recording alone would have it
+  std::optional<double> coarser{};  ///< at half the cutoff
+  std::optional<double> finer{};    ///< at twice
 
   template <typename Archive, typename Self>
   static void visit(Archive& archive, Self& self) {

@@ -144,8 +144,8 @@ class CandidateMaker {
     std::vector<Candidate> candidates;
     candidates.reserve(choices_.motors.size() * gears_.size() * resistors_.size());
     for (const auto& motor : choices_.motors) {
-      for (const auto& gear : gears_) {
-        Candidate made = with_gear(motor, gear);
+      for (std::size_t i = 0; i < gears_.size(); ++i) {
+        Candidate made = with_gear(motor, gears_[i], choices_.gear_kind(i));
         for (const auto& resistor : resistors_) candidates.push_back(with_resistor(made, resistor));
       }
     }
@@ -160,7 +160,8 @@ class CandidateMaker {
     return present.drive && set ? (1 + *set) / (1 + present.drive->inertia_ratio) : 1;
   }
 
-  Candidate with_gear(const scenario::MotorModel& motor, const std::string& gear) const {
+  Candidate with_gear(const scenario::MotorModel& motor, const std::string& gear,
+                      const std::string& kind) const {
     const auto& drive = choices_.drive;
     Candidate made;
     made.motor = motor.name.text;
@@ -168,12 +169,14 @@ class CandidateMaker {
     made.rated_power = si_of(motor, "rated_power");
     if (made.rated_power <= 0) made.rated_power = si_of(motor, "rated_torque") * si_of(motor, "rated_speed");
     made.gear = gear;
+    made.gear_kind = kind;
     made.overrides.push_back({drive.path(drive.kind + ".model"), motor.name.text});
     const auto present = number_in(plant_, "gear.ratio");
     made.ratio = present.value_or(0);
     if (!gear.empty()) {
       for (auto& override : overrides_of(choices_.gears, {gear}))
         made.overrides.push_back(std::move(override));
+      if (!kind.empty()) made.overrides.push_back({drive.path("gear.type"), kind});
       if (!choices_.gear_is_tied) {
         made.ratio = number_of_text(gear);
         take_along(made, made.ratio / *present, *present);
@@ -359,6 +362,7 @@ void check_resistors(const SizeChoices& choices, const PointQuestion& question, 
 std::string name_of(const Candidate& candidate) {
   auto name = candidate.motor;
   if (!candidate.gear.empty()) name += ", gear " + candidate.gear;
+  if (!candidate.gear_kind.empty()) name += " " + candidate.gear_kind;
   if (!candidate.resistor.text.empty()) name += ", resistor " + candidate.resistor.text;
   return name;
 }

@@ -15,6 +15,7 @@ struct Candidate {
   std::string values;         ///< how far its values can be trusted: MotorModel::standing()
   double rated_power = 0;     ///< [W]
   std::string gear;           ///< as given; "" = as it is
+  std::string gear_kind;      ///< as given; "" = as it is
   double ratio = 0;           ///< of the gear; 0: the plant has none
   BrakeResistor resistor;     ///< text "" = as it is
   double resistor_power = 0;  ///< [W], 0 = none
@@ -35,10 +36,10 @@ std::string name_of(const Candidate& candidate);
 /// All of them: motors, of each its gears, of each its resistors. So that it is the same machine for the
 /// controller: a gear takes along the speed at 10 V or the electronic gear and, if the controller counts an
 /// encoder on the motor, its lines (a gear to which no whole number of lines belongs cannot be set up). A
-/// gear that the scenario ties takes along what the scenario says; what to do about gears that cannot be set
-/// up goes to the notes of the choices. The inertia ratio set in a servo amplifier
-/// follows the machine's, so that the speed loop stays as quick as the scenario has it. Choices that no
-/// scenario takes are told in `problems`.
+/// gear of a kind takes along its efficiency. A gear that the scenario ties takes along what the scenario
+/// says; what to do about gears that cannot be set up goes to the notes of the choices. The inertia ratio set
+/// in a servo amplifier follows the machine's, so that the speed loop stays as quick as the scenario has it.
+/// Choices that no scenario takes are told in `problems`.
 std::vector<Candidate> candidates_of(SizeChoices& choices, const PointQuestion& question,
                                      const scenario::Scenario& scenario, Problems& problems);
 

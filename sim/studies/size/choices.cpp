@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "base/text.hpp"
+#include "plants/efficiency.hpp"
 #include "plants/plant.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/units.hpp"
@@ -104,6 +105,7 @@ void check_motor_values(const SizedDrive& drive, const std::vector<scenario::Mot
     const auto prefix = drive.kind + ".";
     if (!parameter.starts_with(prefix)) continue;
     const auto name = std::string_view(parameter).substr(prefix.size());
+    if (name.starts_with("supply.")) continue;  // the machine's mains, whatever motor is on them
     if (std::any_of(motors.begin(), motors.end(),
                     [&](const auto& motor) { return motor.find(name) != nullptr; }))
       problems.push_back(scenario::problem_at(
@@ -149,7 +151,41 @@ std::vector<scenario::MotorModel> read_motors_of(const std::string& text, const 
   return taken;
 }
 
-void read_gears(const std::string& text, const scenario::Scenario& scenario, SizeChoices& choices,
+/// Kinds that stand behind ratios, "5 planetary, 20 worm", "3..8:6 planetary", and the text without them; its
+/// columns stay as they are.
+std::vector<std::string> take_kinds(std::string& text, Problems& problems) {
+  std::vector<std::string> kinds;
+  std::vector<std::size_t> columns;
+  std::vector<std::string> known;
+  for (const auto& kind : plants::gear_types()) known.emplace_back(kind.name);
+  const auto items = split_items(text, columns);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const auto space = items[i].find(' ');
+    kinds.push_back(space == std::string::npos ? "" : std::string(trimmed(items[i].substr(space))));
+    if (kinds.back().empty()) continue;
+    const auto begin = text.find(kinds.back(), columns[i] - 1);
+    if (std::ranges::find(known, kinds.back()) == known.end())
+      problems.push_back(
+          {"study.argument"_code, "--gears", 1, static_cast<int>(begin) + 1,
+           fmt::format("'{}' is no kind of gear", kinds.back()),
+           did_you_mean(kinds.back(), known,
+                        fmt::format("a ratio, or a ratio and one of: {}", fmt::join(known, ", ")))});
+    text.replace(begin, kinds.back().size(), kinds.back().size(), ' ');
+  }
+  return kinds;
+}
+
+/// What the scenario gives beside the kind of its gear would go with each.
+void check_gear_values(const SizedDrive& drive, const scenario::Scenario& scenario, Problems& problems) {
+  for (const auto& [parameter, place] : plant_of(drive, scenario).places)
+    if (parameter == "gear.efficiency" || parameter == "gear.back_efficiency")
+      problems.push_back(scenario::problem_at(
+          "option.does-not-apply"_code, scenario, place,
+          fmt::format("{} is given: every gear that is tried would keep it", drive.path(parameter)),
+          fmt::format("leave it out; {} says it", drive.path("gear.type"))));
+}
+
+void read_gears(std::string text, const scenario::Scenario& scenario, SizeChoices& choices,
                 Problems& problems) {
   if (text.empty()) return;
   constexpr auto* option = "--gears";
@@ -170,8 +206,11 @@ void read_gears(const std::string& text, const scenario::Scenario& scenario, Siz
          "tie them to a variable in the scenario and write --gears variables.gear=5,7,10"});
     return;
   }
-  const auto path = choices.gear_is_tied ? "" : drive.path("gear.ratio=");
   const auto before = problems.size();
+  if (!choices.gear_is_tied) choices.gear_kinds = take_kinds(text, problems);
+  if (problems.size() != before) return;
+  if (choices.has_gear_kinds()) check_gear_values(drive, scenario, problems);
+  const auto path = choices.gear_is_tied ? "" : drive.path("gear.ratio=");
   auto axis = parse_axis(path + text, option, false, problems);
   for (auto i = before; i < problems.size(); ++i)
     problems[i].column = std::max(1, problems[i].column - static_cast<int>(path.size()));

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,6 +49,17 @@ struct SizeChoices {
   std::vector<scenario::MotorModel> motors;
   bool all_motors = false;  ///< of the catalogue
   SweepAxes gears;          ///< none: the gear stays; else one axis
+  /// Of gear_types(), whose efficiency goes with it: of each value, or one for all; "" = as the scenario has
+  /// it.
+  std::vector<std::string> gear_kinds = {};
+  [[nodiscard]] bool has_gear_kinds() const {
+    return std::ranges::any_of(gear_kinds, [](const auto& kind) { return !kind.empty(); });
+  }
+  /// The kind of value `i` of the gears.
+  [[nodiscard]] std::string gear_kind(std::size_t i) const {
+    if (gear_kinds.empty()) return "";
+    return gear_kinds.size() == 1 ? gear_kinds.front() : gear_kinds.at(i);
+  }
   bool gear_is_tied =
       false;  ///< the axis is another value of the scenario, which ties to it what goes with it
   std::vector<BrakeResistor> resistors;  ///< none: it stays
@@ -60,7 +72,7 @@ struct SizeChoices {
 struct SizeTexts {
   std::string drive;          ///< "knife.servo"; "" = the only one
   std::string motors;         ///< "all", "HG-SR202,HG-SR3*"
-  std::string gears;          ///< "5..20:16", "5,7,10", "variables.gear=5,7,10"; "" = as it is
+  std::string gears;          ///< "5..20:16", "5 planetary, 20 worm", "variables.gear=5,7,10"; "" = as it is
   std::string resistors;      ///< "100,200 W", "13 ohm 100 W, none"; "" = as it is
   std::string inertia_ratio;  ///< "15", "off"; "" = the maker's, else the usual one
 };

@@ -31,7 +31,9 @@ std::string share_of(const Sized& one, std::string_view rating) {
 }
 
 std::string ratio_text(const Candidate& candidate) {
-  return candidate.ratio > 0 ? fmt::format("{:.5g}", candidate.ratio) : "";
+  if (candidate.ratio <= 0) return "";
+  return candidate.gear_kind.empty() ? fmt::format("{:.5g}", candidate.ratio)
+                                     : fmt::format("{:.5g} {}", candidate.ratio, candidate.gear_kind);
 }
 
 /// `each`: every candidate that fits, else the best of each motor.
@@ -300,7 +302,8 @@ renders::Report size_page(const SizeResult& page, const record::Verdict& verdict
         "what a motor of that inertia without limits needs there"}},
       {{"set up with each", taken_along(page)}},
       {{"as the scenario has it",
-        "stiffness, play, friction and efficiency of the gear, with every candidate"}},
+        fmt::format("stiffness, play{} of the gear, with every candidate",
+                    page.choices.has_gear_kinds() ? " and friction" : ", friction and efficiency")}},
       {{"drycut", DRYCUT_VERSION}}};
   report::add_overrides(page.question.set, report);
   report.notes = record::lines_of(size_notes(page));

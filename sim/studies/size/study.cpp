@@ -384,7 +384,9 @@ Table size_table(const std::vector<Candidate>& candidates, const std::vector<Siz
         candidate.values,
         candidate.rated_power / 1e3,
         has_gear ? candidate.ratio : no_share,
-        has_gear ? "as in the scenario" : "",
+        !has_gear                     ? ""
+        : candidate.gear_kind.empty() ? "as in the scenario"
+                                      : fmt::format("{}; the rest as in the scenario", candidate.gear_kind),
         candidate.resistor.text,
         one.reserve,
         one.nearest,

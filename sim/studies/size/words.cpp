@@ -90,10 +90,11 @@ std::vector<Finding> size_notes(const SizeResult& result) {
   if (auto inertia = inertia_note(result); !inertia.empty())
     notes.emplace_back("size.inertia-limit"_code, std::move(inertia));
   if (!result.choices.gears.empty())
-    notes.emplace_back("size.gear-unchanged"_code,
-                       "stiffness, play, friction and efficiency are those of the scenario behind every "
-                       "gear: a gear of another ratio "
-                       "has its own");
+    notes.emplace_back(
+        "size.gear-unchanged"_code,
+        fmt::format("stiffness, play{} are those of the scenario behind every gear: a gear of another ratio "
+                    "has its own",
+                    result.choices.has_gear_kinds() ? " and friction" : ", friction and efficiency"));
   return notes;
 }
 

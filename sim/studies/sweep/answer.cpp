@@ -8,6 +8,7 @@
 
 #include "base/text.hpp"
 #include "sim/studies/recorded_csv.hpp"
+#include "sim/studies/sweep/band.hpp"
 
 namespace drycut::sim::studies {
 
@@ -113,7 +114,10 @@ std::string headline(const Envelope& envelope) {
   const auto throughout = count(Bound::Kind::throughout);
   const auto nowhere = count(Bound::Kind::nowhere);
   auto text = fmt::format("{}: {}", sought_text(envelope), span_text(envelope));
-  if (points > 1) text += " over " + counted(points, "point");
+  if (const auto corners = corners_text(envelope); !corners.empty())
+    text += corners;
+  else if (points > 1)
+    text += " over " + counted(points, "point");
   if (found > 0)
     text += fmt::format(" (± {}, rounded {})",
                         with_unit(fmt::format("{:.6g}", request.tolerance), request.parameter),

@@ -188,6 +188,31 @@ void fill_axis(SweepAxis& axis, Problems& problems) {
   }
 }
 
+SweepAxes parse_over(const std::string& text, const std::string& option, bool sampled,
+                     const std::vector<std::string>& given, Problems& problems) {
+  SweepAxes axes;
+  if (!names_fit(text)) {
+    if (auto axis = parse_axis(text, option, sampled, problems)) axes.push_back(std::move(*axis));
+    return axes;
+  }
+  for (auto& limit : limits_of_fit(text, option, given, problems)) {
+    SweepAxis axis{std::move(limit), {}};
+    if (!sampled) axis.steps = 2;
+    axis.fit = trimmed(text);
+    axes.push_back(std::move(axis));
+  }
+  return axes;
+}
+
+SweepAxes parse_axes(const std::vector<std::string>& texts, const std::string& option, bool sampled,
+                     Problems& problems) {
+  SweepAxes axes;
+  const auto given = given_paths(texts);
+  for (const auto& text : texts)
+    for (auto& axis : parse_over(text, option, sampled, given, problems)) axes.push_back(std::move(axis));
+  return axes;
+}
+
 std::vector<scenario::Override> overrides_of(const SweepAxes& axes, const SweepPoint& point) {
   std::vector<scenario::Override> overrides;
   overrides.reserve(axes.size());

@@ -18,6 +18,7 @@ struct SweepAxis {
   std::vector<int> word_columns = {};  ///< of `values` that are words
   std::optional<int> steps = {};       ///< of a range
   bool logarithmic = false;            ///< of a range
+  std::string fit = {};                ///< the range is the limits in this fit.json, "" = it was given
   [[nodiscard]] bool is_range() const { return parameter.low < parameter.high; }
 };
 using SweepAxes = std::vector<SweepAxis>;
@@ -28,6 +29,13 @@ using SweepPoint = std::vector<std::string>;
 /// not needed. What is wrong goes to `problems` by option and column.
 std::optional<SweepAxis> parse_axis(const std::string& text, const std::string& option, bool sampled,
                                     Problems& problems);
+/// The axes of `text`: one as above, or of a fit.json (fitted.hpp, as is `given`) one for each value that it
+/// knows, from limit to limit: a grid has both limits, a sample what lies between them.
+SweepAxes parse_over(const std::string& text, const std::string& option, bool sampled,
+                     const std::vector<std::string>& given, Problems& problems);
+/// Those of all texts.
+SweepAxes parse_axes(const std::vector<std::string>& texts, const std::string& option, bool sampled,
+                     Problems& problems);
 /// Fills `values` of a range, now that its unit is known.
 void fill_axis(SweepAxis& axis, Problems& problems);
 

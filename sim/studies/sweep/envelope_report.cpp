@@ -8,6 +8,7 @@
 
 #include "sim/report/report.hpp"
 #include "sim/studies/sweep/answer.hpp"
+#include "sim/studies/sweep/band.hpp"
 #include "sim/studies/sweep/page.hpp"
 #include "sim/studies/sweep/report.hpp"
 
@@ -272,6 +273,12 @@ record::Verdict write_envelope_report(const std::vector<Envelope>& envelopes, Ou
     plots.push_back(bounds_plot(family, "envelope" + number));
     plots.push_back(figures_plot(family, "figures" + number));
   }
+  for (std::size_t i = 0; i < envelopes.size(); ++i) {
+    if (bands_of(envelopes[i]).empty()) continue;
+    const auto number = envelopes.size() > 1 ? fmt::format("_{}", i + 1) : "";
+    report.summary.insert(report.summary.begin(), band_table(envelopes[i]));
+    plots.push_back(band_plot(envelopes[i], "band" + number));
+  }
   std::string commands;
   for (std::size_t i = 0; i < studies.size(); ++i) {
     const auto& study = studies[i];
@@ -297,6 +304,7 @@ record::Verdict write_envelope_report(const std::vector<Envelope>& envelopes, Ou
                                                : "The first bound, once more with pictures",
                             commands});
   if (const auto why = why_again(envelopes); !why.empty()) report.notes.emplace_back(why);
+  if (const auto note = band_note(envelopes); !note.empty()) report.notes.emplace_back(note);
   std::erase_if(plots, [](const renders::Plot& plot) { return plot.panels.empty(); });
   report::write_report(std::move(report), std::move(plots), folder);
   return verdict;

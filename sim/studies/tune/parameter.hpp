@@ -33,6 +33,18 @@ using Point = std::vector<double>;
 std::optional<TunedParameter> parse_parameter(const std::string& text, const std::string& option,
                                               bool relative, Problems& problems);
 
+/// True if an option names the fit.json of a fit in place of PATH=LO..HI.
+bool names_fit(std::string_view text);
+
+/// The limits that a fit found, as ranges in the units of its rows, each with `option` and where the file is
+/// named in it. Those of `given` have a range of their own beside it, which counts in their place. A file
+/// that is no fit, and a value that the fit does not know, go to `problems`.
+TunedParameters limits_of_fit(const std::string& file, const std::string& option,
+                              const std::vector<std::string>& given, Problems& problems);
+
+/// The paths of those `texts` that are PATH=..., as `given` above.
+std::vector<std::string> given_paths(const std::vector<std::string>& texts);
+
 /// "87", "250 rad/s": as `--set` and the scenario take it.
 std::string value_text(const TunedParameter& parameter, double value);
 /// The unit in which tables show it, "" = none.

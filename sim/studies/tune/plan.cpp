@@ -35,15 +35,20 @@ void read_from(const TuneRequest& request, Study& study, Problems& problems) {
 
 void read_parameters(const std::vector<std::string>& texts, const std::string& option, bool relative,
                      TunedParameters& parameters, Problems& problems) {
-  for (const auto& text : texts) {
-    auto parameter = parse_parameter(text, option, relative, problems);
-    if (!parameter) continue;
+  const auto add = [&](TunedParameter parameter) {
     const bool twice = std::any_of(parameters.begin(), parameters.end(),
-                                   [&](const TunedParameter& p) { return p.path == parameter->path; });
+                                   [&](const TunedParameter& p) { return p.path == parameter.path; });
     if (twice) {
-      problems.push_back({"study.twice"_code, option, 1, 1, parameter->path + " is given twice", "keep one"});
+      problems.push_back({"study.twice"_code, option, 1, 1, parameter.path + " is given twice", "keep one"});
     } else {
-      parameters.push_back(std::move(*parameter));
+      parameters.push_back(std::move(parameter));
+    }
+  };
+  for (const auto& text : texts) {
+    if (relative && names_fit(text)) {
+      for (auto& limit : limits_of_fit(text, option, given_paths(texts), problems)) add(std::move(limit));
+    } else if (auto parameter = parse_parameter(text, option, relative, problems)) {
+      add(std::move(*parameter));
     }
   }
 }

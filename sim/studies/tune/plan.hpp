@@ -30,7 +30,7 @@ struct TuneRequest {
   int budget = 200;        ///< simulated runs of all parts together, those that measure margins included
   int jobs = 1;            ///< runs at the same time; the result is the same
   std::uint64_t seed = 1;  ///< of the search and the spread
-  std::vector<std::string> spread;  ///< "plants.knife.inertia=±30%"
+  std::vector<std::string> spread;  ///< "plants.knife.inertia=±30%", "out/fit/fit.json"
   int spread_runs = 20;             ///< fewer where the budget has not room for them
   bool pictures = true;
 };

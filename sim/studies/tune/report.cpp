@@ -254,7 +254,7 @@ bool has_play(const Tuning& tuning) {
 /// With play a margin is one of its sine.
 std::string sine_text(const Tuning& tuning) {
   if (!tuning.study.needs_loop || !has_play(tuning)) return "";
-  return fmt::format("; phase margins hold for a sine of {:.3g} V only", tuning.study.loop.amplitude);
+  return fmt::format("; phase margins hold for a sine of {:.3g} V only", tuning.study.loop.sine());
 }
 
 /// What the budget had no room for.
@@ -367,7 +367,7 @@ std::string spread_text(const Tuning& tuning) {
         "  (phase margins are of a sine of {:.3g} V, in which masses and play hardly take part; gain margins "
         "of "
         "pushes of {} to {} V)\n",
-        tuning.study.loop.amplitude, least_push, largest_push);
+        tuning.study.loop.sine(), least_push, largest_push);
   return text;
 }
 

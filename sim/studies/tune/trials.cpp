@@ -12,8 +12,8 @@
 #include <tuple>
 
 #include "base/text.hpp"
+#include "sim/loop/files_read.hpp"
 #include "sim/loop/fingerprint.hpp"
-#include "sim/loop/inputs.hpp"
 #include "sim/studies/override_json.hpp"
 #include "sim/studies/recorded_csv.hpp"
 
@@ -118,7 +118,7 @@ std::string Trials::fingerprint() const {
   for (const auto& text : study_.constraints) hash.add(text);
   hash.add(fmt::format("{} {}", study_.from, study_.ignore_checks));
   if (study_.needs_loop)
-    hash.add(fmt::format("{} {} {}", study_.loop.wire, study_.loop.at.value_or(""), study_.loop.amplitude));
+    hash.add(fmt::format("{} {} {}", study_.loop.wire, study_.loop.at.value_or(""), study_.loop.sine()));
   for (const auto& override : fixed_) hash.add(override.path + "=" + override.value);
   for (const auto& entry : study_.cases) {
     Problems problems;

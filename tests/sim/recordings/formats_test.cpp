@@ -159,6 +159,8 @@ TEST_F(Formats, PlainTextWithUnitsBehindOrBelowItsNames) {
                              HasSubstr("time: {column: \"Time [ms]\", unit: ms}"),
                              HasSubstr("  Torque: {column: \"Torque (N m)\", unit: N m}\n"),
                              HasSubstr("  pos: {column: \"pos (5)\"}  # ADD unit:")));
+  EXPECT_THAT(guessed("t [s];speed [1/min]\n0;1\n1;2\n"),
+              HasSubstr("  speed: {column: \"speed [1/min]\", unit: rpm}\n"));
   EXPECT_THAT(guessed("t,speed\ns,1/min\n0,1\n1,2\n"),
               testing::AllOf(HasSubstr("time: {column: t, unit: s}"),
                              HasSubstr("  speed: {column: speed, unit: rpm}\n")));

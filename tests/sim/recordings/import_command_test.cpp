@@ -22,7 +22,7 @@ TEST_F(ImportCommand, ShowsTheGuessAndWritesItOnlyWhenAsked) {
   std::filesystem::create_directory(folder / "sub");
   const auto yaml = folder / "sub" / "x.yaml";
   EXPECT_EQ(captured([&] { return import_file({file, yaml}); }), 0);
-  EXPECT_THAT(out, HasSubstr("file: ../x.csv"));
+  EXPECT_THAT(out, HasSubstr("file: \"../x.csv\""));
   EXPECT_EQ(captured([&] { return check_files({.files = {yaml}}); }), 0) << err;
   EXPECT_THAT(out, HasSubstr("warning "));
   EXPECT_THAT(out, HasSubstr("x.csv:5: samples are missing"));

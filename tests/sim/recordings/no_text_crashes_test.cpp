@@ -59,7 +59,7 @@ TEST_F(NoTextCrashes, AnyTruncation) {
 
 TEST_F(NoTextCrashes, AnyChangedByte) {
   std::mt19937_64 random(20261128);
-  const std::string characters = "0123456789.,;:+-eE \t\n\r\"'[]()%/xn\xC3\xE4#\0NaInf";
+  const std::string characters = std::string("0123456789.,;:+-eE \t\n\r\"'[]()%/xn\xC3\xE4#NaInf") + '\0';
   int sound = 0;
   int count = 0;
   for (const auto& [text, yaml] : exports)

@@ -106,7 +106,7 @@ TEST_F(OddFiles, WhatIsNoText) {
   read(
       std::string("\x7F"
                   "ELF\x01\0\0\n0,1\n",
-                  13));
+                  12));
   EXPECT_THAT(places(), ElementsAre("x.csv:1:5 file.not-text"));
   read(std::string("\xFF\xFEt\0,\0v\0\n\0", 10));
   EXPECT_THAT(places(), ElementsAre("x.csv:1:1 file.not-text"));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -42,6 +43,13 @@ SpeedLoop two_masses(double gain) {
     point.open_loop = pi * plant / (1.0 + 0.5e-3 * s) * std::exp(-1.5e-4 * s);
     loop.points.push_back(point);
   }
+  return loop;
+}
+
+/// A loop that no gain upsets.
+SpeedLoop integrator() {
+  auto loop = two_masses(150);
+  for (auto& point : loop.points) point.open_loop = 150.0 / std::complex<double>(0, turn * point.frequency);
   return loop;
 }
 
@@ -116,12 +124,42 @@ TEST(FilterAdvice, ALoopThatGoesRoundIsNotKept) {
 }
 
 // A loop that no gain upsets, as far as it is known, wants no filter.
-TEST(FilterAdvice, NothingIsWorthALoopWithoutResonance) {
-  auto loop = two_masses(150);
-  for (auto& point : loop.points) {
-    point.open_loop = 150.0 / std::complex<double>(0, turn * point.frequency);
+TEST(FilterAdvice, NothingIsWorthALoopWithoutResonance) { EXPECT_FALSE(advise(integrator()).worth()); }
+
+// At one frequency L is so near to 30 deg from -1 that only 6 % of gains are too much: none is stepped over.
+TEST(FilterAdvice, ANarrowStretchOfGainsIsNotSteppedOver) {
+  const auto with_one_at = [](double size) {
+    auto loop = integrator();
+    loop.points[80].open_loop = std::polar(size, -150.05 * turn / 360);
+    return loop;
+  };
+  for (const double size : {0.3, 0.38, 0.46, 0.87}) {
+    const auto loop = with_one_at(size);
+    const double factor = judged_with(loop, {}).factor;
+    const auto distance = [&](double times) {
+      return std::abs(1.0 + times * factor * loop.points[80].open_loop);
+    };
+    EXPECT_NEAR(distance(1), 0.5, 1e-6) << size;
+    EXPECT_LT(distance(1.03), 0.5) << size;  // it is where they begin
+    EXPECT_GT(distance(0.97), 0.5) << size;
   }
-  EXPECT_FALSE(advise(loop).worth());
+  // Those that are too much lie below the gain in force.
+  EXPECT_GT(judged_with(with_one_at(1), {}).factor, 29);
+}
+
+// Where points were lost nothing is made up, however the others scatter.
+TEST(FilterAdvice, NothingIsMadeUpAcrossLostPoints) {
+  for (const std::size_t last : {52, 53}) {
+    for (const double scatter : {-0.15, 0.15}) {
+      auto loop = integrator();
+      for (std::size_t i = 0; i < loop.points.size(); ++i)
+        loop.points[i].open_loop *= std::polar(1.0, i % 2 == 0 ? scatter : -scatter);
+      loop.points.erase(loop.points.begin() + 12, loop.points.begin() + static_cast<std::ptrdiff_t>(last));
+      const auto present = advise(loop).present;
+      EXPECT_NEAR(present.factor, judged_with(loop, {}).factor, 1e-9);
+      EXPECT_FALSE(present.margins.gain || present.margins.gain_down);
+    }
+  }
 }
 
 struct SpeedLoopOfAnAxis : CommandTest {
@@ -219,10 +257,36 @@ TEST_F(SpeedLoopOfAnAxis, IsToldWithItsFilterToPaste) {
 TEST_F(SpeedLoopOfAnAxis, WhatDoesNotGoWithItIsTold) {
   options.limit_cycle = true;
   options.min_gain_margin = 6;
+  options.loop.speed = "axis.motor.speed";
+  options.loop.amplitude = 0.1;  // as without it, and still it is not what --advise adds
+  options.loop.settle = 0.5;
   EXPECT_EQ(run(), cli::bad_input);
-  EXPECT_THAT(err, HasSubstr("--limit-cycle"));
-  EXPECT_THAT(err, HasSubstr("--min-gain-margin"));
-  EXPECT_THAT(err, HasSubstr("[option.together]"));
+  for (const auto* option : {"--limit-cycle", "--min-gain-margin", "--speed", "--amplitude", "--settle"})
+    EXPECT_THAT(err, ContainsRegex(fmt::format("(^|\n){}:1:1: .*; .* \\[option.together\\]\n", option)));
+  EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 5) << err;
+}
+
+// Its range is that of the steps, its points are as many as a resonance needs.
+TEST_F(SpeedLoopOfAnAxis, ARangeThatCannotBeMeasuredIsTold) {
+  options.loop.from = 6000;
+  options.loop.to = 5001;
+  options.loop.points = 359;
+  EXPECT_EQ(run(), cli::bad_input);
+  for (const auto* option : {"--from", "--to", "--points"})
+    EXPECT_THAT(err, ContainsRegex(fmt::format("(^|\n){}:1:1: .*; .* \\[option.out-of-range\\]\n", option)));
+  EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 3) << err;
+}
+
+TEST_F(SpeedLoopOfAnAxis, IsMeasuredAtAsManyPointsAsAreAskedFor) {
+  options.loop.from = 200;
+  options.loop.to = 1000;
+  const auto usual = measured().points;
+  EXPECT_EQ(usual.size(), 360);
+  options.loop.points = 400;
+  const auto more = measured().points;
+  EXPECT_EQ(more.size(), 400);
+  EXPECT_NEAR(more.front().frequency, 200, 0.1);
+  EXPECT_NEAR(more.back().frequency, 1000, 0.1);
 }
 
 TEST_F(SpeedLoopOfAnAxis, AMachineWithoutAServoHasNone) {

@@ -15,8 +15,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Pointwise;
 
-struct MeasuredRun : Bench {
-  MeasuredRun() {
+struct CompareMeasured : Bench {
+  CompareMeasured() {
     texts.trace =
         "time [s],axis.position [mm],axis.speed [m/min],axis.angle [deg],AxisX.follerr [bits x4]\n"
         "0.0,0,6,350,0\n0.1,10,6,10,2\n0.2,20,-6,30,4\n0.3,10,-6,50,6\n";
@@ -34,12 +34,12 @@ struct MeasuredRun : Bench {
     file = test_folder.file("r.yaml",
                             "file: r.csv\nseparator: semicolon\ntime: {column: t, unit: ms}\n" + channels);
   }
-  Measured measured(double from = 0, const std::vector<std::string>& without = {},
-                    const std::vector<std::string>& tolerances = {}) {
+  MeasuredRun measured(double from = 0, const std::vector<std::string>& without = {},
+                       const std::vector<std::string>& tolerances = {}) {
     problems.clear();
     return measure_run(file, write("run", texts), from, without, tolerances, problems);
   }
-  const MeasuredChannel& channel(const Measured& of, const std::string& name) {
+  const MeasuredChannel& channel(const MeasuredRun& of, const std::string& name) {
     const auto found = std::ranges::find(of.channels, name, &MeasuredChannel::name);
     EXPECT_NE(found, of.channels.end()) << name;
     return *found;
@@ -56,7 +56,7 @@ struct MeasuredRun : Bench {
 };
 
 // Its first sample, at 100 ms, is the run's zero; what comes behind the run's end is not looked at.
-TEST_F(MeasuredRun, IsLaidOverFromItsFirstSampleOn) {
+TEST_F(CompareMeasured, IsLaidOverFromItsFirstSampleOn) {
   const auto found = measured();
   ASSERT_TRUE(problems.empty()) << lines_of(problems);
   const auto& position = channel(found, "axis.position");
@@ -72,7 +72,7 @@ TEST_F(MeasuredRun, IsLaidOverFromItsFirstSampleOn) {
 }
 
 // The run's speed says the way: forwards until 100 ms, backwards from 200 ms on.
-TEST_F(MeasuredRun, IsToldByDirection) {
+TEST_F(CompareMeasured, IsToldByDirection) {
   const auto position = channel(measured(), "axis.position");
   ASSERT_TRUE(position.speed);
   EXPECT_EQ(position.speed->name, "axis.speed");
@@ -83,18 +83,18 @@ TEST_F(MeasuredRun, IsToldByDirection) {
   EXPECT_EQ(position.position->name, "axis.position");
 }
 
-TEST_F(MeasuredRun, AnAngleThatBeginsAgainIsNoJump) {
+TEST_F(CompareMeasured, AnAngleThatBeginsAgainIsNoJump) {
   EXPECT_THAT(channel(measured(), "axis.angle").residual,
               Pointwise(testing::DoubleNear(1e-9), {-5.0, -5.0, -5.0, -5.0, -5.0}));
 }
 
-TEST_F(MeasuredRun, PureNumbersAreInTheRunsUnit) {
+TEST_F(CompareMeasured, PureNumbersAreInTheRunsUnit) {
   const auto follerr = channel(measured(), "AxisX.follerr");
   EXPECT_EQ(follerr.unit, "bits x4");
   EXPECT_THAT(follerr.residual, Pointwise(testing::DoubleNear(1e-9), {-1.0, -1.0, -1.0, 1.0, 3.0}));
 }
 
-TEST_F(MeasuredRun, LooksFromATimeOnAndLeavesChannelsOut) {
+TEST_F(CompareMeasured, LooksFromATimeOnAndLeavesChannelsOut) {
   const auto found = measured(0.15, {"AxisX.*"});
   ASSERT_EQ(found.channels.size(), 2U);
   EXPECT_EQ(channel(found, "axis.position").times.size(), 2U);
@@ -102,7 +102,7 @@ TEST_F(MeasuredRun, LooksFromATimeOnAndLeavesChannelsOut) {
   EXPECT_THAT(lines_of(problems), HasSubstr("did you mean axis.position? [compare.tolerance]"));
 }
 
-TEST_F(MeasuredRun, CommandTellsAndWrites) {
+TEST_F(CompareMeasured, CommandTellsAndWrites) {
   EXPECT_EQ(run({file, write("run", texts)}), cli::all_passed) << err;
   EXPECT_THAT(out, HasSubstr("axis.angle"));
   EXPECT_THAT(out, HasSubstr("axis.motor.torque was not recorded in the run"));
@@ -115,7 +115,7 @@ TEST_F(MeasuredRun, CommandTellsAndWrites) {
   EXPECT_EQ(run({write("run", texts), file}), cli::all_passed) << "in either order: " << err;
 }
 
-TEST_F(MeasuredRun, ToleranceIsTheExitStatus) {
+TEST_F(CompareMeasured, ToleranceIsTheExitStatus) {
   options.pictures = false;
   options.tolerances = {"axis.position=4.1mm"};
   EXPECT_EQ(run({file, write("run", texts)}), cli::all_passed) << err;
@@ -126,7 +126,7 @@ TEST_F(MeasuredRun, ToleranceIsTheExitStatus) {
   EXPECT_EQ(run({file, write("run", texts)}), cli::check_failed) << err;
 }
 
-TEST_F(MeasuredRun, RefusesWhatDoesNotGoTogether) {
+TEST_F(CompareMeasured, RefusesWhatDoesNotGoTogether) {
   const auto line = write("run", texts);
   const auto refuses = [&](const std::vector<fs::path>& runs, const std::string& what) {
     EXPECT_EQ(run(runs), cli::bad_input);

@@ -39,13 +39,20 @@ TEST_F(SizeCommand, BadInputIsToldBeforeAnythingRuns) {
       {"--motors:1:1: there is no motor 'Sg180L-4'", [](auto& o) { o.motors = "Sg180L-4"; }},
       {"--gears:1:1: plants.knife.gear.ratio", [](auto& o) { o.gears = "0..0.001:3"; }},
       {"--gears:1:3: 'abc' is no number as the others are", [](auto& o) { o.gears = "5,abc"; }},
-      {"--gears:1:1: plants.knife.gear.ratio", [](auto& o) { o.gears = "5,7 mm"; }},
+      {"--gears:1:5: 'mm' is no kind of gear", [](auto& o) { o.gears = "5,7 mm"; }},
       {"does not say how many values", [](auto& o) { o.gears = "5..7"; }},
       {"--gears:1:6: 1 values from end to end", [](auto& o) { o.gears = "5..7:1"; }},
       {"--gears:1:1: 1 motors x 20001 gears x 1 brake resistors are 20001 candidates; at most 20000 "
        "[study.out-of-range]",
        [](auto& o) { o.gears = "5..7:20001"; }},
       {"variables.ger: there is no 'ger' in variables", [](auto& o) { o.gears = "variables.ger=5,7"; }},
+      {"--gears:1:16: 'planetery' is no kind of gear; did you mean planetary? [study.argument]",
+       [](auto& o) { o.gears = "5 planetary, 7 planetery"; }},
+      {"plants.knife.gear.efficiency is given: every gear that is tried would keep it",
+       [](auto& o) {
+         o.gears = "5 planetary";
+         o.set = {"plants.knife.gear.efficiency=0.9"};
+       }},
       {"--resistors:1:7: 'warm' is no brake resistor", [](auto& o) { o.resistors = "100 W,warm"; }},
       {"--resistors:1:1: '5 ohm' is no brake resistor", [](auto& o) { o.resistors = "5 ohm"; }},
       {"--resistors:1:1: '5 m' is no brake resistor", [](auto& o) { o.resistors = "5 m"; }},

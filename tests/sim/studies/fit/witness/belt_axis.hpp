@@ -72,8 +72,8 @@ inline std::vector<Leg> shaken() {
   return legs;
 }
 
-/// What scenes/recordings/ holds: the axis as a drive's scope would export it, torque in % of 9.5 N m, and a
-/// second move for a cross test.
+/// What scenes/recordings/ holds: the axis as a drive's scope would export it, torque in % of 9.5 N m, a
+/// second move for a cross test, and one that goes forwards only.
 inline std::map<std::string, std::string> shipped_recordings() {
   constexpr double rated = 9.5;
   constexpr double percent = 100;
@@ -97,7 +97,8 @@ inline std::map<std::string, std::string> shipped_recordings() {
     other.push_back({until, volts, volts});
     now = volts;
   }
-  return {{"belt_axis_move.csv", text_of(both_ways(), 11)}, {"belt_axis_other_move.csv", text_of(other, 12)}};
+  return {{"belt_axis_move.csv", text_of(both_ways(), 11)}, {"belt_axis_one_way.csv", text_of(one_way(), 13)},
+          {"belt_axis_other_move.csv", text_of(other, 12)}};
 }
 
 }  // namespace drycut::sim::studies
