@@ -11,10 +11,6 @@
 
 namespace drycut::sim::studies {
 
-namespace {
-
-enum class Shows { in_acceleration, in_direction, in_speed, at_low_speed, in_bending, in_place, in_all };
-
 Shows shows(const FitPath& path) {
   const auto ends = [&](std::string_view end) { return path.row.ends_with(end); };
   if (ends("mass") || ends("inertia")) return Shows::in_acceleration;
@@ -26,6 +22,8 @@ Shows shows(const FitPath& path) {
   if (path.row.starts_with("unbalance") || path.row == "inclination") return Shows::in_place;
   return Shows::in_all;
 }
+
+namespace {
 
 const char* move_for(Shows what) {
   switch (what) {
