@@ -16,7 +16,6 @@ namespace drycut::sim::studies {
 
 namespace {
 
-
 double margin_of(const MoveAxis& axis) {
   constexpr double of_way = 0.05 / 0.9;
   return of_way * (axis.high - axis.low);
@@ -116,7 +115,8 @@ std::string scenario_text(const Move& move, const MoveProgram& program) {
   std::string text = fmt::format(
       "# The commissioning move of {0} under {1}. Look at it before you do it on the machine:\n"
       "# drycut run plan_{2}.yaml; its trace.csv is what you are to record.\n"
-      "extends: machine.yaml\nscene: {{title: Commissioning move of {0} under {1}, duration: {3:.0f} s}}\n",
+      "extends: machine.yaml\nscene: {{title: \"Commissioning move of {0} under {1}\", duration: {3:.0f} "
+      "s}}\n",
       axis.plant, program.maker, program.controller, length);
   if (!program.plants.empty()) {
     nlohmann::json plants;
