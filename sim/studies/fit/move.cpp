@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -130,6 +131,17 @@ class Planner {
   double gentle_ = 0;        ///< [rpm/s]
 };
 
+bool is_play(const FitPath& path) { return path.row == "gear.backlash" || path.row == "gap"; }
+
+/// At least so often [Hz], by a whole part of a millisecond.
+double sampling_for(const Move& move) {
+  constexpr double samples = 5;  // a period of the fastest
+  const double wanted = move.chirp ? samples * move.chirp->to : 0;
+  constexpr std::array usual = {1000.0, 2000.0, 5000.0};
+  const auto found = std::ranges::find_if(usual, [&](double one) { return one >= wanted; });
+  return found == usual.end() ? 10000 : *found;
+}
+
 }  // namespace
 
 double MoveSegment::turns() const { return (from + to) / 2 * seconds / minute_s; }
@@ -160,7 +172,7 @@ std::vector<MoveStroke> strokes_of(const Move& move) {
 }
 
 MovePart part_for(const FitPath& path) {
-  if (path.row == "gear.backlash") return MovePart::slow;
+  if (is_play(path)) return MovePart::slow;
   switch (shows(path)) {
     case Shows::in_acceleration:
       return MovePart::ramps;
@@ -190,12 +202,10 @@ std::optional<Move> plan_move(FitPlan& plan, Problems& problems) {
   for (const auto& path : move.vary) {
     parts.insert(part_for(path));
     // Play shows where the motion turns, and in what it does to a shake.
-    if (path.row == "gear.backlash") parts.insert(MovePart::chirp);
+    if (is_play(path)) parts.insert(MovePart::chirp);
   }
   Planner(move).plan(parts);
-  constexpr double least = 1000;
-  constexpr double samples = 5;
-  move.sampling = std::max(least, move.chirp ? samples * move.chirp->to : 0);
+  move.sampling = sampling_for(move);
   return move;
 }
 

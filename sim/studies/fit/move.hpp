@@ -16,6 +16,7 @@ inline constexpr double minute_s = 60;  ///< for speeds in rpm [s]
 /// of what turns.
 struct MoveAxis {
   std::string plant;
+  std::string web;  ///< that it works on, where it has a place along one
   bool linear = false;
   std::string unit;                       ///< mm, deg
   double per_turn = 0;                    ///< of the load, for a turn of the motor [unit]
@@ -26,6 +27,7 @@ struct MoveAxis {
   bool reversed = false;                  ///< it counts down
   std::string drive;                      ///< "servo", "pulses"
   std::optional<double> pulses_per_turn;  ///< of the motor, where its servo can take pulses
+  double pulse_resolution = 0;            ///< counts of that servo for a turn of the motor
   double speed_at_10v = 0;                ///< [rpm]
   double top_speed = 0;                   ///< that a plan may use [rpm]
   double rated_torque = 0;                ///< [N m]
@@ -73,7 +75,7 @@ struct Move {
   std::vector<FitPath> vary;
   std::vector<MoveSegment> segments;
   std::optional<MoveChirp> chirp;
-  double sampling = 0;  ///< at least [Hz]
+  double sampling = 0;  ///< of the recording, at least [Hz]
 
   [[nodiscard]] double seconds() const;
 };

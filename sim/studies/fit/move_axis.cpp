@@ -107,6 +107,7 @@ void find_answer(scenario::Scenario& machine, MoveAxis& axis) {
     set_quantity(machine, {axis.plant, "gear.backlash"}, 0);
     make_rigid(machine, axis.plant);
   }
+  set_quantity(machine, {axis.plant, "brake.torque"}, 0);
   ReplaySeries series;
   series.plant = axis.plant;
   series.channel = axis.plant + ".motor.speed";
@@ -128,6 +129,7 @@ std::optional<MoveAxis> move_axis(scenario::Scenario& machine, const FitQuestion
   const Rows rows(original, question.plant);
   MoveAxis axis;
   axis.plant = question.plant;
+  if (rows.find("place") != nullptr) axis.web = rows.word("web", "");
   const auto lead = rows.number("lead");
   const double ratio = rows.number("gear.ratio", 1);
   axis.linear = lead.has_value();
@@ -145,9 +147,11 @@ std::optional<MoveAxis> move_axis(scenario::Scenario& machine, const FitQuestion
     if (rows.is_on(where)) axis.counts /= ratio;
   axis.reversed = rows.is_on("encoder.reverse");
   axis.drive = rows.word("drive", "servo");
-  if (const auto resolution = rows.number("servo.pulses.resolution"))
+  if (const auto resolution = rows.number("servo.pulses.resolution")) {
+    axis.pulse_resolution = *resolution;
     axis.pulses_per_turn = *resolution * rows.number("servo.pulses.gear_denominator", 1) /
                            rows.number("servo.pulses.gear_numerator", 1);
+  }
   axis.rated_torque = rows.number("servo.rated_torque", 0);
   axis.peak_torque = rows.number("servo.peak_torque", 0);
   axis.speed_at_10v = rows.number("servo.speed_at_10v", 0) * units::rpm;
@@ -155,6 +159,13 @@ std::optional<MoveAxis> move_axis(scenario::Scenario& machine, const FitQuestion
   axis.top_speed = std::min(of_10v * axis.speed_at_10v, rows.number("servo.rated_speed", 1e9) * units::rpm);
   if (axis.linear) set_quantity(machine, {axis.plant, "start"}, axis.start / mm);
   find_answer(machine, axis);
+  if (!std::isfinite(axis.inertia) || axis.inertia <= 0) {
+    problems.push_back(
+        {"fit.cannot-follow"_code, question.file.string(), 1, 1,
+         fmt::format("the motor of {} does not move it with twice its rated torque", axis.plant),
+         "mass, friction and gear of the machine, or another motor"});
+    return {};
+  }
   find_resonance(rows, axis);
   find_stribeck_speed(rows, question.vary, axis);
   return axis;

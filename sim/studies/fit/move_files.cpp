@@ -76,9 +76,14 @@ std::string machine_text(const FitPlan& plan, const Move& move, const std::files
   auto& plants = tree["plants"];
   if (move.axis.linear)
     plants[move.axis.plant]["start"] = fmt::format("{:.8g} {}", move.axis.start, move.axis.unit);
-  // No material: it is threaded out, or rests.
-  for (const auto& plant : read(text).first.plants)
+  // No material: the web stands, and the machine is where none of it is.
+  const auto machine = read(text).first;
+  for (const auto& plant : machine.plants)
     if (plant.type.text == "web") plants[plant.name.text]["speed"] = "0 m/min";
+  if (!move.axis.web.empty()) {
+    plants[move.axis.web]["outfeed.length"] = "100 m";
+    plants[move.axis.plant]["place"] = "90 m";
+  }
   if (plants.empty()) tree.erase("plants");
   for (const auto& [key, value] : tree.items()) text += fmt::format("{}: {}\n", key, value.dump());
   return text;
@@ -88,7 +93,7 @@ std::string machine_text(const FitPlan& plan, const Move& move, const std::files
 std::string chirp_steps(const Move& move, double begin) {
   if (!move.chirp) return "";
   constexpr int steps = 40;
-  constexpr double late = 0.5;  // of the controller, at most
+  constexpr double late = 1;  // of the controller, at most
   std::string text = fmt::format(
       "# The chirp of the drive's generator, as {} sines one after the other.\ndisturbances:\n", steps);
   for (const auto& stroke : strokes_of(move)) {
@@ -128,8 +133,9 @@ std::string scenario_text(const Move& move, const MoveProgram& program) {
   text += chirp_steps(move, begin);
   const auto* place = axis.linear ? "position" : "angle.total";
   text += fmt::format(
-      "record: {{every: 1 ms, channels: [{0}.motor.torque, {0}.motor.speed, {0}.encoder.count, {0}.{1}]}}\n",
-      axis.plant, place);
+      "record: {{every: {2:.6g} ms, channels: [{0}.motor.torque, {0}.motor.speed, {0}.encoder.count, "
+      "{0}.{1}]}}\n",
+      axis.plant, place, 1000 / move.sampling);
   text += "drives: {judge: off}\n";
   text += fmt::format(
       "checks:\n  - {{name: the move is over, eventually: panel.done == 1, within: {0:.0f} s}}\n"

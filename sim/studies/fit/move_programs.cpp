@@ -12,7 +12,6 @@ namespace drycut::sim::studies {
 
 namespace {
 
-
 /// What each program says of the chirp, "" without one.
 std::string chirp_remark(const Move& move, std::string_view remark) {
   if (!move.chirp) return "";
@@ -183,14 +182,30 @@ std::string st_program(const Move& move) {
          "Rest(IN := moves AND Move.Done, PT := T#200ms);\nEND_PROGRAM\n";
 }
 
-std::string il_program(const Move& move) {
-  const auto strokes = strokes_of(move);
-  const double pulses = *move.axis.pulses_per_turn;
+/// Of all strokes [rpm].
+double top_speed(const std::vector<MoveStroke>& strokes) {
   double top = 0;
   for (const auto& one : strokes) top = std::max(top, std::abs(one.speed));
+  return top;
+}
+
+/// A turn of the motor: what its electronic gear has, or fewer, where the top speed is too fast for the
+/// output.
+double pulses_for(const Move& move) {
+  constexpr double fastest = 200000;  // [Hz]
+  constexpr double round = 100;
+  const double most = std::floor(fastest / (top_speed(strokes_of(move)) / minute_s) / round) * round;
+  return std::min(*move.axis.pulses_per_turn, most);
+}
+
+std::string il_program(const Move& move) {
+  const auto strokes = strokes_of(move);
+  const double pulses = pulses_for(move);
+  const double top = top_speed(strokes);
   std::string text = fmt::format(
       "; Commissioning move of {}, made by drycut fit --plan: strokes from rest to rest.\n"
-      "; {:.10g} pulses a turn of the motor. Put the axis to {:.6g} {} first. X0 begins, Y20 is on when it "
+      "; {:.10g} pulses a turn of the motor: set its electronic gear so. Put the axis to {:.6g} {} first. X0 "
+      "begins, Y20 is on when it "
       "is over.\n{}"
       "; D100 stroke  DD200 its pulses  DD202 its frequency [Hz]  D8148 from rest to the top speed [ms]\n"
       "; M0 the next stroke  M1 moves  M2 rests\n\n"
@@ -201,10 +216,11 @@ std::string il_program(const Move& move) {
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     const auto& one = strokes[i];
     constexpr double ms = 1000;
-    text += "\n" + part_remark(strokes, i, ";") +
-            fmt::format("LD=     D100 K{}\nDMOV    K{} D200\nDMOV    K{} D202\nMOV     K{} D8148\n", i + 1,
-                        std::llround(one.turns * pulses), std::llround(std::abs(one.speed) / minute_s * pulses),
-                        std::llround(ms * one.ramp * top / std::abs(one.speed)));
+    text +=
+        "\n" + part_remark(strokes, i, ";") +
+        fmt::format("LD=     D100 K{}\nDMOV    K{} D200\nDMOV    K{} D202\nMOV     K{} D8148\n", i + 1,
+                    std::llround(one.turns * pulses), std::llround(std::abs(one.speed) / minute_s * pulses),
+                    std::llround(ms * one.ramp * top / std::abs(one.speed)));
   }
   return text +
          fmt::format(
@@ -268,6 +284,11 @@ MoveProgram lx3vp_program(const Move& move) {
                                   "panel.start\n  Y20: panel.done\n",
                                   move.axis.plant)};
   if (move.axis.drive != "pulses") program.plants.emplace_back("drive", "pulses");
+  if (const double pulses = pulses_for(move); pulses < *move.axis.pulses_per_turn) {
+    program.plants.emplace_back("servo.pulses.gear_numerator",
+                                fmt::format("{:.0f}", move.axis.pulse_resolution));
+    program.plants.emplace_back("servo.pulses.gear_denominator", fmt::format("{:.0f}", pulses));
+  }
   return program;
 }
 
