@@ -22,7 +22,7 @@ constexpr double rest = 0.2;  ///< between two strokes [s]
 /// that the controllers do the same.
 class Planner {
  public:
-  explicit Planner(Move& move) : move_(move), axis_(move.axis) {
+  explicit Planner(FitMove& move) : move_(move), axis_(move.axis) {
     const double used = 0.8;
     const double torque =
         std::min(used * axis_.rated_torque, used * used * axis_.peak_torque - std::abs(axis_.drag));
@@ -125,7 +125,7 @@ class Planner {
     move_.chirp = {std::max(lowest, axis_.antiresonance / 3), to, 0.2 * axis_.rated_torque};
   }
 
-  Move& move_;
+  FitMove& move_;
   const MoveAxis& axis_;
   double acceleration_ = 0;  ///< [rpm/s]
   double gentle_ = 0;        ///< [rpm/s]
@@ -134,7 +134,7 @@ class Planner {
 bool is_play(const FitPath& path) { return path.row == "gear.backlash" || path.row == "gap"; }
 
 /// At least so often [Hz], by a whole part of a millisecond.
-double sampling_for(const Move& move) {
+double sampling_for(const FitMove& move) {
   constexpr double samples = 5;  // a period of the fastest
   const double wanted = move.chirp ? samples * move.chirp->to : 0;
   constexpr std::array usual = {1000.0, 2000.0, 5000.0};
@@ -146,22 +146,19 @@ double sampling_for(const Move& move) {
 
 double MoveSegment::turns() const { return (from + to) / 2 * seconds / minute_s; }
 
-double Move::seconds() const {
+double FitMove::seconds() const {
   return std::accumulate(segments.begin(), segments.end(), 0.0,
                          [](double sum, const auto& one) { return sum + one.seconds; });
 }
 
-std::vector<MoveStroke> strokes_of(const Move& move) {
+std::vector<MoveStroke> strokes_of(const FitMove& move) {
   std::vector<MoveStroke> strokes;
   double time = 0;
   double turns = 0;
-  double begin = 0;
-  for (std::size_t i = 0; i < move.segments.size(); ++i) {
-    const auto& one = move.segments[i];
+  for (const auto& one : move.segments) {
     if (one.from == 0 && one.to != 0) {
-      begin = time;
       turns = 0;
-      strokes.push_back({one.part, begin, one.to, one.seconds, 0, 0});
+      strokes.push_back({one.part, time, one.to, one.seconds, 0, 0});
     }
     if (one.from == one.to && one.to != 0) strokes.back().along = one.seconds;
     turns += one.turns();
@@ -190,12 +187,12 @@ MovePart part_for(const FitPath& path) {
   return MovePart::constant_speeds;
 }
 
-std::optional<Move> plan_move(FitPlan& plan, Problems& problems) {
+std::optional<FitMove> plan_move(FitPlan& plan, Problems& problems) {
   auto machine = read_question(plan, problems);
   if (!machine || !problems.empty()) return {};
   auto axis = move_axis(*machine, plan.question, problems);
   if (!axis) return {};
-  Move move;
+  FitMove move;
   move.axis = *axis;
   move.vary = plan.question.vary;
   std::set<MovePart> parts;

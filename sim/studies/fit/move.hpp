@@ -70,7 +70,7 @@ struct MoveChirp {
   double amplitude = 0;  ///< [N m]
 };
 
-struct Move {
+struct FitMove {
   MoveAxis axis;
   std::vector<FitPath> vary;
   std::vector<MoveSegment> segments;
@@ -81,12 +81,12 @@ struct Move {
 };
 
 /// The strokes that the segments are made of.
-std::vector<MoveStroke> strokes_of(const Move& move);
+std::vector<MoveStroke> strokes_of(const FitMove& move);
 /// Which part tells most about a value.
 MovePart part_for(const FitPath& path);
 
 /// Plans the move by the scenario and what is looked for. What is wrong goes to `problems`; there is no move
 /// then.
-std::optional<Move> plan_move(FitPlan& plan, Problems& problems);
+std::optional<FitMove> plan_move(FitPlan& plan, Problems& problems);
 
 }  // namespace drycut::sim::studies

@@ -159,10 +159,11 @@ std::optional<MoveAxis> move_axis(scenario::Scenario& machine, const FitQuestion
   axis.top_speed = std::min(of_10v * axis.speed_at_10v, rows.number("servo.rated_speed", 1e9) * units::rpm);
   if (axis.linear) set_quantity(machine, {axis.plant, "start"}, axis.start / mm);
   find_answer(machine, axis);
-  if (!std::isfinite(axis.inertia) || axis.inertia <= 0) {
+  constexpr double most = 0.6;  // of the peak; the rest is to move it
+  if (!std::isfinite(axis.inertia) || axis.inertia <= 0 || std::abs(axis.drag) > most * axis.peak_torque) {
     problems.push_back(
         {"fit.cannot-follow"_code, question.file.string(), 1, 1,
-         fmt::format("the motor of {} does not move it with twice its rated torque", axis.plant),
+         fmt::format("friction and weight leave the motor of {} no torque to move it with", axis.plant),
          "mass, friction and gear of the machine, or another motor"});
     return {};
   }

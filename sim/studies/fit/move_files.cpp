@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "base/output_file.hpp"
 #include "base/text.hpp"
@@ -40,7 +41,7 @@ std::string_view name_of(MovePart part) {
 }
 
 /// `extends` the user's scenario, of which only the machine stays.
-std::string machine_text(const FitPlan& plan, const Move& move, const std::filesystem::path& folder) {
+std::string machine_text(const FitPlan& plan, const FitMove& move, const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   const auto base = fs::relative(fs::absolute(plan.question.file), fs::absolute(folder));
   std::string text =
@@ -90,7 +91,7 @@ std::string machine_text(const FitPlan& plan, const Move& move, const std::files
 }
 
 /// The drive's chirp as the simulation has it: sines one after the other.
-std::string chirp_steps(const Move& move, double begin) {
+std::string chirp_steps(const FitMove& move, double begin) {
   if (!move.chirp) return "";
   constexpr int steps = 40;
   constexpr double late = 1;  // of the controller, at most
@@ -112,7 +113,7 @@ std::string chirp_steps(const Move& move, double begin) {
   return text;
 }
 
-std::string scenario_text(const Move& move, const MoveProgram& program) {
+std::string scenario_text(const FitMove& move, const MoveProgram& program) {
   const auto& axis = move.axis;
   constexpr double begin = 0.2;
   constexpr double most = 0.8;
@@ -155,8 +156,16 @@ std::string scenario_text(const Move& move, const MoveProgram& program) {
   return text;
 }
 
-/// Torque that a step of the recording may have, and the rest of what it needs.
-std::string recording_text(const Move& move) {
+/// Counts a turn of the motor that the chirp's motion asks for: five in its amplitude near the resonance.
+double counts_for(const MoveAxis& axis, const MoveChirp& chirp) {
+  constexpr double turn = 2 * std::numbers::pi;
+  constexpr double counts = 5;
+  const double omega = turn * chirp.to / 2;
+  return turn * counts * axis.inertia * omega * omega / chirp.amplitude;
+}
+
+/// What a recording needs.
+std::string recording_text(const FitMove& move) {
   const auto& axis = move.axis;
   constexpr double fine = 0.001;
   std::string text = fmt::format(
@@ -165,10 +174,15 @@ std::string recording_text(const Move& move) {
       "  motor torque, measured (not commanded), in steps of {:.2g} N m (0.1 % of rated) or finer\n"
       "  position of the motor, in counts of its encoder\n",
       std::ceil(move.seconds() + 1), 1000 / move.sampling, move.sampling, fine * axis.rated_torque);
-  if (move.chirp)
-    text += axis.linear ? "  position of the carriage, if there is a scale\n"
-                        : "  position of the load, if it has an encoder\n";
-  return text;
+  if (!move.chirp) return text;
+  const double wanted = counts_for(axis, *move.chirp);
+  if (axis.counts < wanted)
+    text += fmt::format(
+        "  but for the chirp the {:.6g} counts a turn are too coarse: position or speed of the drive's own "
+        "encoder,\n  {:.2g} counts a turn or more\n",
+        axis.counts, wanted);
+  return text + (axis.linear ? "  position of the carriage, if there is a scale\n"
+                             : "  position of the load, if it has an encoder\n");
 }
 
 }  // namespace
@@ -191,7 +205,7 @@ std::string_view words_of(MovePart part) {
   return "a chirp of torque on a slow motion: stiffness, damping, play";
 }
 
-std::string move_text(const Move& move) {
+std::string move_text(const FitMove& move) {
   const auto& axis = move.axis;
   std::string text = fmt::format("Commissioning move of {}, {:.1f} s, for the drive's own generator\n\n",
                                  axis.plant, move.seconds());
@@ -233,7 +247,7 @@ std::string move_text(const Move& move) {
   return text;
 }
 
-std::string move_summary(const Move& move) {
+std::string move_summary(const FitMove& move) {
   std::string text =
       fmt::format("{} in {:.1f} s\n", counted(std::ssize(strokes_of(move)), "stroke"), move.seconds());
   for (const auto& path : move.vary) text += fmt::format("{}: {}\n", path.text(), words_of(part_for(path)));
@@ -243,7 +257,7 @@ std::string move_summary(const Move& move) {
   return text;
 }
 
-std::string move_table(const Move& move) {
+std::string move_table(const FitMove& move) {
   const auto& axis = move.axis;
   std::string text = fmt::format("time [s],speed [rpm],speed [{0}/s],position [{0}],part\n", axis.unit);
   double time = 0;
@@ -261,7 +275,7 @@ std::string move_table(const Move& move) {
   return text;
 }
 
-void write_move(const FitPlan& plan, const Move& move, OutputFolder& folder) {
+void write_move(const FitPlan& plan, const FitMove& move, OutputFolder& folder) {
   const auto write = [&](const std::string& name, const std::string& text) {
     write_file(folder.add(name), text);
   };

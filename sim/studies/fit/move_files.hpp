@@ -17,13 +17,13 @@ inline const std::vector<std::string> move_files = {
 std::string_view words_of(MovePart part);
 
 /// The move for the drive's own generator, and what to record: move.txt.
-std::string move_text(const Move& move);
+std::string move_text(const FitMove& move);
 /// What a terminal is told.
-std::string move_summary(const Move& move);
+std::string move_summary(const FitMove& move);
 /// Time, speed of the motor, position and the part at each end of a segment; a chirp's torque is not in it.
-std::string move_table(const Move& move);
+std::string move_table(const FitMove& move);
 
 /// Writes all of it. Throws std::runtime_error if something cannot be written.
-void write_move(const FitPlan& plan, const Move& move, OutputFolder& folder);
+void write_move(const FitPlan& plan, const FitMove& move, OutputFolder& folder);
 
 }  // namespace drycut::sim::studies

@@ -13,7 +13,7 @@ namespace drycut::sim::studies {
 namespace {
 
 /// What each program says of the chirp, "" without one.
-std::string chirp_remark(const Move& move, std::string_view remark) {
+std::string chirp_remark(const FitMove& move, std::string_view remark) {
   if (!move.chirp) return "";
   return fmt::format(
       "{0} The slow strokes at the end carry the chirp: the drive's generator adds it, no controller can. "
@@ -41,7 +41,7 @@ struct QmoveUnits {
   }
 };
 
-QmoveUnits qmove_units(const Move& move) {
+QmoveUnits qmove_units(const FitMove& move) {
   const auto& axis = move.axis;
   double farthest = std::max(std::abs(axis.low), std::abs(axis.high));
   double place = axis.start;
@@ -65,7 +65,7 @@ QmoveUnits qmove_units(const Move& move) {
   return units;
 }
 
-std::string qmove_configuration(const Move& move) {
+std::string qmove_configuration(const FitMove& move) {
   return fmt::format(
       ";-----\n; Commissioning move of {}: see plan.mod\n;-----\n"
       "CONST\n\nSYSTEM\n\nGLOBAL\n"
@@ -81,7 +81,7 @@ std::string qmove_configuration(const Move& move) {
       move.axis.plant);
 }
 
-std::string qmove_module(const Move& move) {
+std::string qmove_module(const FitMove& move) {
   const auto& axis = move.axis;
   const auto units = qmove_units(move);
   const auto strokes = strokes_of(move);
@@ -130,7 +130,7 @@ std::vector<std::string> numbers(const std::vector<MoveStroke>& strokes, auto va
 }
 
 /// The highest speed and acceleration of all strokes, of the load [unit/s, unit/s2].
-std::pair<double, double> highest(const Move& move) {
+std::pair<double, double> highest(const FitMove& move) {
   double speed = 0;
   double acceleration = 0;
   for (const auto& stroke : strokes_of(move)) {
@@ -141,7 +141,7 @@ std::pair<double, double> highest(const Move& move) {
   return {speed, acceleration};
 }
 
-std::string st_program(const Move& move) {
+std::string st_program(const FitMove& move) {
   const auto& axis = move.axis;
   const auto strokes = strokes_of(move);
   constexpr double places = 1e4;
@@ -191,14 +191,14 @@ double top_speed(const std::vector<MoveStroke>& strokes) {
 
 /// A turn of the motor: what its electronic gear has, or fewer, where the top speed is too fast for the
 /// output.
-double pulses_for(const Move& move) {
+double pulses_for(const FitMove& move) {
   constexpr double fastest = 200000;  // [Hz]
   constexpr double round = 100;
   const double most = std::floor(fastest / (top_speed(strokes_of(move)) / minute_s) / round) * round;
   return std::min(*move.axis.pulses_per_turn, most);
 }
 
-std::string il_program(const Move& move) {
+std::string il_program(const FitMove& move) {
   const auto strokes = strokes_of(move);
   const double pulses = pulses_for(move);
   const double top = top_speed(strokes);
@@ -233,7 +233,7 @@ std::string il_program(const Move& move) {
 
 }  // namespace
 
-MoveProgram qmove_program(const Move& move) {
+MoveProgram qmove_program(const FitMove& move) {
   const auto& plant = move.axis.plant;
   MoveProgram program{"qmove",
                       "QEM QMOVE, EANPOS",
@@ -248,7 +248,7 @@ MoveProgram qmove_program(const Move& move) {
   return program;
 }
 
-MoveProgram plcopen_program(const Move& move) {
+MoveProgram plcopen_program(const FitMove& move) {
   const auto& axis = move.axis;
   const auto [speed, acceleration] = highest(move);
   constexpr double room = 1.05;
@@ -274,7 +274,7 @@ MoveProgram plcopen_program(const Move& move) {
   return program;
 }
 
-MoveProgram lx3vp_program(const Move& move) {
+MoveProgram lx3vp_program(const FitMove& move) {
   MoveProgram program{"lx3vp",
                       "Wecon LX3VP, pulses",
                       {{"plan.il", il_program(move)}},

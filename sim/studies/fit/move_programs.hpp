@@ -18,9 +18,9 @@ struct MoveProgram {
 };
 
 /// Its texts are of files that lie beside the scenario.
-MoveProgram qmove_program(const Move& move);
-MoveProgram plcopen_program(const Move& move);
+MoveProgram qmove_program(const FitMove& move);
+MoveProgram plcopen_program(const FitMove& move);
 /// Only for an axis whose servo can take pulses.
-MoveProgram lx3vp_program(const Move& move);
+MoveProgram lx3vp_program(const FitMove& move);
 
 }  // namespace drycut::sim::studies

@@ -53,6 +53,7 @@ std::string why_not_known(const FitPath& path, const std::vector<FitPath>& with,
   if (with.empty() && !with_offset)
     return fmt::format("hardly anything in the recording depends on it; record {}", move);
   std::vector<std::string> names;
+  names.reserve(with.size() + 1);
   for (const auto& other : with) names.push_back(other.row);
   if (with_offset) names.emplace_back("the offset of the torque");
   const bool one_way = std::ranges::all_of(recordings, &ReplaySeries::one_way);
