@@ -128,8 +128,9 @@ Verb fit_verb() {
       "play. Replays the recorded torque in the simulated machine and compares the motion.\n"
       "Exit status: 0 all values are known, 1 one is not, or the cross test is above --limit, 2 bad input,\n"
       "3 the machine cannot follow the recording, or a result could not be written",
-      {"drycut fit line.yaml --recording move.yaml --vary plants.axis.mass",
-       "  --vary plants.axis.carriage_friction.coulomb --vary plants.axis.carriage_friction.viscous"},
+      {"drycut fit line.yaml --plan --vary plants.axis.mass",
+       "drycut fit line.yaml --recording move.yaml --vary plants.axis.mass",
+       "  --vary plants.axis.carriage_friction.coulomb"},
       {"scenario", {FileKind::scenario}},
       fit_options};
 }

@@ -14,9 +14,9 @@ namespace drycut::sim::studies {
 namespace {
 
 /// The rows of one plant, by name.
-class Rows {
+class PlantRows {
  public:
-  Rows(scenario::Scenario& scenario, const std::string& plant) {
+  PlantRows(scenario::Scenario& scenario, const std::string& plant) {
     const auto entry =
         std::ranges::find(scenario.plants, plant, [](const auto& one) { return one.name.text; });
     rows_ = entry->definition->parameters();
@@ -56,7 +56,7 @@ constexpr double turn = 2 * std::numbers::pi;
 constexpr double degrees = 360;
 
 /// Where a carriage may go, with margins; false if it has no room.
-bool find_travel(const Rows& rows, MoveAxis& axis) {
+bool find_travel(const PlantRows& rows, MoveAxis& axis) {
   const auto low = std::max(rows.number("travel_min", -1e6), rows.number("limit_min", -1e6)) * mm;
   const auto high = std::min(rows.number("travel_max", 1e6), rows.number("limit_max", 1e6)) * mm;
   constexpr double margin = 0.05;
@@ -67,7 +67,7 @@ bool find_travel(const Rows& rows, MoveAxis& axis) {
 }
 
 /// Antiresonance and resonance of two masses, as the scenario has their spring.
-void find_resonance(const Rows& rows, MoveAxis& axis) {
+void find_resonance(const PlantRows& rows, MoveAxis& axis) {
   const double ratio = rows.number("gear.ratio", 1);
   double compliance = 0;  // at the motor
   if (const double gear = rows.number("gear.stiffness", 0); gear > 0) compliance += ratio * ratio / gear;
@@ -81,7 +81,7 @@ void find_resonance(const Rows& rows, MoveAxis& axis) {
   axis.resonance = std::sqrt((1 / rotor + 1 / load) / compliance) / turn;
 }
 
-void find_stribeck_speed(const Rows& rows, const std::vector<FitPath>& vary, MoveAxis& axis) {
+void find_stribeck_speed(const PlantRows& rows, const std::vector<FitPath>& vary, MoveAxis& axis) {
   double lowest = 0;
   for (const auto& path : vary) {
     const auto group = path.row.substr(0, path.row.rfind('.') + 1);
@@ -126,7 +126,7 @@ std::optional<MoveAxis> move_axis(scenario::Scenario& machine, const FitQuestion
   // Torque and speed limits are gone from a source of torque: they are read from the scenario itself.
   Problems none;
   auto original = scenario::read_scenario_text(question.text, question.file, question.set, none);
-  const Rows rows(original, question.plant);
+  const PlantRows rows(original, question.plant);
   MoveAxis axis;
   axis.plant = question.plant;
   if (rows.find("place") != nullptr) axis.web = rows.word("web", "");
