@@ -111,31 +111,35 @@ std::vector<ReplaySeries> read_recordings(const std::vector<std::filesystem::pat
 
 }  // namespace
 
+std::optional<scenario::Scenario> read_question(FitPlan& plan, Problems& problems) {
+  auto& question = plan.question;
+  question.file = plan.request.scenario;
+  question.set = plan.request.set;
+  const auto text = read_file(question.file, problems);
+  if (!text) return {};
+  question.text = *text;
+  auto machine = scenario::read_scenario_text(question.text, question.file, question.set, problems);
+  if (!problems.empty()) return {};
+  read_vary(plan, machine, problems);
+  if (question.plant.empty()) return {};
+  strip(machine);
+  if (make_source_of_torque(machine, question.plant)) return machine;
+  problems.push_back(option_problem("fit.no-servo"_code, "--vary",
+                                    fmt::format("{} has no servo", question.plant),
+                                    "a plant with a servo, whose torque was recorded"));
+  return {};
+}
+
 FitPlan plan_fit(const FitRequest& request, Problems& problems) {
   FitPlan plan;
   plan.request = request;
-  auto& question = plan.question;
-  question.file = request.scenario;
-  question.set = request.set;
-  const auto text = read_file(request.scenario, problems);
-  if (!text) return plan;
-  question.text = *text;
-  auto machine = scenario::read_scenario_text(question.text, question.file, question.set, problems);
-  if (!problems.empty()) return plan;
-  read_vary(plan, machine, problems);
-  if (request.recordings.empty())
+  auto machine = read_question(plan, problems);
+  if (request.recordings.empty() && !plan.question.text.empty())
     problems.push_back(option_problem("fit.no-recording"_code, "--recording", "no recording is named",
-                                      "its YAML; drycut import writes one"));
-  if (question.plant.empty()) return plan;
-  strip(machine);
-  if (!make_source_of_torque(machine, question.plant)) {
-    problems.push_back(option_problem("fit.no-servo"_code, "--vary",
-                                      fmt::format("{} has no servo", question.plant),
-                                      "a plant with a servo, whose torque was recorded"));
-    return plan;
-  }
-  plan.recordings = read_recordings(request.recordings, plan, machine, true, problems);
-  plan.tests = read_recordings(request.tests, plan, machine, false, problems);
+                                      "its YAML; drycut import writes one, --plan proposes a move"));
+  if (!machine) return plan;
+  plan.recordings = read_recordings(request.recordings, plan, *machine, true, problems);
+  plan.tests = read_recordings(request.tests, plan, *machine, false, problems);
   return plan;
 }
 

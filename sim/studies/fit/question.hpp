@@ -38,6 +38,10 @@ struct FitPlan {
   std::vector<Finding> findings;   ///< what is doubtful in the recordings
 };
 
+/// Reads the scenario, finds what is looked for in it, and makes it a source of torque; no value if there is
+/// something wrong.
+std::optional<scenario::Scenario> read_question(FitPlan& plan, Problems& problems);
+
 /// Reads scenario and recordings, and finds what is looked for in them. What is wrong goes to `problems`, all
 /// of it; the plan is not to be used then.
 FitPlan plan_fit(const FitRequest& request, Problems& problems);

@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "base/units.hpp"
 #include "sim/loop/names.hpp"
@@ -261,6 +262,7 @@ Plausible measure_answer(const scenario::Scenario& scenario, const ReplaySeries&
   // Two torques, both far above friction; what the speeds differ by is the inertia's.
   constexpr double until = 0.03;
   const double h = seconds(scenario.scene.step);
+  double first = 0;
   double speeds = 0;
   double moved = 0;
   double turned = 0;
@@ -276,11 +278,12 @@ Plausible measure_answer(const scenario::Scenario& scenario, const ReplaySeries&
       angle += speed() / units::rpm * h;
       end = channel.now(h);
     }
-    speeds = speed() / units::rpm - speeds;
+    first = std::exchange(speeds, speed() / units::rpm - speeds);
     moved = end - begin - moved;
     turned = angle - turned;
   }
-  return {3 * largest * until / speeds, moved / turned};
+  const double inertia = 3 * largest * until / speeds;
+  return {inertia, moved / turned, 3 * largest - inertia * first / until};
 }
 
 std::optional<Replayed> replay(const scenario::Scenario& scenario, const ReplaySeries& series,

@@ -48,6 +48,7 @@ std::optional<ReplaySeries> replay_series(const recordings::Recording& recording
 struct Plausible {
   double inertia = 0;  ///< at the motor [kg m2]
   double scale = 0;    ///< of the followed channel over the motor's angle [unit/rad]
+  double drag = 0;     ///< torque that dry friction and weight take, forwards [N m]
 };
 
 struct ReplaySetup {

@@ -11,10 +11,6 @@
 
 namespace drycut::sim::studies {
 
-namespace {
-
-enum class Shows { in_acceleration, in_direction, in_speed, at_low_speed, in_bending, in_place, in_all };
-
 Shows shows(const FitPath& path) {
   const auto ends = [&](std::string_view end) { return path.row.ends_with(end); };
   if (ends("mass") || ends("inertia")) return Shows::in_acceleration;
@@ -26,6 +22,8 @@ Shows shows(const FitPath& path) {
   if (path.row.starts_with("unbalance") || path.row == "inclination") return Shows::in_place;
   return Shows::in_all;
 }
+
+namespace {
 
 const char* move_for(Shows what) {
   switch (what) {
@@ -55,6 +53,7 @@ std::string why_not_known(const FitPath& path, const std::vector<FitPath>& with,
   if (with.empty() && !with_offset)
     return fmt::format("hardly anything in the recording depends on it; record {}", move);
   std::vector<std::string> names;
+  names.reserve(with.size() + 1);
   for (const auto& other : with) names.push_back(other.row);
   if (with_offset) names.emplace_back("the offset of the torque");
   const bool one_way = std::ranges::all_of(recordings, &ReplaySeries::one_way);
