@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "sim/record/verdict.hpp"
 #include "sim/report/report.hpp"
+#include "sim/studies/compare/overlays.hpp"
 
 namespace drycut::sim::studies {
 
@@ -19,12 +20,6 @@ constexpr double percent = 100;
 
 std::string with_unit(const std::string& name, const std::string& unit) {
   return fmt::format("{} [{}]", name, unit.empty() ? "-" : unit);
-}
-
-std::string file_name(std::string channel) {
-  std::ranges::replace_if(
-      channel, [](unsigned char c) { return std::isalnum(c) == 0 && c != '_'; }, '_');
-  return channel;
 }
 
 /// Every so many of a channel's instants, the worst one among them.
@@ -46,7 +41,7 @@ renders::Plot time_plot(const MeasuredChannel& channel) {
   const auto instants = drawn_instants(channel);
   const auto times = of_instants(channel.times, instants);
   renders::Plot plot;
-  plot.name = "measured_" + file_name(channel.name);
+  plot.name = "measured_" + as_file_name(channel.name);
   plot.title = channel.name + ": measured and simulated";
   plot.x_label = "time in the run [s]";
   plot.panel_height = 240;
@@ -69,7 +64,7 @@ renders::Plot motion_plot(const MeasuredChannel& channel, const MeasuredChannel:
                           const std::string& kind) {
   const auto ways = channel.speed ? directions_of(*channel.speed) : std::vector<int>(channel.times.size(), 0);
   renders::Plot plot;
-  plot.name = "residual_" + file_name(channel.name) + "_over_" + kind;
+  plot.name = "residual_" + as_file_name(channel.name) + "_over_" + kind;
   plot.title = fmt::format("{}: residual over {}", channel.name, motion.name);
   plot.x_label = with_unit(motion.name, motion.unit);
   renders::Panel panel{"", with_unit("simulated less measured", channel.unit), {}, {{"", 0, 0}}, {}};

@@ -162,7 +162,7 @@ std::optional<MoveAxis> move_axis(scenario::Scenario& machine, const FitQuestion
   constexpr double most = 0.6;  // of the peak; the rest is to move it
   if (!std::isfinite(axis.inertia) || axis.inertia <= 0 || std::abs(axis.drag) > most * axis.peak_torque) {
     problems.push_back(
-        {"fit.cannot-follow"_code, question.file.string(), 1, 1,
+        {"fit.no-torque-left"_code, question.file.string(), 1, 1,
          fmt::format("friction and weight leave the motor of {} no torque to move it with", axis.plant),
          "mass, friction and gear of the machine, or another motor"});
     return {};

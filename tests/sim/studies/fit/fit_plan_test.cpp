@@ -197,7 +197,7 @@ TEST_F(FitPlanned, WhatItCannotPlanIsRefused) {
   // 20 t on a vertical screw of 20 mm: no torque of the motor holds them.
   EXPECT_FALSE(planned(request_for("plants: {axis: {type: linear_axis, mass: 20 t, inclination: 90 deg}}",
                                    {"plants.axis.mass"})));
-  EXPECT_THAT(problems, Contains(Field(&Problem::code, "fit.cannot-follow"_code)));
+  EXPECT_THAT(problems, Contains(Field(&Problem::code, "fit.no-torque-left"_code)));
 }
 
 }  // namespace
