@@ -9,6 +9,7 @@
 
 #include "base/state_archive.hpp"
 #include "sim/loop/files_read.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
 
