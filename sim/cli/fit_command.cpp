@@ -35,6 +35,9 @@ int plan(const FitOptions& options, Problems& problems) {
       problems.push_back({"option.together"_code, option, 1, 1,
                           "a plan is made without recordings, for there are none yet",
                           "--plan, or recordings"});
+  if (options.request.closed)
+    problems.push_back({"option.together"_code, "--closed", 1, 1, "a plan is a move, and closes no loop",
+                        "--plan, or --closed"});
   const auto move = studies::plan_move(plan, problems);
   std::optional<OutputFolder> folder;
   if (problems.empty()) folder.emplace(options.out, "fit plan", studies::move_files, problems);
@@ -103,6 +106,9 @@ void fit_options(CLI::App& fit, int& status) {
   fit.add_option("--test", options.request.tests,
                  "Recording that the values found must explain, too; may be repeated")
       ->allow_extra_args(false);
+  fit.add_flag("--closed", options.request.closed,
+               "The whole scenario runs, with drive's loops, controller and inputs; else the recorded torque "
+               "drives the machine alone");
   fit.add_flag(
       "--plan", options.plan,
       "Without recordings: the move to record, as programs of the controllers, scenarios that run them, "
@@ -125,7 +131,8 @@ Verb fit_verb() {
   return {
       "fit",
       "Learn values of a machine from recordings of the real one: inertia or mass, friction, stiffness,\n"
-      "play. Replays the recorded torque in the simulated machine and compares the motion.\n"
+      "play. Replays the recorded torque in the simulated machine and compares the motion, or with --closed\n"
+      "runs the scenario and compares torque and motion.\n"
       "Exit status: 0 all values are known, 1 one is not, or the cross test is above --limit, 2 bad input,\n"
       "3 the machine cannot follow the recording, or a result could not be written",
       {"drycut fit line.yaml --plan --vary plants.axis.mass",

@@ -13,17 +13,8 @@
 
 namespace drycut::sim::studies {
 
-/// A machine and what is looked for in it.
-struct FitQuestion {
-  std::filesystem::path file;
-  std::string text;  ///< of the scenario
-  std::vector<scenario::Override> set;
-  std::string plant;          ///< whose motor was recorded
-  std::vector<FitPath> vary;  ///< its values that are looked for
-};
-
 /// Replays sets of values in machines of its own, on several threads. A set has the question's values [SI],
-/// then the offset of the torque, then the delays of each recording.
+/// then the offset of the torque, then delays and shares of each recording.
 class FitBench {
  public:
   /// Both outlive it. `standstill`: see ReplaySetup; it is so where what is looked for shows there. Throws
@@ -44,6 +35,10 @@ class FitBench {
   [[nodiscard]] std::size_t torque_delay(std::size_t recording) const { return torque_delays_[recording]; }
   [[nodiscard]] std::optional<std::size_t> load_delay(std::size_t recording) const {
     return load_delays_[recording];
+  }
+  /// The share of an input of a recording that acts, where that is looked for: of a force or torque.
+  [[nodiscard]] std::optional<std::size_t> share(std::size_t recording, std::size_t input) const {
+    return shares_[recording][input];
   }
   [[nodiscard]] const FitQuestion& question() const { return question_; }
   [[nodiscard]] const std::vector<ReplaySeries>& recordings() const { return recordings_; }
@@ -70,6 +65,7 @@ class FitBench {
   std::vector<std::string> units_;
   std::vector<std::size_t> torque_delays_;
   std::vector<std::optional<std::size_t>> load_delays_;
+  std::vector<std::vector<std::optional<std::size_t>>> shares_;
   std::vector<Plausible> about_;  ///< of each recording
   std::mutex mutex_;
   std::vector<std::unique_ptr<scenario::Scenario>> free_;

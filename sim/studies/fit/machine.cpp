@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
+
+#include "sim/loop/simulation.hpp"
+#include "sim/studies/bode/loop.hpp"
 
 namespace drycut::sim::studies {
 
@@ -41,7 +45,16 @@ bool set_quantity(scenario::Scenario& scenario, const FitPath& path, double si) 
   return true;
 }
 
+void strip_onlookers(scenario::Scenario& scenario) {
+  scenario.record.channels.clear();
+  scenario.checks.clear();
+  scenario.pictures = {};
+  scenario.opcua = {};
+  scenario.faults = {};
+}
+
 void strip(scenario::Scenario& scenario) {
+  strip_onlookers(scenario);
   scenario.controller.reset();
   scenario.wiring.clear();
   scenario.filters.clear();
@@ -49,11 +62,6 @@ void strip(scenario::Scenario& scenario) {
   scenario.timeline.clear();
   scenario.disturbances.clear();
   scenario.inputs.clear();
-  scenario.record.channels.clear();
-  scenario.checks.clear();
-  scenario.pictures = {};
-  scenario.opcua = {};
-  scenario.faults = {};
 }
 
 namespace {
@@ -119,6 +127,15 @@ bool is_sound(const scenario::Scenario& scenario) {
              objection.parameter.find("friction.") != std::string::npos;
     });
   });
+}
+
+std::unique_ptr<loop::Simulation> machine_of(const scenario::Scenario& scenario, bool closed) {
+  Problems problems;
+  auto simulation = std::make_unique<loop::Simulation>(scenario, problems);
+  if (!problems.empty()) throw std::runtime_error(problems.front().what);
+  simulation->keep_nothing();
+  if (!closed) disarm(*simulation);
+  return simulation;
 }
 
 }  // namespace drycut::sim::studies

@@ -80,6 +80,13 @@ void doubt_commanded(const recordings::RecordingFile& yaml, const std::string& p
   }
 }
 
+/// Nothing makes a closed loop follow the recording: where its motion is another one counts.
+void follow_motion(ReplaySeries& series) {
+  series.load = series.motion;
+  series.load->channel = series.channel;
+  series.load_kind = series.kind;
+}
+
 bool looks_for_springs(const FitQuestion& question) {
   return std::ranges::any_of(question.vary, [](const FitPath& path) {
     return path.row.starts_with("gear.") || path.row.starts_with("nut.");
@@ -96,9 +103,10 @@ std::vector<ReplaySeries> read_recordings(const std::vector<std::filesystem::pat
       doubt_commanded(yaml, plan.question.plant, plan.findings);
       auto recording = recordings::load(yaml, own, plan.findings);
       if (own.empty()) {
-        if (auto series = replay_series(recording, file, plan.question.plant, machine, own)) {
+        if (auto series = replay_series(recording, file, plan.question, machine, own)) {
           // Where the load is tells about what is between motor and load, and of nothing else.
           if (!looks_for_springs(plan.question)) series->load.reset();
+          if (plan.question.closed && !series->load) follow_motion(*series);
           all.push_back(std::move(*series));
         }
         if (are_sources) plan.sources.push_back({file, recording.file, recording.checksum, recording.rows});
@@ -115,6 +123,7 @@ std::optional<scenario::Scenario> read_question(FitPlan& plan, Problems& problem
   auto& question = plan.question;
   question.file = plan.request.scenario;
   question.set = plan.request.set;
+  question.closed = plan.request.closed;
   const auto text = read_file(question.file, problems);
   if (!text) return {};
   question.text = *text;
@@ -122,6 +131,10 @@ std::optional<scenario::Scenario> read_question(FitPlan& plan, Problems& problem
   if (!problems.empty()) return {};
   read_vary(plan, machine, problems);
   if (question.plant.empty()) return {};
+  if (question.closed) {
+    strip_onlookers(machine);
+    return machine;
+  }
   strip(machine);
   if (make_source_of_torque(machine, question.plant)) return machine;
   problems.push_back(option_problem("fit.no-servo"_code, "--vary",

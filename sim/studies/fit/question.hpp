@@ -18,6 +18,7 @@ struct FitRequest {
   std::vector<std::string> vary;                  ///< "plants.axis.mass"
   std::optional<double> limit;                    ///< of the torque that a cross test leaves unexplained [%]
   std::vector<scenario::Override> set;
+  bool closed = false;  ///< the scenario runs with its loops and inputs
   int jobs = 1;
 };
 

@@ -81,7 +81,9 @@ AtCutoff solve_at(FitBench& bench, double cutoff, const std::vector<Set>& starts
   const auto tried = bench.replay(starts, cutoff);
   const auto sound = std::ranges::find_if(tried, is_whole);
   if (sound == tried.end())
-    throw std::runtime_error("the machine of the scenario cannot follow the recorded motion");
+    throw std::runtime_error(bench.question().closed
+                                 ? "the loop of the scenario does not come through the recording"
+                                 : "the machine of the scenario cannot follow the recorded motion");
   double weight = load_weight(*sound);
   double whole = 0;
   std::size_t count = 0;
@@ -118,7 +120,7 @@ AtCutoff solve_at(FitBench& bench, double cutoff, const std::vector<Set>& starts
 }
 
 /// Where a search may begin: as the scenario has it, with springs four times as stiff and soft, and with the
-/// torque late or early by some samples.
+/// recording late or early by some samples.
 std::vector<Set> starts_of(const FitBench& bench) {
   const auto values = bench.start();
   std::vector<Set> starts = {values};
@@ -128,8 +130,12 @@ std::vector<Set> starts_of(const FitBench& bench) {
   }
   for (const int samples : {-6, -3, 3, 6}) {
     auto& other = starts.emplace_back(values);
-    for (std::size_t i = 0; i < bench.recordings().size(); ++i)
-      other[bench.torque_delay(i)] += samples * bench.recordings()[i].sampling;
+    for (std::size_t i = 0; i < bench.recordings().size(); ++i) {
+      const double late = samples * bench.recordings()[i].sampling;
+      other[bench.torque_delay(i)] += late;
+      // Against the input of a closed loop all of it may be late.
+      if (bench.question().closed) other[*bench.load_delay(i)] += late;
+    }
   }
   return starts;
 }
@@ -241,6 +247,11 @@ std::vector<FitRung> rungs_for(const FitQuestion& question) {
     if (!varies(group + ".breakaway"))
       rungs.push_back({"more friction at low speed (Stribeck)",
                        {path_of(group + ".breakaway"), path_of(group + ".stribeck_speed")}});
+  }
+  for (const auto& path : question.vary) {
+    constexpr std::string_view viscous = ".viscous";
+    if (!path.row.ends_with(viscous) || varies(path.row + "_backward")) continue;
+    rungs.push_back({"viscous friction that differs by direction", {path_of(path.row + "_backward")}});
   }
   if (!varies("unbalance"))
     rungs.push_back({"unbalance of what turns", {path_of("unbalance"), path_of("unbalance_angle")}});
@@ -359,13 +370,49 @@ void tell_values(const FitBench& bench, const Solved& solved, FitFound& found) {
   found.torque_offset = value_of(bench.torque_offset());
 }
 
+/// A channel of a recording, where there are several with its name.
+std::string name_in(const FitBench& bench, std::size_t recording, const std::string& channel) {
+  const auto& all = bench.recordings();
+  return all.size() > 1 ? all[recording].name() + ": " + channel : channel;
+}
+
+/// A force that was recorded may be in the torque already.
+void tell_shares(const FitBench& bench, const AtCutoff& chosen, FitFound& found) {
+  for (std::size_t i = 0; i < bench.recordings().size(); ++i) {
+    const auto& inputs = bench.recordings()[i].inputs;
+    for (std::size_t j = 0; j < inputs.size(); ++j) {
+      const auto share = bench.share(i, j);
+      if (!share) continue;
+      const auto& estimate = chosen.solution.estimates[*share];
+      auto& told = found.inputs.emplace_back();
+      told.path = name_in(bench, i, inputs[j].channel);
+      told.known = estimate.known;
+      told.before = 1;
+      told.used = estimate.value;
+      if (estimate.known != FitKnown::yes) {
+        told.why = "it hardly changes, or as another value does";
+        continue;
+      }
+      told.value = estimate.value;
+      told.low = estimate.low;
+      told.high = estimate.high;
+      constexpr double near = 0.05;
+      if (estimate.low <= 1 + near && estimate.high >= 1 - near) continue;
+      found.tell({"fit.disturbance"_code,
+                  fmt::format("{} acts by {:.3g} of what was recorded ({:.3g} .. {:.3g}){}", told.path,
+                              estimate.value, estimate.low, estimate.high,
+                              estimate.low <= near && estimate.high >= -near
+                                  ? ": not at all, or it is in the recorded torque already"
+                                  : ": its scale or sign is another, or some of it is in the torque already"),
+                  Finding::Role::warning});
+    }
+  }
+}
+
 void tell_delays(const FitBench& bench, const AtCutoff& chosen, FitFound& found) {
-  const bool several = bench.recordings().size() > 1;
   for (std::size_t i = 0; i < bench.recordings().size(); ++i) {
     const auto& one = bench.recordings()[i];
-    const auto key = [&](const std::string& channel) {
-      return several ? one.name + ": " + channel : channel;
-    };
+    const auto key = [&](const std::string& channel) { return name_in(bench, i, channel); };
     found.delays[key(one.plant + ".motor.torque")] = chosen.values[bench.torque_delay(i)];
     if (const auto load = bench.load_delay(i)) found.delays[key(one.load->channel)] = chosen.values[*load];
   }
@@ -425,15 +472,17 @@ FitFound fit(const FitQuestion& question, const std::vector<ReplaySeries>& recor
   found.relative_error = error_of(found.replayed);
   tell_values(bench, solved, found);
   tell_delays(bench, solved.chosen(), found);
+  tell_shares(bench, solved.chosen(), found);
   widen(found);
   tell_unknown(found);
   constexpr double much = 0.1;
   if (found.relative_error > much)
-    found.tell({"fit.unexplained"_code,
-                fmt::format("{:.3g} % of the torque is left unexplained: something acts on the machine that the "
-                            "model or the recording does not have, and the limits know nothing of it",
-                            found.relative_error * 100),
-                Finding::Role::warning});
+    found.tell(
+        {"fit.unexplained"_code,
+         fmt::format("{:.3g} % of the torque is left unexplained: something acts on the machine that the "
+                     "model or the recording does not have, and the limits know nothing of it",
+                     found.relative_error * 100),
+         Finding::Role::warning});
   if (by_direction)
     found.tell(
         {"fit.offset-or-direction"_code,
@@ -454,6 +503,10 @@ void cross_test(const FitQuestion& question, const std::vector<ReplaySeries>& te
     for (std::size_t i = 0; i < found.parameters.size(); ++i)
       bench.fix(i, scenario::to_si(found.parameters[i].used, found.parameters[i].unit));
     bench.fix(bench.torque_offset(), found.torque_offset.used);
+    for (std::size_t i = 0; i < test.inputs.size(); ++i)
+      for (const auto& input : found.inputs)
+        if (bench.share(0, i) && input.path == test.inputs[i].channel)
+          bench.fix(*bench.share(0, i), input.used);
     const auto solved = solve_at(bench, found.cutoff, starts_of(bench));
     auto replayed = replayed_with(bench, solved);
     found.cross_error = std::max(found.cross_error.value_or(0), error_of(replayed));

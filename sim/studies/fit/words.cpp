@@ -98,14 +98,14 @@ std::vector<Finding> doubts_of(const std::vector<ReplaySeries>& recordings) {
             "fit.coarse"_code,
             fmt::format("{}: {} has {:.0f} steps from its least to its largest value; record it "
                         "with a finer resolution",
-                        one.name, series->channel, steps),
+                        one.name(), series->channel, steps),
             Finding::Role::warning);
       if (!series->clipped.empty())
         found.emplace_back(
             "fit.clipped"_code,
             fmt::format("{}: {} samples of {} are at the limit of what could be recorded; what "
                         "happened around them was left out",
-                        one.name, series->clipped.size(), series->channel),
+                        one.name(), series->clipped.size(), series->channel),
             Finding::Role::warning);
     }
     constexpr double almost = 0.14;
@@ -114,10 +114,10 @@ std::vector<Finding> doubts_of(const std::vector<ReplaySeries>& recordings) {
           "fit.slow"_code,
           fmt::format("{}: the torque changes as fast as it was sampled, every {:.3g} ms; record "
                       "at a higher rate, or move more gently",
-                      one.name, one.sampling * 1000),
+                      one.name(), one.sampling * 1000),
           Finding::Role::warning);
     for (const auto& channel : one.unused)
-      found.emplace_back("fit.unused-channel"_code, fmt::format("{}: {} is not used", one.name, channel));
+      found.emplace_back("fit.unused-channel"_code, fmt::format("{}: {} is not used", one.name(), channel));
   }
   return found;
 }
