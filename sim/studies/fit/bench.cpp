@@ -92,7 +92,9 @@ void FitBench::collect_unknowns() {
   }
 }
 
-void FitBench::fix(std::size_t number, double value) { unknowns_[number] = {value, value, value}; }
+FitUnknown FitBench::fix(std::size_t number, double value) {
+  return std::exchange(unknowns_[number], {value, value, value});
+}
 
 std::vector<double> FitBench::start() const {
   std::vector<double> start;

@@ -24,8 +24,9 @@ class FitBench {
   [[nodiscard]] bool standstill() const { return standstill_; }
 
   [[nodiscard]] const std::vector<FitUnknown>& unknowns() const { return unknowns_; }
-  /// Holds a number of the sets at a value.
-  void fix(std::size_t number, double value);
+  /// Holds a number of the sets at a value; returns what it was.
+  FitUnknown fix(std::size_t number, double value);
+  void release(std::size_t number, const FitUnknown& unknown) { unknowns_[number] = unknown; }
   /// The scenario's values, and no error of the recordings.
   [[nodiscard]] std::vector<double> start() const;
   /// How many numbers of a set are the question's.

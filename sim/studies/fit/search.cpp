@@ -108,6 +108,22 @@ std::size_t best_of(const std::vector<AtCutoff>& tried, std::size_t values) {
   return best;
 }
 
+/// The fit without delays where it explains the recordings as well: slow motions hardly tell them, and then
+/// they bend the other values.
+AtCutoff simplest(FitBench& bench, AtCutoff with) {
+  std::vector<std::pair<std::size_t, FitUnknown>> held;
+  for (std::size_t i = 0; i < bench.recordings().size(); ++i)
+    for (const auto number : {std::optional(bench.torque_delay(i)), bench.load_delay(i)})
+      if (number) held.emplace_back(*number, bench.fix(*number, 0));
+  auto start = with.values;
+  for (const auto& [number, was] : held) start[number] = 0;
+  auto without = solve_at(bench, with.cutoff, {start});
+  for (const auto& [number, was] : held) bench.release(number, was);
+  constexpr double as_well = 0.95;
+  const double error = error_of(replayed_with(bench, without));
+  return error_of(replayed_with(bench, with)) < as_well * error ? with : without;
+}
+
 }  // namespace
 
 double error_of(const std::vector<Replayed>& all) {
@@ -193,6 +209,7 @@ Solved search_fit(FitBench& bench) {
   for (std::size_t i = tried.size(); i-- > 1;)
     if (tried[i - 1].solution.norm > tried[i].solution.norm)
       tried[i - 1] = solve_at(bench, tried[i - 1].cutoff, {tried[i].values});
+  for (auto& one : tried) one = simplest(bench, std::move(one));
   solved.best = best_of(tried, bench.values());
   return solved;
 }
