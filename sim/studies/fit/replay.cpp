@@ -139,7 +139,7 @@ std::optional<Replayed> replay(const scenario::Scenario& scenario, const ReplayS
   }
   std::vector<std::pair<std::vector<double>, devices::ControllerValue>> inputs;
   for (const auto& one : series.inputs)
-    inputs.emplace_back(resampled(one, series.from, h, steps), *machine->names().target(one.channel));
+    inputs.emplace_back(straight(one, series.from, h, steps), *machine->names().target(one.channel));
   for (std::size_t i = 0; i < errors.shares.size(); ++i)
     for (double& value : inputs[i].first) value *= errors.shares[i];
   const auto give =
