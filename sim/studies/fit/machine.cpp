@@ -112,10 +112,12 @@ void make_rigid(scenario::Scenario& scenario, const std::string& plant) {
   constexpr double softest = 1;
   // Of an oscillation of 0.6 rad a step, a twelfth of the step's stiffness is a twentieth of critical.
   const double damped = seconds(scenario.scene.step) / 6;
-  for (double k = stiffest; k > softest; k *= softer) {
+  double k = stiffest;
+  while (k > softest) {
     set_quantity(scenario, stiffness, k);
     set_quantity(scenario, {plant, "gear.damping"}, k * damped);
     if (is_sound(scenario)) return;
+    k *= softer;
   }
 }
 

@@ -61,6 +61,18 @@ void tell_values(const FitBench& bench, const Solved& solved, FitFound& found) {
       value.finer = of(solved.best + 1);
       return value;
     }
+    const auto& room = bench.unknowns()[i];
+    if (!is_offset && room.low < room.high && (estimate.value <= room.low || estimate.value >= room.high)) {
+      value.why = fmt::format(
+          "it ended at the {} that it may have, {:.4g} {}: what else the machine has takes {} than was "
+          "recorded; "
+          "set what its value stands for (rotor, screw, friction of the motor) to 0, or look at unit, sign "
+          "and "
+          "gear",
+          estimate.value <= room.low ? "least" : "most", value.used, value.unit,
+          estimate.value <= room.low ? "more" : "less");
+      return value;
+    }
     std::vector<FitPath> with;
     for (const auto other : estimate.with)
       if (other < bench.values()) with.push_back(bench.question().vary[other]);
