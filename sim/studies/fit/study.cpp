@@ -61,18 +61,6 @@ void tell_values(const FitBench& bench, const Solved& solved, FitFound& found) {
       value.finer = of(solved.best + 1);
       return value;
     }
-    const auto& room = bench.unknowns()[i];
-    if (!is_offset && room.low < room.high && (estimate.value <= room.low || estimate.value >= room.high)) {
-      value.why = fmt::format(
-          "it ended at the {} that it may have, {:.4g} {}: what else the machine has takes {} than was "
-          "recorded; "
-          "set what its value stands for (rotor, screw, friction of the motor) to 0, or look at unit, sign "
-          "and "
-          "gear",
-          estimate.value <= room.low ? "least" : "most", value.used, value.unit,
-          estimate.value <= room.low ? "more" : "less");
-      return value;
-    }
     std::vector<FitPath> with;
     for (const auto other : estimate.with)
       if (other < bench.values()) with.push_back(bench.question().vary[other]);
@@ -194,9 +182,13 @@ FitFound fit(const FitQuestion& question, const std::vector<ReplaySeries>& recor
   if (found.relative_error > much)
     found.tell(
         {"fit.unexplained"_code,
-         fmt::format("{:.3g} % of the torque is left unexplained: something acts on the machine that the "
-                     "model or the recording does not have, and the limits know nothing of it",
-                     found.relative_error * 100),
+         fmt::format(
+             "{:.3g} % of the torque is left unexplained: {}", found.relative_error * 100,
+             found.relative_error > 1
+                 ? "that is more than was recorded. What is not looked for, such as inertia and friction "
+                   "of rotor, screw and gear, takes it, or a unit, a sign or the gear is another"
+                 : "something acts on the machine that the model or the recording does not have, and "
+                   "the limits know nothing of it"),
          Finding::Role::warning});
   if (by_direction)
     found.tell(
