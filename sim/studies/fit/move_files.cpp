@@ -54,7 +54,7 @@ std::string machine_text(const FitPlan& plan, const FitMove& move, const std::fi
   };
   // What is not there cannot be left out.
   for (const auto* section : {"controller", "wiring", "filters", "panel", "timeline", "disturbances",
-                              "record", "drives", "faults", "checks", "pictures", "opcua"}) {
+                              "inputs", "record", "drives", "faults", "checks", "pictures", "opcua"}) {
     const auto line = fmt::format("{}: ~\n", section);
     const auto problems = read(text + line).second;
     if (std::ranges::none_of(problems, [](const auto& one) { return one.code == "scenario.unknown-name"; }))

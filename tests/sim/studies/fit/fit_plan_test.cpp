@@ -177,6 +177,15 @@ TEST_F(FitPlanned, ChirpGoesBeyondTheResonanceAndIsSampledSo) {
   EXPECT_NEAR(fit(asked.question, asked.recordings, 2).parameters.front().value.value_or(0), 5000, 100);
 }
 
+TEST_F(FitPlanned, WhatDroveTheRecordedLineDrivesNoPlannedMove) {
+  const auto replayed = std::string(belt) + "inputs: {axis.servo.reference: {recording: " DRYCUT_SOURCE_DIR
+                                            "/scenes/recordings/belt_axis_move_loop.yaml}}\n";
+  const auto move = planned(request_for(replayed.c_str(), {"plants.axis.mass"}));
+  ASSERT_TRUE(move) << lines_of(problems);
+  written(*move);
+  EXPECT_EQ(run("qmove"), cli::all_passed) << out << err;
+}
+
 TEST_F(FitPlanned, KnifeRunsUnderAllThreeWithoutMaterial) {
   const auto move = planned(request_for(knife, {"plants.knife.drum_friction.coulomb"}));
   ASSERT_TRUE(move) << lines_of(problems);
