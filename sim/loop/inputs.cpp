@@ -52,7 +52,7 @@ class InputBinder {
       if (!driven || recording == nullptr) continue;
       const auto* series = series_of(input, *recording);
       if (series == nullptr || !fits(input, *series, *driven)) continue;
-      auto source = source_of(input, *series, *driven, begin_of(*recording));
+      auto source = source_of(input, *series, *driven, recording->begin());
       if (source.times.empty()) continue;
       if (input.after_end == RecordedInput::AfterEnd::stop && source.times.back() < made.end_.at)
         made.end_ = {source.times.back(), input.name.text};
@@ -168,27 +168,14 @@ class InputBinder {
     return true;
   }
 
-  /// Of the whole recording [s].
-  static double begin_of(const recordings::Recording& recording) {
-    double first = std::numeric_limits<double>::infinity();
-    for (const auto& series : recording.series)
-      if (!series.time_s.empty()) first = std::min(first, series.time_s.front());
-    return first;
-  }
-
   /// Without the samples that could not be recorded. Empty, and told, if a value does not fit.
   Inputs::Source source_of(const RecordedInput& input, const recordings::Series& series, const Driven& driven,
                            double begin) {
     Inputs::Source source{driven.write, {}, {}, input.interpolate == RecordedInput::Between::hold};
-    auto clipped = series.clipped.begin();
-    for (std::size_t i = 0; i < series.value.size(); ++i) {
-      if (clipped != series.clipped.end() && *clipped == i) {
-        ++clipped;
-        continue;
-      }
-      source.times.push_back(static_cast<Time>(std::llround((series.time_s[i] - begin) * second)));
-      source.values.push_back(series.value[i]);
-    }
+    const auto usable = recordings::without_clipped(series);
+    for (const double time : usable.time_s)
+      source.times.push_back(static_cast<Time>(std::llround((time - begin) * second)));
+    source.values = usable.value;
     if (source.times.empty())
       problem("recording.no-rows"_code, input.channel.place,
               fmt::format("{}: all of its samples are clipped", series.channel), "name another channel");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -301,6 +302,27 @@ class Loader {
 };
 
 }  // namespace
+
+Series without_clipped(const Series& series) {
+  Series usable{series.channel, series.unit};
+  auto clipped = series.clipped.begin();
+  for (std::size_t i = 0; i < series.value.size(); ++i) {
+    if (clipped != series.clipped.end() && *clipped == i) {
+      ++clipped;
+      continue;
+    }
+    usable.time_s.push_back(series.time_s[i]);
+    usable.value.push_back(series.value[i]);
+  }
+  return usable;
+}
+
+double Recording::begin() const {
+  double first = std::numeric_limits<double>::infinity();
+  for (const auto& one : series)
+    if (!one.time_s.empty()) first = std::min(first, one.time_s.front());
+  return first;
+}
 
 Recording load(const RecordingFile& recording, Problems& problems, std::vector<Finding>& findings) {
   return Loader(recording, problems, findings).load();

@@ -42,18 +42,11 @@ TimedChannel simulated_channel(const ComparedRun& run, const record::Recording::
 /// Without what could not be recorded.
 TimedChannel measured_channel(const recordings::Series& series, double begin, const std::string& unit,
                               double period) {
-  TimedChannel made{series.channel, unit, {}, {}, period};
-  const bool converts = scenario::is_unit(unit) && !series.unit.empty();
-  auto clipped = series.clipped.begin();
-  for (std::size_t i = 0; i < series.value.size(); ++i) {
-    if (clipped != series.clipped.end() && *clipped == i) {
-      ++clipped;
-      continue;
-    }
-    made.times.push_back(series.time_s[i] - begin);
-    made.values.push_back(converts ? scenario::from_si(series.value[i], unit) : series.value[i]);
-  }
-  return made;
+  auto usable = recordings::without_clipped(series);
+  if (scenario::is_unit(unit) && !series.unit.empty())
+    for (double& value : usable.value) value = scenario::from_si(value, unit);
+  for (double& time : usable.time_s) time -= begin;
+  return {series.channel, unit, std::move(usable.time_s), std::move(usable.value), period};
 }
 
 /// A pure number is in the run's unit whatever that is called: "bits x4".
@@ -103,10 +96,7 @@ class Overlayer {
  public:
   Overlayer(const recordings::RecordingFile& file, const recordings::Recording& recording,
             const ComparedRun& run, double from)
-      : file_(file), recording_(recording), run_(run), from_(from) {
-    for (const auto& series : recording.series)
-      if (!series.time_s.empty()) begin_ = std::min(begin_, series.time_s.front());
-  }
+      : file_(file), recording_(recording), run_(run), from_(from), begin_(recording.begin()) {}
 
   void lay(MeasuredRun& made, const std::vector<std::string>& without, Problems& problems) {
     std::vector<std::string> known;
@@ -216,7 +206,7 @@ class Overlayer {
   const recordings::Recording& recording_;
   const ComparedRun& run_;
   double from_;
-  double begin_ = std::numeric_limits<double>::infinity();
+  double begin_;
 };
 
 void allow(MeasuredRun& made, const std::vector<ComparedRun>& runs,

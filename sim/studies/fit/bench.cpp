@@ -26,9 +26,7 @@ bool shows_at_standstill(const FitPath& path) {
 void begin(scenario::Scenario& machine, const ReplaySeries& series, bool closed) {
   if (series.start) set_quantity(machine, {series.plant, "start"}, *series.start);
   if (closed) {
-    for (auto& input : machine.inputs)
-      if (std::ranges::find(series.channels, input.channel.text) != series.channels.end())
-        input.recording.text = std::filesystem::absolute(series.file).string();
+    for (auto& input : machine.inputs) input.recording.text = std::filesystem::absolute(series.file).string();
     return;
   }
   // No end stop is in the way of what moved.

@@ -37,8 +37,7 @@ struct ReplaySeries {
   std::optional<recordings::Series> load;       ///< position of the load besides, in its channel's unit
   std::vector<recordings::Series> inputs = {};  ///< what acts on the machine besides: web speed, a force
   std::optional<double> start = {};             ///< of the plant, where the recording says it [SI]
-  std::vector<std::string> channels = {};       ///< all of the recording's
-  std::vector<std::string> unused = {};         ///< those that a replay has no use for
+  std::vector<std::string> unused = {};         ///< channels that a replay has no use for
 
   double from = 0;  ///< where all of it is recorded [s]
   double until = 0;

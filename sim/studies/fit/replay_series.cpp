@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "sim/loop/names.hpp"
 #include "sim/loop/simulation.hpp"
@@ -83,13 +82,6 @@ std::optional<recordings::Series> as_motion_of_motor(scenario::Scenario& scenari
   return counts;
 }
 
-/// Where its first channel begins [s].
-double begin_of(const recordings::Recording& recording) {
-  double first = std::numeric_limits<double>::infinity();
-  for (const auto& series : recording.series) first = std::min(first, series.time_s.front());
-  return first;
-}
-
 /// Each recording is replayed with its own inputs.
 void refuse_without_inputs(const recordings::Recording& recording, const std::filesystem::path& file,
                            const scenario::Scenario& scenario, Problems& problems) {
@@ -120,7 +112,6 @@ std::optional<ReplaySeries> replay_series(const recordings::Recording& recording
   ReplaySeries made;
   made.plant = plant;
   made.file = file;
-  for (const auto& series : recording.series) made.channels.push_back(series.channel);
   const auto* torque = find(recording, plant + ".motor.torque");
   if (torque == nullptr) {
     problems.push_back({"fit.no-torque"_code, file.string(), 1, 1,
@@ -199,8 +190,8 @@ std::optional<ReplaySeries> replay_series(const recordings::Recording& recording
     else
       made.unused.push_back(series.channel);
   }
-  made.from = question.closed ? begin_of(recording)
-                              : std::max(made.torque.time_s.front(), made.motion.time_s.front());
+  made.from =
+      question.closed ? recording.begin() : std::max(made.torque.time_s.front(), made.motion.time_s.front());
   made.until = std::min(made.torque.time_s.back(), made.motion.time_s.back());
   made.sampling = std::max(sampling_of(made.torque), sampling_of(made.motion));
   made.one_way = is_one_way(made.motion);
