@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "base/output_file.hpp"
-
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/commands.hpp"
 #include "sim/cli/progress.hpp"
@@ -128,18 +127,19 @@ void fit_options(CLI::App& fit, int& status) {
 }  // namespace
 
 Verb fit_verb() {
-  return {
-      "fit",
-      "Learn values of a machine from recordings of the real one: inertia or mass, friction, stiffness,\n"
-      "play. Replays the recorded torque in the simulated machine and compares the motion, or with --closed\n"
-      "runs the scenario and compares torque and motion.\n"
-      "Exit status: 0 all values are known, 1 one is not, or the cross test is above --limit, 2 bad input,\n"
-      "3 the machine cannot follow the recording, or a result could not be written",
-      {"drycut fit line.yaml --plan --vary plants.axis.mass",
-       "drycut fit line.yaml --recording move.yaml --vary plants.axis.mass",
-       "  --vary plants.axis.carriage_friction.coulomb"},
-      {"scenario", {FileKind::scenario}},
-      fit_options};
+  return {"fit",
+          "Learn values of a machine from recordings of the real one: inertia or\n"
+          "mass, friction, stiffness, play. Replays the recorded torque in the\n"
+          "simulated machine and compares the motion, or with --closed runs the\n"
+          "scenario and compares torque and motion.\n"
+          "Exit status: 0 all values are known, 1 one is not, or the cross test is\n"
+          "above --limit, 2 bad input, 3 the machine cannot follow the recording, or a\n"
+          "result could not be written",
+          {"drycut fit line.yaml --plan --vary plants.axis.mass",
+           "drycut fit line.yaml --recording move.yaml --vary plants.axis.mass",
+           "  --vary plants.axis.carriage_friction.coulomb"},
+          {"scenario", {FileKind::scenario}},
+          fit_options};
 }
 
 }  // namespace drycut::sim::cli

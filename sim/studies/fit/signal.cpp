@@ -64,8 +64,8 @@ std::vector<double> resampled(const recordings::Series& series, double from_s, d
 
 std::vector<double> straight(const recordings::Series& series, double from_s, double step_s,
                              std::size_t count) {
-  if (series.time_s.size() == 1) return std::vector<double>(count, series.value.front());
-  std::vector<double> at(count);
+  std::vector<double> at(count, series.value.front());
+  if (series.time_s.size() == 1) return at;
   std::size_t i = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const double t =

@@ -49,6 +49,7 @@ TEST(FitSignal, TheFilterHasHalfThePowerAtItsCutoffAndNoPhase) {
   constexpr double step = 1e-3;
   constexpr double cutoff = 20;
   std::vector<double> wave;
+  wave.reserve(2000);
   for (int i = 0; i < 2000; ++i) wave.push_back(std::sin(2 * std::numbers::pi * cutoff * i * step));
   const auto smooth = smoothed(wave, step, cutoff);
   double largest = 0;
