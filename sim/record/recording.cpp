@@ -1,5 +1,6 @@
 #include "sim/record/recording.hpp"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -31,7 +32,7 @@ const Recording::Column* Recording::column(const std::string& name) const {
 }
 
 std::string seconds_text(Time time) {
-  auto text = fmt::format("{}.{:09}", time / second, time % second);
+  auto text = fmt::format(FMT_COMPILE("{}.{:09}"), time / second, time % second);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text += '0';
   return text;
