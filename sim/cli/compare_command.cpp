@@ -11,6 +11,7 @@
 #include "sim/cli/verb.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/studies/compare/alignment.hpp"
+#include "sim/studies/compare/explained.hpp"
 #include "sim/studies/compare/measured_report.hpp"
 #include "sim/studies/compare/report.hpp"
 
@@ -123,6 +124,8 @@ int compare_with_recording(const CompareOptions& options) {
     return print_failure(drycut::words_of(error));
   }
   fmt::print("{}", studies::residual_table(measured).text(0));
+  if (const auto hints = studies::explained_table(measured); !hints.rows().empty())
+    fmt::print("\n{}\n", hints.text(0));
   fmt::print("{}\n", studies::residual_sentence(measured));
   for (const auto& channel : measured.only_measured)
     fmt::print("  note {} was not recorded in the run\n", channel);

@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "sim/record/verdict.hpp"
 #include "sim/report/report.hpp"
+#include "sim/studies/compare/explained.hpp"
 #include "sim/studies/compare/overlays.hpp"
 
 namespace drycut::sim::studies {
@@ -128,6 +129,9 @@ renders::Report residual_page(const MeasuredRun& measured, const std::vector<std
   page.scenario = measured.file.string();
   page.summary.push_back(shown_table("What the run leaves of what was measured: simulated less measured",
                                      residual_table(measured)));
+  if (const auto hints = explained_table(measured); !hints.rows().empty())
+    page.summary.push_back(
+        shown_table("What one value alone would explain; drycut fit finds values and limits", hints));
   for (const auto& finding : measured.findings) page.notes.push_back(to_string(finding));
   if (!measured.only_measured.empty())
     page.facts.push_back({{"measured only", listed(measured.only_measured)}});

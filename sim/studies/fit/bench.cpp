@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include "sim/parallel.hpp"
 #include "sim/scenario/units.hpp"
+#include "sim/studies/fit/signal.hpp"
 
 namespace drycut::sim::studies {
 
@@ -88,6 +91,18 @@ void FitBench::collect_unknowns() {
       if (shares.back()) unknowns_.push_back({1, -most_share, most_share});
     }
   }
+}
+
+double FitBench::resolved(std::size_t recording) const {
+  constexpr double little = 0.02;
+  const auto& series = recordings_[recording];
+  const auto& about = about_[recording];
+  // Rounding to a step is an error of a twelfth of its square; twice differentiated, times the inertia, it is
+  // a torque. A closed loop differentiates nothing.
+  const double rounding = step_of(series.motion) / std::sqrt(12.0);
+  const double worth = about.inertia > 0 ? about.inertia / std::abs(about.scale) * rounding : 0;
+  if (worth == 0 || !std::isfinite(worth)) return std::numeric_limits<double>::infinity();
+  return std::sqrt(little * rms_of(series.torque.value) / worth) / (2 * std::numbers::pi);
 }
 
 FitUnknown FitBench::fix(std::size_t number, double value) {

@@ -45,6 +45,9 @@ class FitBench {
   [[nodiscard]] const std::vector<ReplaySeries>& recordings() const { return recordings_; }
   [[nodiscard]] std::size_t runs() const { return runs_; }
 
+  /// Up to where the steps of a recorded position are worth little of its torque [Hz].
+  [[nodiscard]] double resolved(std::size_t recording) const;
+
   using OfRecordings = std::vector<std::optional<Replayed>>;
   /// Of each set each recording; none where the machine cannot be built or diverges.
   std::vector<OfRecordings> replay(const std::vector<std::vector<double>>& sets, double cutoff);

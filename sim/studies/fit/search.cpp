@@ -57,10 +57,11 @@ double load_weight(const FitBench::OfRecordings& all) {
 }
 
 /// The cutoffs that are tried, each twice the one before.
-std::vector<double> cutoffs_for(const std::vector<ReplaySeries>& recordings) {
-  double widest = 0;
-  for (const auto& one : recordings) widest = std::max(widest, bandwidth_of(one.torque));
+std::vector<double> cutoffs_for(const FitBench& bench) {
   constexpr double least = 4;
+  double widest = least;
+  for (std::size_t i = 0; i < bench.recordings().size(); ++i)
+    widest = std::max(widest, std::min(bandwidth_of(bench.recordings()[i].torque), bench.resolved(i)));
   constexpr std::size_t most = 4;
   std::vector<double> cutoffs = {widest};
   while (cutoffs.size() < most && cutoffs.back() / 2 >= least) cutoffs.push_back(cutoffs.back() / 2);
@@ -207,7 +208,7 @@ std::vector<Set> starts_of(const FitBench& bench) {
 Solved search_fit(FitBench& bench) {
   Solved solved;
   auto& tried = solved.tried;
-  for (const double cutoff : cutoffs_for(bench.recordings())) {
+  for (const double cutoff : cutoffs_for(bench)) {
     auto starts = starts_of(bench);
     if (!tried.empty()) starts.push_back(tried.back().values);
     tried.push_back(solve_at(bench, cutoff, starts));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -17,11 +18,6 @@ double middle_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
   return *middle;
-}
-
-double rms_of(const std::vector<double>& values) {
-  return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
-                   static_cast<double>(values.size()));
 }
 
 }  // namespace
@@ -82,6 +78,20 @@ double sampling_of(const recordings::Series& series) {
   for (std::size_t i = 1; i < series.time_s.size(); ++i)
     steps.push_back(series.time_s[i] - series.time_s[i - 1]);
   return middle_of(std::move(steps));
+}
+
+double step_of(const recordings::Series& series) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < series.value.size(); ++i) {
+    const double step = std::abs(series.value[i] - series.value[i - 1]);
+    if (step > 0) least = std::min(least, step);
+  }
+  return least;
+}
+
+double rms_of(const std::vector<double>& values) {
+  return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
+                   static_cast<double>(values.size()));
 }
 
 double reach_of(double cutoff) { return widths * width_of(cutoff); }

@@ -10,6 +10,7 @@
 #include "sim/scenario/units.hpp"
 #include "sim/studies/fit/ladder.hpp"
 #include "sim/studies/fit/search.hpp"
+#include "sim/studies/fit/signal.hpp"
 #include "sim/studies/fit/words.hpp"
 
 namespace drycut::sim::studies {
@@ -137,6 +138,20 @@ void widen(FitFound& found) {
   }
 }
 
+/// Above some frequency the counts of an encoder say more than the machine.
+void tell_coarse(const FitBench& bench, FitFound& found) {
+  for (std::size_t i = 0; i < bench.recordings().size(); ++i) {
+    const auto& one = bench.recordings()[i];
+    if (bench.resolved(i) < bandwidth_of(one.torque))
+      found.tell(
+          {"fit.coarse"_code,
+           fmt::format("{}: above {:.3g} Hz the steps of {} are worth more than 2 % of the torque; only what "
+                       "is below counts. Springs and play show above: record a finer position, or the "
+                       "speed that the drive measures",
+                       one.name(), bench.resolved(i), one.motion.channel)});
+  }
+}
+
 void tell_unknown(FitFound& found) {
   const auto tell = [&](const FittedValue& value, const std::string& what) {
     if (value.value) return;
@@ -166,6 +181,7 @@ FitFound fit(const FitQuestion& question, const std::vector<ReplaySeries>& recor
   const bool by_direction =
       std::ranges::any_of(question.vary, [](const FitPath& path) { return path.row.ends_with(".backward"); });
   if (by_direction) bench.fix(bench.torque_offset(), 0);
+  tell_coarse(bench, found);
   const auto solved = search_fit(bench);
   doing("other models");
   climb_ladder(bench, solved.chosen(), jobs, found);

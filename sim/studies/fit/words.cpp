@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sim/studies/fit/signal.hpp"
 
@@ -81,13 +80,8 @@ double wakened(const FitPath& path, const std::vector<FitPath>& vary, const std:
 std::vector<Finding> doubts_of(const std::vector<ReplaySeries>& recordings) {
   std::vector<Finding> found;
   const auto steps_of = [](const recordings::Series& series) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 1; i < series.value.size(); ++i) {
-      const double step = std::abs(series.value[i] - series.value[i - 1]);
-      if (step > 0) least = std::min(least, step);
-    }
     const auto [low, high] = std::ranges::minmax(series.value);
-    return (high - low) / least;
+    return (high - low) / step_of(series);
   };
   for (const auto& one : recordings) {
     for (const auto* series : {&one.torque, &one.motion}) {
