@@ -53,7 +53,7 @@ class Evenly {
 };
 
 /// What a value would change, a column a part of it: the size of all parts is its amount.
-struct Term {
+struct Regressor {
   std::string value;
   std::string rows;
   std::string unit;
@@ -66,8 +66,8 @@ Values mapped(const Values& values, double (*of)(double)) {
   return made;
 }
 
-std::vector<Term> of_torque(const MeasuredChannel& channel, const Evenly& evenly) {
-  std::vector<Term> terms;
+std::vector<Regressor> of_torque(const MeasuredChannel& channel, const Evenly& evenly) {
+  std::vector<Regressor> terms;
   if (channel.speed && scenario::is_unit(channel.speed->unit)) {
     auto speed = channel.speed->values;
     for (double& value : speed) value = scenario::to_si(value, channel.speed->unit);
@@ -92,9 +92,9 @@ std::vector<Term> of_torque(const MeasuredChannel& channel, const Evenly& evenly
   return terms;
 }
 
-std::vector<Term> terms_of(const MeasuredChannel& channel, const Evenly& evenly) {
+std::vector<Regressor> terms_of(const MeasuredChannel& channel, const Evenly& evenly) {
   constexpr std::string_view torque = ".motor.torque";
-  std::vector<Term> terms;
+  std::vector<Regressor> terms;
   if (channel.name.ends_with(torque)) terms = of_torque(channel, evenly);
   const auto even = evenly(channel.measured);
   terms.push_back({"zero of the channel", "", channel.unit, {Values(even.size(), 1)}});
