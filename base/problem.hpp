@@ -115,6 +115,7 @@ inline constexpr CodeRow code_rows[] = {
     {"fit.clipped", "A recorded channel has values at its limit", "The scope or the drive could not show more.", "Record with a larger range; what is clipped was left out."},
     {"fit.coarse", "A recorded channel is coarse", "Few of its steps make up the whole signal.", "Record with a finer resolution, or a larger motion."},
     {"fit.commanded", "A torque may be commanded and not measured", "Its channel says so, or it has none of a measurement's noise.", "Record the measured torque or current."},
+    {"fit.contradiction", "Counts and speed of a motor tell two motions", "Lines of the encoder, a unit or a sign are others than in the scenario or the recording.", "Correct encoder.lines (counts are four times as many), unit or sign."},
     {"fit.cross-test", "The fitted values do not explain another recording", "It was moved otherwise, or the machine is not as the scenario has it.", "Look where it is left unexplained; record both moves for the fit."},
     {"fit.differs", "Two recordings of one machine differ by more than their limits", "Something changed in between: temperature, load, play.", "None: the limits hold both."},
     {"fit.disturbance", "A recorded force does not act as it was recorded", "It is in the recorded torque already, or has another scale or sign.", "Correct its column's scale or sign; take its channel out where it does not act."},
@@ -128,6 +129,7 @@ inline constexpr CodeRow code_rows[] = {
     {"fit.no-torque-left", "A motor has no torque left to move its machine", "Friction and weight take it.", "Correct mass, friction and gear of the machine, or take another motor."},
     {"fit.not-known", "A value cannot be known from the recording", "Hardly anything in it depends on the value.", "Record the move that the line names."},
     {"fit.offset-or-direction", "An offset of the torque, or friction that differs by direction", "Both are the same torque to whoever looks at torque and motion.", "Measure the torque at standstill without load, or take it for friction with --vary ...backward."},
+    {"fit.sign", "Torque works against the motion", "The sign of torque or motion is another.", "Give one of the two columns sign: -1."},
     {"fit.slow", "A recording is slow for what is looked for", "Too few samples in what happens.", "Record at a higher rate."},
     {"fit.unexplained", "Much of a recorded torque is left unexplained", "Something acts that the model or the recording does not have: a tool, a clamp, a cut.", "Record the machine without it, or its force, too."},
     {"fit.unknown-value", "A path names no quantity of a plant", "It is misspelt, or no number with a unit.", "Write plants.PLANT.PARAMETER, as drycut plants lists them."},
@@ -369,7 +371,9 @@ struct CodeTable {
   template <std::size_t N>
   struct Literal {
     char text[N];
-    constexpr Literal(const char (&from)[N]) { std::copy_n(from, N, text); }  // NOLINT(google-explicit-constructor)
+    constexpr Literal(const char (&from)[N]) {
+      std::copy_n(from, N, text);
+    }  // NOLINT(google-explicit-constructor)
   };
   template <Literal literal>
   static constexpr Code code() {
@@ -379,8 +383,8 @@ struct CodeTable {
   }
 };
 
-/// "scenario.unknown-key"_code: what has no row does not compile. A template and not consteval, for clang 14 calls
-/// consteval literals of a template as if they were there.
+/// "scenario.unknown-key"_code: what has no row does not compile. A template and not consteval, for clang 14
+/// calls consteval literals of a template as if they were there.
 template <CodeTable::Literal literal>
 constexpr Code operator""_code() {
   return CodeTable::code<literal>();

@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include "sim/parallel.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/studies/fit/signal.hpp"
+#include "sim/studies/fit/noise.hpp"
 
 namespace drycut::sim::studies {
 
@@ -66,6 +64,8 @@ void FitBench::collect_unknowns() {
                                                   scenario::to_si(row->max, row->unit)});
     // A stiffness of 0 is none that is known.
     constexpr double far = 100;
+    one.never_zero = path.row.ends_with("mass") || path.row.ends_with("inertia") ||
+                     path.row.ends_with("stiffness") || path.row == torque_constant;
     if (path.row.ends_with("stiffness") || path.row == torque_constant) {
       one.low = one.start / far;
       one.high = one.start * far;
@@ -93,16 +93,17 @@ void FitBench::collect_unknowns() {
   }
 }
 
+Plausible FitBench::answer_with(const std::vector<double>& set) {
+  auto machine = take_machine();
+  for (std::size_t i = 0; i < values(); ++i) set_quantity(*machine, question_.vary[i], set[i]);
+  begin(*machine, recordings_.front(), question_.closed);
+  const auto answer = measure_answer(*machine, recordings_.front());
+  give_back(std::move(machine));
+  return answer;
+}
+
 double FitBench::resolved(std::size_t recording) const {
-  constexpr double little = 0.02;
-  const auto& series = recordings_[recording];
-  const auto& about = about_[recording];
-  // Rounding to a step is an error of a twelfth of its square; twice differentiated, times the inertia, it is
-  // a torque. A closed loop differentiates nothing.
-  const double rounding = step_of(series.motion) / std::sqrt(12.0);
-  const double worth = about.inertia > 0 ? about.inertia / std::abs(about.scale) * rounding : 0;
-  if (worth == 0 || !std::isfinite(worth)) return std::numeric_limits<double>::infinity();
-  return std::sqrt(little * rms_of(series.torque.value) / worth) / (2 * std::numbers::pi);
+  return resolved_up_to(recordings_[recording], about_[recording]);
 }
 
 FitUnknown FitBench::fix(std::size_t number, double value) {

@@ -44,8 +44,13 @@ class FitBench {
   [[nodiscard]] const FitQuestion& question() const { return question_; }
   [[nodiscard]] const std::vector<ReplaySeries>& recordings() const { return recordings_; }
   [[nodiscard]] std::size_t runs() const { return runs_; }
+  [[nodiscard]] int jobs() const { return jobs_; }
 
-  /// Up to where the steps of a recorded position are worth little of its torque [Hz].
+  /// How the machine answers to the torque of its motor, with the values of the scenario and with others.
+  [[nodiscard]] const Plausible& answer(std::size_t recording) const { return about_[recording]; }
+  [[nodiscard]] Plausible answer_with(const std::vector<double>& set);
+  /// Up to where the noise of a recorded motion is worth little of its torque [Hz]; see resolved_up_to(). A
+  /// closed loop takes no torque from it.
   [[nodiscard]] double resolved(std::size_t recording) const;
 
   using OfRecordings = std::vector<std::optional<Replayed>>;

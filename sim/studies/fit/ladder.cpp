@@ -54,7 +54,27 @@ struct Compared {
   double error_without = 0;
   double error_with = 0;
   std::size_t count = 0;
+  bool standstill = false;  ///< it counts too
 };
+
+/// Who follows the advice gets numbers: all are known, and the first of the new ones is not 0.
+bool is_known(const AtCutoff& with, const FitQuestion& richer, std::size_t own) {
+  const auto& estimates = with.solution.estimates;
+  const auto all = static_cast<std::ptrdiff_t>(richer.vary.size());
+  return std::all_of(estimates.begin(), estimates.begin() + all,
+                     [](const FitEstimate& one) { return one.known == FitKnown::yes; }) &&
+         estimates[own].low > 0;
+}
+
+/// Where standstill counts, a position that is rounded goes step by step, and a step at twice the cutoff,
+/// which the controller of the replay follows, shall be worth little too.
+double cutoff_at_standstill(const FitBench& bench, double cutoff) {
+  constexpr double lower = 4;
+  constexpr double least = 4;  // [Hz]
+  for (std::size_t i = 0; i < bench.recordings().size(); ++i)
+    cutoff = std::min(cutoff, std::max(least, bench.resolved(i) / lower));
+  return cutoff;
+}
 
 Compared compare(const FitQuestion& richer, const FitBench& bench, const AtCutoff& base, int jobs,
                  std::size_t& runs) {
@@ -68,10 +88,13 @@ Compared compare(const FitQuestion& richer, const FitBench& bench, const AtCutof
   for (std::size_t i = bench.values(); i < more.values(); ++i)
     if (start[i] == 0) start[i] = wakened(richer.vary[i], bench.question().vary, base.values);
   Compared both;
-  both.with = solve_at(more, base.cutoff, {start}, most_trials);
+  both.standstill = more.standstill();
+  const double cutoff =
+      both.standstill && !bench.standstill() ? cutoff_at_standstill(bench, base.cutoff) : base.cutoff;
+  both.with = solve_at(more, cutoff, {start}, most_trials);
   both.error_with = error_of(replayed_with(more, both.with));
   FitBench same(bench.question(), bench.recordings(), jobs, more.standstill());
-  both.without = solve_at(same, base.cutoff, {base.values}, most_trials);
+  both.without = solve_at(same, cutoff, {base.values}, most_trials);
   const auto replayed = replayed_with(same, both.without);
   both.error_without = error_of(replayed);
   for (const auto& one : replayed) both.count += one.torque_left.size();
@@ -94,10 +117,12 @@ void climb_ladder(const FitBench& bench, const AtCutoff& base, int jobs, FitFoun
     rung.error_without = both->error_without;
     rung.error = both->error_with;
     rung.gain = bic_gain(both->without, both->with, both->count);
+    rung.known = is_known(both->with, richer, bench.values());
     if (rung.is_worth_it())
       found.tell(
           {"fit.ladder"_code,
-           fmt::format("{} would lower the unexplained torque from {:.3g} to {:.3g} %: --vary {}", rung.model,
+           fmt::format("{} would lower the unexplained torque{} from {:.3g} to {:.3g} %: --vary {}",
+                       rung.model, both->standstill && !bench.standstill() ? ", standstill included," : "",
                        rung.error_without * 100, rung.error * 100, fmt::join(rung.paths, " --vary "))});
     found.ladder.push_back(rung);
   }

@@ -52,8 +52,9 @@ class Followed {
 };
 
 /// Where the recorded motion stands or turns, and as far as the filter takes that: a value a group of steps.
+/// Of a motion that is to go one way the few moments that it goes back count as standing.
 std::vector<bool> standstills(const std::vector<double>& motion, std::size_t group, double step,
-                              double cutoff) {
+                              double cutoff, bool one_way) {
   constexpr double slow = 0.02;
   std::vector<double> places;
   for (std::size_t i = group - 1; i < motion.size(); i += group) places.push_back(motion[i]);
@@ -67,7 +68,8 @@ std::vector<bool> standstills(const std::vector<double>& motion, std::size_t gro
   std::vector<bool> near(places.size());
   const auto reach = static_cast<std::size_t>(std::ceil(reach_of(cutoff) / step));
   for (std::size_t i = 1; i < places.size(); ++i) {
-    if (std::abs(speeds[i]) > slow * fastest && speeds[i] * speeds[i - 1] >= 0) continue;
+    const bool back = one_way && speeds[i] * (motion.back() - motion.front()) < 0;
+    if (std::abs(speeds[i]) > slow * fastest && speeds[i] * speeds[i - 1] >= 0 && !back) continue;
     for (std::size_t j = i > reach ? i - reach : 0; j < std::min(i + reach, near.size()); ++j) near[j] = true;
   }
   return near;
@@ -100,6 +102,7 @@ Plausible measure_answer(const scenario::Scenario& scenario, const ReplaySeries&
   const double h = seconds(scenario.scene.step);
   double first = 0;
   double speeds = 0;
+  double halfway = 0;  // what the speeds differ by there
   double moved = 0;
   double turned = 0;
   for (const double times : {3.0, 6.0}) {
@@ -110,16 +113,22 @@ Plausible measure_answer(const scenario::Scenario& scenario, const ReplaySeries&
     const double begin = channel.now(h);
     double angle = 0;
     double end = begin;
+    bool is_past = false;
     while (seconds(machine->time()) < until && machine->advance()) {
       angle += speed() / units::rpm * h;
       end = channel.now(h);
+      if (is_past || seconds(machine->time()) < until / 2) continue;
+      is_past = true;
+      halfway = speed() / units::rpm - halfway;
     }
     first = std::exchange(speeds, speed() / units::rpm - speeds);
     moved = end - begin - moved;
     turned = angle - turned;
   }
-  const double inertia = 3 * largest * until / speeds;
-  return {inertia, moved / turned, 3 * largest - inertia * first / until};
+  // What grows with speed makes it look larger with time.
+  const double apparent = 3 * largest * until / speeds;
+  const double inertia = 2 * (3 * largest * until / 2 / halfway) - apparent;
+  return {inertia, moved / turned, 3 * largest - apparent * first / until};
 }
 
 std::optional<Replayed> replay(const scenario::Scenario& scenario, const ReplaySeries& series,
@@ -194,8 +203,8 @@ std::optional<Replayed> replay(const scenario::Scenario& scenario, const ReplayS
   const auto stride = std::max<std::size_t>(1, static_cast<std::size_t>(0.25 / setup.cutoff / found.step));
   const auto all = found.torque_left.size();
   std::vector<std::size_t> chosen;
-  const auto near =
-      setup.standstill ? std::vector<bool>(all) : standstills(motion, group, found.step, setup.cutoff);
+  const auto near = setup.standstill ? std::vector<bool>(all)
+                                     : standstills(motion, group, found.step, setup.cutoff, series.one_way);
   const auto lost = near_clipped(series, all, found.step, setup.cutoff);
   for (std::size_t i = skip; i + skip < all; i += stride)
     if (!near[i] && !lost[i]) chosen.push_back(i);

@@ -33,11 +33,16 @@ struct ReplaySeries {
   recordings::Series motion;
   std::string channel;
   Kind kind = Kind::position;
+  bool summed = false;  ///< the motion is a recorded speed, added up
   Kind load_kind = Kind::position;
   std::optional<recordings::Series> load;       ///< position of the load besides, in its channel's unit
   std::vector<recordings::Series> inputs = {};  ///< what acts on the machine besides: web speed, a force
   std::optional<double> start = {};             ///< of the plant, where the recording says it [SI]
   std::vector<std::string> unused = {};         ///< channels that a replay has no use for
+
+  /// How far the counts of the motor's encoder say that it went, over what its speed adds up to, where both
+  /// are recorded.
+  std::optional<double> counts_over_speed = {};
 
   double from = 0;  ///< where all of it is recorded [s]
   double until = 0;

@@ -93,6 +93,28 @@ void refuse_without_inputs(const recordings::Recording& recording, const std::fi
                           "each recording needs what drives the line"});
 }
 
+/// Distance of the motion that is followed over that of recorded speeds, by their common times.
+std::optional<double> counts_over_speed(const recordings::Series& counts, recordings::Series speed,
+                                        const std::string& unit) {
+  speed = in_unit(std::move(speed), unit);
+  const double step = sampling_of(speed);
+  const double from = std::max(counts.time_s.front(), speed.time_s.front());
+  const double until = std::min(counts.time_s.back(), speed.time_s.back());
+  if (!(until > from)) return {};
+  const auto count = static_cast<std::size_t>((until - from) / step);
+  const auto places = resampled(counts, from, step, count);
+  const auto speeds = resampled(speed, from, step, count);
+  // Least squares over the speeds: noise of counts is in no denominator.
+  double both = 0;
+  double square = 0;
+  for (std::size_t i = 1; i < count; ++i) {
+    const double mean = (speeds[i] + speeds[i - 1]) / 2;
+    both += (places[i] - places[i - 1]) / step * mean;
+    square += mean * mean;
+  }
+  return square > 0 ? std::optional(both / square) : std::nullopt;
+}
+
 bool is_input(const scenario::Scenario& scenario, const std::string& channel) {
   return std::ranges::any_of(scenario.inputs,
                              [&](const auto& input) { return input.channel.text == channel; });
@@ -144,6 +166,8 @@ std::optional<ReplaySeries> replay_series(const recordings::Recording& recording
       found = true;
     }
   const bool counted = found;
+  if (const auto* speed = find(recording, plant + ".motor.speed"); counted && speed != nullptr)
+    made.counts_over_speed = counts_over_speed(made.motion, *speed, *unit_of(speed->channel));
   for (const auto& one : motion_channels) {
     const auto channel = plant + "." + std::string(one.name);
     const auto* series = find(recording, channel);
@@ -153,7 +177,8 @@ std::optional<ReplaySeries> replay_series(const recordings::Recording& recording
     if (one.kind == Kind::wrapped) unwrap(own);
     if (one.kind != Kind::speed && !made.start) made.start = scenario::to_si(own.value.front(), *unit);
     if (!found) {
-      if (one.kind == Kind::speed) {
+      made.summed = one.kind == Kind::speed;
+      if (made.summed) {
         // Followed by what it adds up to.
         double sum = 0;
         double before = own.value.front();

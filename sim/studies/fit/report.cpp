@@ -211,6 +211,9 @@ std::string fit_text(const FitFound& found) {
   auto text = fit_table(found).text(0);
   text += fmt::format("\nunexplained torque: {} of the recorded one (rms, below {:.3g} Hz)\n",
                       error_text(found.relative_error), found.cutoff);
+  if (found.inertia_at_motor && found.passed)
+    text += fmt::format("inertia of all that the motor moves, with these values: {:.4g} kg m2\n",
+                        *found.inertia_at_motor);
   if (found.cross_error) text += fmt::format("in the cross test: {}\n", error_text(*found.cross_error));
   for (const auto& [channel, delay] : found.delays) text += delay_text(channel, delay) + "\n";
   for (const auto& note : notes_of(found)) text += "note: " + printable(note) + "\n";

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sim/studies/fit/noise.hpp"
 #include "sim/studies/fit/signal.hpp"
 
 namespace drycut::sim::studies {
@@ -161,7 +162,9 @@ AtCutoff solve_at(FitBench& bench, double cutoff, const std::vector<Set>& starts
   constexpr std::size_t least_a_value = 4;
   if (count < least_a_value * bench.unknowns().size())
     throw std::runtime_error(
-        fmt::format("too little of the recorded motion is of use: {} independent instants for {} values",
+        fmt::format("too little of the recorded motion is of use: {} independent instants for {} values, an "
+                    "offset and a delay "
+                    "among them. What stands or turns tells nothing: record a longer move",
                     count, bench.unknowns().size()));
   AtCutoff found{cutoff, starts.front(), {}};
   double least = std::numeric_limits<double>::infinity();
@@ -205,6 +208,43 @@ std::vector<Set> starts_of(const FitBench& bench) {
   return starts;
 }
 
+namespace {
+
+/// The same fit with as much noise again in the motion: by how much each value moves, largest of some tries.
+Set moved_by_noise(const FitBench& bench, const AtCutoff& chosen) {
+  constexpr std::uint64_t tries = 2;
+  constexpr int most_trials = 15;
+  Set most(bench.values() + 1);
+  for (std::uint64_t seed = 1; seed <= tries; ++seed) {
+    std::vector<ReplaySeries> noisy;
+    for (const auto& one : bench.recordings()) noisy.push_back(with_noise_again(one, seed));
+    FitBench again(bench.question(), noisy, bench.jobs(), bench.standstill());
+    for (std::size_t i = 0; i < chosen.values.size(); ++i)
+      if (i > bench.torque_offset() || bench.unknowns()[i].is_held()) again.fix(i, chosen.values[i]);
+    const auto moved = solve_at(again, chosen.cutoff, {chosen.values}, most_trials);
+    for (std::size_t i = 0; i < most.size(); ++i)
+      most[i] = std::max(most[i], std::abs(moved.values[i] - chosen.values[i]));
+  }
+  return most;
+}
+
+/// Limits hold what as much noise again would have found; what it moves far was found in noise.
+void widen_by_noise(const FitBench& bench, AtCutoff& chosen) {
+  constexpr double far = 0.1;
+  if (bench.question().closed) return;
+  const auto moved = moved_by_noise(bench, chosen);
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    auto& one = chosen.solution.estimates[i];
+    if (one.known != FitKnown::yes) continue;
+    const double half = std::hypot((one.high - one.low) / 2, moved[i]);
+    one.low = one.value - half;
+    one.high = one.value + half;
+    if (bench.unknowns()[i].never_zero && moved[i] > far * std::abs(one.value)) one.known = FitKnown::no;
+  }
+}
+
+}  // namespace
+
 Solved search_fit(FitBench& bench) {
   Solved solved;
   auto& tried = solved.tried;
@@ -219,6 +259,7 @@ Solved search_fit(FitBench& bench) {
       tried[i - 1] = solve_at(bench, tried[i - 1].cutoff, {tried[i].values});
   for (auto& one : tried) one = simplest(bench, std::move(one));
   solved.best = best_of(tried, bench.values());
+  widen_by_noise(bench, tried[solved.best]);
   return solved;
 }
 

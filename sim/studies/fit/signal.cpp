@@ -14,12 +14,6 @@ namespace {
 double width_of(double cutoff) { return std::sqrt(std::numbers::ln2) / (2 * std::numbers::pi * cutoff); }
 constexpr double widths = 4;
 
-double middle_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 }  // namespace
 
 std::vector<double> resampled(const recordings::Series& series, double from_s, double step_s,
@@ -80,13 +74,17 @@ double sampling_of(const recordings::Series& series) {
   return middle_of(std::move(steps));
 }
 
-double step_of(const recordings::Series& series) {
+double step_of(const std::vector<double>& values) {
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < series.value.size(); ++i) {
-    const double step = std::abs(series.value[i] - series.value[i - 1]);
-    if (step > 0) least = std::min(least, step);
-  }
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (values[i] != values[i - 1]) least = std::min(least, std::abs(values[i] - values[i - 1]));
   return least;
+}
+
+double middle_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
 }
 
 double rms_of(const std::vector<double>& values) {

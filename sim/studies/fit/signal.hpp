@@ -16,9 +16,9 @@ std::vector<double> straight(const recordings::Series& series, double from_s, do
 /// Usual time between two samples [s].
 double sampling_of(const recordings::Series& series);
 
-/// The least by which two samples in succession differ: what they are counted in, infinite where all are
+/// The least by which two values in succession differ: what they are counted in, infinite where all are
 /// alike.
-double step_of(const recordings::Series& series);
+double step_of(const std::vector<double>& values);
 
 /// A low pass without phase, half the power at `cutoff` [Hz]: a Gaussian window. Its ends are those of what
 /// there is.
@@ -26,6 +26,8 @@ std::vector<double> smoothed(const std::vector<double>& values, double step_s, d
 /// How far such a filter looks on either side [s].
 double reach_of(double cutoff);
 
+/// Half of the values are below it.
+double middle_of(std::vector<double> values);
 /// Root of the mean square.
 double rms_of(const std::vector<double>& values);
 

@@ -25,7 +25,7 @@ constexpr double wanted_effect = 0.02;
 constexpr double least_effect = 0.05;
 /// A value is known within half of itself.
 constexpr double known_within = 0.5;
-/// No limits are narrower than this share of the value: steps and interpolation bend as much.
+/// Steps, interpolation and rounding bend a value by what changes this share of all that was measured.
 constexpr double least_half = 5e-4;
 /// Above this columns are not told apart; below this share a value has no part in it.
 constexpr double most_condition = 30;
@@ -108,6 +108,7 @@ class Functor {
     return x;
   }
   [[nodiscard]] double step(std::size_t i) const { return steps_[i]; }
+  [[nodiscard]] bool is_never_zero(std::size_t i) const { return unknowns_[i].never_zero; }
   [[nodiscard]] const std::vector<Index>& sizes() const { return sizes_; }
   [[nodiscard]] std::size_t runs() const { return runs_; }
 
@@ -127,7 +128,7 @@ class Functor {
   void find_steps(const std::vector<double>& start) {
     for (std::size_t i = 0; i < unknowns_.size(); ++i) {
       const double range = unknowns_[i].high - unknowns_[i].low;
-      steps_[i] = range <= 0 ? 1 : start[i] != 0 ? std::abs(start[i]) / 100 : range * 1e-9;
+      steps_[i] = start[i] != 0 ? std::abs(start[i]) / 100 : range * 1e-9;
     }
     for (int round = 0; round < 4; ++round) {
       std::vector<std::vector<double>> sets;
@@ -138,7 +139,6 @@ class Functor {
         const double effect = found[i].empty() ? 1e3 : (joined(found[i]) - at_start_).norm() / whole_;
         if (effect > wanted_effect / 5 && effect < wanted_effect * 5) continue;
         const double range = unknowns_[i].high - unknowns_[i].low;
-        if (range <= 0) continue;
         const double most = std::max(std::abs(start[i]) / 3, range / 10);
         const double next =
             std::min(steps_[i] * std::clamp(wanted_effect / std::max(effect, 1e-12), 1e-3, 1e3), most);
@@ -220,7 +220,8 @@ void judge(FitSolution& solution, const UnitColumns& columns, const Functor& fun
     for (const auto one : of) {
       estimates[one].known = of.size() > 1 ? FitKnown::joined : FitKnown::no;
       for (const auto other : of)
-        if (other != one) estimates[one].with.push_back(other);
+        if (other != one && std::ranges::find(estimates[one].with, other) == estimates[one].with.end())
+          estimates[one].with.push_back(other);
     }
   }
   for (std::size_t i = 0; i < estimates.size(); ++i) {
@@ -229,15 +230,14 @@ void judge(FitSolution& solution, const UnitColumns& columns, const Functor& fun
     const double half = (one.high - one.low) / 2;
     const double effect = half / functor.step(i) * columns.norms[static_cast<Index>(i)] / whole;
     const bool moves = columns.norms[static_cast<Index>(i)] > 1e-9 * whole;
-    if (!moves || (half > known_within * std::abs(one.value) && effect > least_effect))
-      one.known = FitKnown::no;
+    const bool is_wide = half > known_within * std::abs(one.value);
+    if (!moves || (is_wide && (functor.is_never_zero(i) || effect > least_effect))) one.known = FitKnown::no;
   }
 }
 
-}  // namespace
-
-FitSolution solve_fit(const std::vector<FitUnknown>& unknowns, const ResidualsOf& residuals, double whole,
-                      int most_trials) {
+/// Of unknowns none of which is held.
+FitSolution solve_free(const std::vector<FitUnknown>& unknowns, const ResidualsOf& residuals, double whole,
+                       int most_trials) {
   Functor functor(unknowns, residuals, whole);
   VectorXd x = functor.start();
   Eigen::LevenbergMarquardt<Functor> search(functor);
@@ -262,8 +262,9 @@ FitSolution solve_fit(const std::vector<FitUnknown>& unknowns, const ResidualsOf
   const auto values = functor.values_of(x);
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
     const auto at = static_cast<Index>(i);
-    const double half = std::max(quantile * std::sqrt(std::max(covariance(at, at), 0.0)) * functor.step(i),
-                                 least_half * std::abs(values[i]));
+    const double bent = columns.norms[at] > 0 ? least_half * whole / columns.norms[at] : 0;
+    const double half =
+        std::hypot(quantile * std::sqrt(std::max(covariance(at, at), 0.0)), bent) * functor.step(i);
     solution.estimates.push_back({values[i], values[i] - half, values[i] + half});
   }
   judge(solution, columns, functor, whole);
@@ -280,6 +281,43 @@ FitSolution solve_fit(const std::vector<FitUnknown>& unknowns, const ResidualsOf
   }
   solution.runs = functor.runs();
   return solution;
+}
+
+}  // namespace
+
+FitSolution solve_fit(const std::vector<FitUnknown>& unknowns, const ResidualsOf& residuals, double whole,
+                      int most_trials) {
+  std::vector<std::size_t> numbers;  // of the free ones
+  std::vector<FitUnknown> free;
+  std::vector<double> held;
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    held.push_back(unknowns[i].is_held() ? unknowns[i].low : unknowns[i].start);
+    if (unknowns[i].is_held()) continue;
+    numbers.push_back(i);
+    free.push_back(unknowns[i]);
+  }
+  const auto residuals_of_free = [&](const std::vector<std::vector<double>>& sets) {
+    std::vector<std::vector<double>> whole_sets(sets.size(), held);
+    for (std::size_t k = 0; k < sets.size(); ++k)
+      for (std::size_t i = 0; i < numbers.size(); ++i) whole_sets[k][numbers[i]] = sets[k][i];
+    return residuals(whole_sets);
+  };
+  FitSolution found;
+  if (free.empty()) {
+    const auto blocks = residuals({held});
+    if (blocks.front().empty()) throw std::runtime_error("the values of the scenario give no motion");
+    found = {{}, joined(blocks.front()).norm(), 1, 1};
+  } else {
+    found = solve_free(free, residuals_of_free, whole, most_trials);
+  }
+  std::vector<FitEstimate> all;
+  for (const auto& one : unknowns) all.push_back({one.start, one.start, one.start});
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    for (auto& with : found.estimates[i].with) with = numbers[with];
+    all[numbers[i]] = std::move(found.estimates[i]);
+  }
+  found.estimates = std::move(all);
+  return found;
 }
 
 }  // namespace drycut::sim::studies

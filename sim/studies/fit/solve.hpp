@@ -11,6 +11,9 @@ struct FitUnknown {
   double start = 0;
   double low = 0;  ///< least and largest value that may be tried
   double high = 0;
+  bool never_zero = false;  ///< as a mass: known only where its limits are narrower than itself
+
+  [[nodiscard]] bool is_held() const { return low == high; }
 };
 
 /// What a set of values leaves unexplained, a block a recording: weighted, at equal intervals of time. All
@@ -43,8 +46,8 @@ struct FitSolution {
 /// quantiles of Kiefer and Vogelsang (2005) for lags up to a tenth of a block. Values whose columns depend
 /// on each other (a condition index above 30: Belsley) are not told apart. `whole`: norm of what was
 /// measured, in the unit of the residuals; what changes less than a twentieth of it within its limits
-/// counts as known, whatever its value. The search ends after `most_trials` at the latest. Throws
-/// std::runtime_error if the start gives no residuals.
+/// counts as known, whatever its value. What is held is no part of all that. The search ends after
+/// `most_trials` at the latest. Throws std::runtime_error if the start gives no residuals.
 FitSolution solve_fit(const std::vector<FitUnknown>& unknowns, const ResidualsOf& residuals, double whole,
                       int most_trials = 60);
 

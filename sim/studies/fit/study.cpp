@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "sim/scenario/units.hpp"
+#include "sim/studies/fit/doubts.hpp"
 #include "sim/studies/fit/ladder.hpp"
 #include "sim/studies/fit/search.hpp"
-#include "sim/studies/fit/signal.hpp"
 #include "sim/studies/fit/words.hpp"
 
 namespace drycut::sim::studies {
@@ -18,7 +18,7 @@ namespace drycut::sim::studies {
 namespace {
 
 /// An offset of the torque may as well be dry friction that differs by direction: both are told.
-void tell_offset(FitFound& found) {
+void tell_offset(bool one_way, FitFound& found) {
   const auto& offset = found.torque_offset;
   if (!offset.value || *offset.low * *offset.high <= 0) return;
   for (const auto& value : found.parameters) {
@@ -31,6 +31,14 @@ void tell_offset(FitFound& found) {
                      *offset.value, value.path.substr(0, value.path.rfind('.')))});
     return;
   }
+  if (one_way)
+    found.tell({"fit.offset-or-direction"_code,
+                fmt::format(
+                    "the recorded torque is {:.3g} N m too much for the machine of the scenario, and the "
+                    "motion goes "
+                    "one way only: an offset of what was measured, or dry friction that the scenario has too "
+                    "little of. Record both directions, and vary the dry friction",
+                    *offset.value)});
 }
 
 /// Values as people have them, with the reasons of those that are not known.
@@ -138,20 +146,6 @@ void widen(FitFound& found) {
   }
 }
 
-/// Above some frequency the counts of an encoder say more than the machine.
-void tell_coarse(const FitBench& bench, FitFound& found) {
-  for (std::size_t i = 0; i < bench.recordings().size(); ++i) {
-    const auto& one = bench.recordings()[i];
-    if (bench.resolved(i) < bandwidth_of(one.torque))
-      found.tell(
-          {"fit.coarse"_code,
-           fmt::format("{}: above {:.3g} Hz the steps of {} are worth more than 2 % of the torque; only what "
-                       "is below counts. Springs and play show above: record a finer position, or the "
-                       "speed that the drive measures",
-                       one.name(), bench.resolved(i), one.motion.channel)});
-  }
-}
-
 void tell_unknown(FitFound& found) {
   const auto tell = [&](const FittedValue& value, const std::string& what) {
     if (value.value) return;
@@ -175,13 +169,12 @@ FitFound fit(const FitQuestion& question, const std::vector<ReplaySeries>& recor
     if (progress) progress(what);
   };
   FitFound found;
-  for (auto& doubt : doubts_of(recordings)) found.tell(std::move(doubt));
-  doing("search");
   FitBench bench(question, recordings, jobs);
+  for (auto& doubt : doubts_of(bench)) found.tell(std::move(doubt));
+  doing("search");
   const bool by_direction =
       std::ranges::any_of(question.vary, [](const FitPath& path) { return path.row.ends_with(".backward"); });
   if (by_direction) bench.fix(bench.torque_offset(), 0);
-  tell_coarse(bench, found);
   const auto solved = search_fit(bench);
   doing("other models");
   climb_ladder(bench, solved.chosen(), jobs, found);
@@ -189,12 +182,15 @@ FitFound fit(const FitQuestion& question, const std::vector<ReplaySeries>& recor
   found.condition = solved.chosen().solution.condition;
   found.replayed = replayed_with(bench, solved.chosen());
   found.relative_error = error_of(found.replayed);
+  if (!question.closed) found.inertia_at_motor = bench.answer_with(solved.chosen().values).inertia;
   tell_values(bench, solved, found);
   tell_delays(bench, solved.chosen(), found);
   tell_shares(bench, solved.chosen(), found);
   widen(found);
   tell_unknown(found);
   constexpr double much = 0.1;
+  constexpr double most = 1.0 / 3;
+  if (found.relative_error > most) found.passed = false;
   if (found.relative_error > much)
     found.tell(
         {"fit.unexplained"_code,
@@ -212,7 +208,7 @@ FitFound fit(const FitQuestion& question, const std::vector<ReplaySeries>& recor
          "the torque was taken to have no offset: an offset and dry friction that differs by direction "
          "are the same torque"});
   else
-    tell_offset(found);
+    tell_offset(std::ranges::all_of(recordings, &ReplaySeries::one_way), found);
   found.runs += bench.runs();
   return found;
 }

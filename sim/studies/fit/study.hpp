@@ -53,9 +53,14 @@ struct FitRung {
   double error_without = 0;        ///< unexplained torque over the recorded one
   double error = 0;                ///< the same with it
   double gain = 0;                 ///< of the Bayesian information criterion
+  bool known = false;              ///< all values of that model are, and what varies besides is not 0
 
-  /// Very strong evidence (Kass and Raftery 1995), and a twentieth less is left.
-  [[nodiscard]] bool is_worth_it() const { return gain > 10 && error < 0.95 * error_without; }
+  /// Very strong evidence (Kass and Raftery 1995), and it explains a twentieth of what is left and half a
+  /// percent of all torque; and who follows gets values.
+  [[nodiscard]] bool is_worth_it() const {
+    return known && gain > 10 && error < 0.95 * error_without &&
+           error_without * error_without - error * error > 0.005 * 0.005;
+  }
 
   template <typename Archive, typename Self>
   static void visit(Archive& archive, Self& self) {
@@ -64,6 +69,7 @@ struct FitRung {
     archive("error_without", self.error_without);
     archive("error_with", self.error);
     archive("bic_gain", self.gain);
+    archive("known", self.known);
   }
 };
 
@@ -77,7 +83,8 @@ struct FitFound {
   double relative_error = 0;             ///< torque that is left unexplained, over the recorded one, both rms
   std::optional<double> cross_error;     ///< the same of the recordings of the cross test, the largest
   double condition = 0;
-  double cutoff = 0;  ///< [Hz]
+  double cutoff = 0;                       ///< [Hz]
+  std::optional<double> inertia_at_motor;  ///< of all that it moves, with the values found [kg m2]
   std::vector<FitRung> ladder;
   std::vector<std::string> codes;
 
@@ -105,6 +112,7 @@ struct FitFound {
     archive("cross_error", self.cross_error);
     archive("condition", self.condition);
     archive("cutoff", self.cutoff);
+    archive("inertia_at_motor", self.inertia_at_motor);
     archive("ladder", self.ladder);
     archive("codes", self.codes);
   }

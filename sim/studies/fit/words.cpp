@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/studies/fit/signal.hpp"
-
 namespace drycut::sim::studies {
 
 Shows shows(const FitPath& path) {
@@ -75,45 +73,6 @@ double wakened(const FitPath& path, const std::vector<FitPath>& vary, const std:
       largest = std::max(largest, values[i]);
   }
   return path.row.ends_with("angle") ? 0 : share * largest;
-}
-
-std::vector<Finding> doubts_of(const std::vector<ReplaySeries>& recordings) {
-  std::vector<Finding> found;
-  const auto steps_of = [](const recordings::Series& series) {
-    const auto [low, high] = std::ranges::minmax(series.value);
-    return (high - low) / step_of(series);
-  };
-  for (const auto& one : recordings) {
-    for (const auto* series : {&one.torque, &one.motion}) {
-      constexpr double fewest = 100;
-      const double steps = steps_of(*series);
-      if (steps < fewest)
-        found.emplace_back(
-            "fit.coarse"_code,
-            fmt::format("{}: {} has {:.0f} steps from its least to its largest value; record it "
-                        "with a finer resolution",
-                        one.name(), series->channel, steps),
-            Finding::Role::warning);
-      if (!series->clipped.empty())
-        found.emplace_back(
-            "fit.clipped"_code,
-            fmt::format("{}: {} samples of {} are at the limit of what could be recorded; what "
-                        "happened around them was left out",
-                        one.name(), series->clipped.size(), series->channel),
-            Finding::Role::warning);
-    }
-    constexpr double almost = 0.14;
-    if (bandwidth_of(one.torque) * one.sampling > almost / 1.25)
-      found.emplace_back(
-          "fit.slow"_code,
-          fmt::format("{}: the torque changes as fast as it was sampled, every {:.3g} ms; record "
-                      "at a higher rate, or move more gently",
-                      one.name(), one.sampling * 1000),
-          Finding::Role::warning);
-    for (const auto& channel : one.unused)
-      found.emplace_back("fit.unused-channel"_code, fmt::format("{}: {} is not used", one.name(), channel));
-  }
-  return found;
 }
 
 }  // namespace drycut::sim::studies

@@ -21,7 +21,4 @@ std::string why_not_known(const FitPath& path, const std::vector<FitPath>& with,
 /// of all friction.
 double wakened(const FitPath& path, const std::vector<FitPath>& vary, const std::vector<double>& values);
 
-/// What is doubtful in recordings as such: coarse, slow, clipped, moved one way.
-std::vector<Finding> doubts_of(const std::vector<ReplaySeries>& recordings);
-
 }  // namespace drycut::sim::studies

@@ -114,5 +114,39 @@ TEST(FitSolve, ValuesStayWithinTheirRange) {
   EXPECT_EQ(solve_fit({{1, 0, 10}}, residuals, measured.norm()).estimates[0].value, 0);
 }
 
+// What is held is no column: it makes no condition, and is as it was.
+TEST(FitSolve, AHeldValueIsNoPartOfIt) {
+  const Columns columns = {wave(1), wave(2), wave(3)};
+  const VectorXd measured = sum_of(columns, {2, -1, 0.5}) + noise(0.01, 1);
+  const auto residuals = [&](const std::vector<std::vector<double>>& sets) {
+    std::vector<Residuals> all;
+    for (const auto& set : sets) all.push_back({sum_of(columns, set) - measured});
+    return all;
+  };
+  const auto found = solve_fit({{1, -10, 10}, {-1, -1, -1}, {1, -10, 10}}, residuals, measured.norm());
+  EXPECT_NEAR(found.condition, 1, 1e-3);
+  EXPECT_NEAR(found.estimates[0].value, 2, 0.01);
+  EXPECT_EQ(found.estimates[1].value, -1);
+  EXPECT_NEAR(found.estimates[2].value, 0.5, 0.01);
+  const auto none = solve_fit({{2, 2, 2}, {-1, -1, -1}, {0.5, 0.5, 0.5}}, residuals, measured.norm());
+  EXPECT_NEAR(none.norm, (sum_of(columns, {2, -1, 0.5}) - measured).norm(), 1e-9);
+}
+
+// A friction of 0.001 +- 0.01 is known to be small; a mass that wide is not known.
+TEST(FitSolve, WhatIsNeverZeroNeedsLimitsNarrowerThanItself) {
+  const Columns columns = {wave(1), 1e-3 * wave(2)};
+  const VectorXd measured = sum_of(columns, {1, 0.5}) + noise(0.01, 1);
+  const auto residuals = [&](const std::vector<std::vector<double>>& sets) {
+    std::vector<Residuals> all;
+    for (const auto& set : sets) all.push_back({sum_of(columns, set) - measured});
+    return all;
+  };
+  const auto of = [&](bool never_zero) {
+    return solve_fit({{1, 0, 10}, {1, 0, 10, never_zero}}, residuals, measured.norm()).estimates[1].known;
+  };
+  EXPECT_EQ(of(false), FitKnown::yes);
+  EXPECT_EQ(of(true), FitKnown::no);
+}
+
 }  // namespace
 }  // namespace drycut::sim::studies
