@@ -85,8 +85,10 @@ std::vector<fs::path> licences_of_carried() {
   std::error_code none;
   for (const auto& package : fs::directory_iterator("/usr/share/doc", none)) {
     const auto name = package.path().filename().string();
-    const bool carried = (name.starts_with("libbullet") || name.starts_with("libfmt")) && !name.ends_with("-dev");
-    if (carried && fs::exists(package.path() / "copyright", none)) found.push_back(package.path() / "copyright");
+    const bool carried =
+        (name.starts_with("libbullet") || name.starts_with("libfmt")) && !name.ends_with("-dev");
+    if (carried && fs::exists(package.path() / "copyright", none))
+      found.push_back(package.path() / "copyright");
   }
   std::ranges::sort(found);
   return found;
@@ -104,20 +106,23 @@ std::string identifier_of(const fs::path& scenario) {
 }  // namespace
 
 WrittenFmu write_fmu(const scenario::Scenario& scenario, Standard standard, const fs::path& out) {
-  const std::string_view binary(drycut_fmu_begin, static_cast<std::size_t>(drycut_fmu_end - drycut_fmu_begin));
+  const std::string_view binary(drycut_fmu_begin,
+                                static_cast<std::size_t>(drycut_fmu_end - drycut_fmu_begin));
   const auto resolved = resolve(scenario, binary);
   const auto text = machine_text(resolved);
   const BuiltMachine machine(resolved);
   const auto& variables = machine.variables();
-  const FmuHead head{identifier_of(scenario.file), scenario.scene.title, token_of(text), seconds(resolved.step),
-                     seconds(scenario.scene.duration)};
+  const FmuHead head{identifier_of(scenario.file), scenario.scene.title, token_of(text),
+                     seconds(resolved.step), seconds(scenario.scene.duration)};
 
   const auto part = fs::path(out.string() + ".part");
   ZipFile zip(part);
-  zip.add("modelDescription.xml", model_description(standard, head, variables), 0);  // who wrote it is seen so
+  zip.add("modelDescription.xml", model_description(standard, head, variables),
+          0);  // who wrote it is seen so
   const std::string folder = standard == Standard::fmi2 ? "binaries/linux64/" : "binaries/x86_64-linux/";
   zip.add(folder + head.identifier + ".so", binary);
-  for (const auto& library : carried_libraries()) zip.add(folder + library.filename().string(), bytes_of(library));
+  for (const auto& library : carried_libraries())
+    zip.add(folder + library.filename().string(), bytes_of(library));
   zip.add("resources/machine.json", text);
   std::vector<std::string> licences;
   for (const auto& licence : licences_of_carried()) {

@@ -113,7 +113,9 @@ std::string start_of(const FmiVariable& variable) {
   return fmt::format("{}", variable.get());
 }
 
-bool has_start(const FmiVariable& variable) { return variable.role != Role::output && variable.role != Role::time; }
+bool has_start(const FmiVariable& variable) {
+  return variable.role != Role::output && variable.role != Role::time;
+}
 
 std::string causality(const FmiVariable& variable) {
   constexpr std::string_view names[] = {"independent", "parameter", "parameter", "input", "output"};
@@ -163,11 +165,11 @@ std::string variable2(const FmiVariable& variable, std::size_t reference) {
   constexpr std::string_view types[] = {"Real", "Integer", "Real", "Boolean", "String"};
   const std::string_view type = types[static_cast<int>(variable.type)];
   const auto start = has_start(variable) ? attribute("start", start_of(variable)) : "";
-  return fmt::format(
-      "    <ScalarVariable{} valueReference=\"{}\"{}{}{}><{}{}{}/></ScalarVariable>\n",
-      attribute("name", variable.name), reference, attribute("description", meaning(variable)),
-      attribute("causality", causality(variable)), attribute("variability", variability(variable)), type, start,
-      typed(variable, type == "Real"));
+  return fmt::format("    <ScalarVariable{} valueReference=\"{}\"{}{}{}><{}{}{}/></ScalarVariable>\n",
+                     attribute("name", variable.name), reference, attribute("description", meaning(variable)),
+                     attribute("causality", causality(variable)),
+                     attribute("variability", variability(variable)), type, start,
+                     typed(variable, type == "Real"));
 }
 
 std::string variable3(const FmiVariable& variable, std::size_t reference) {
@@ -198,8 +200,8 @@ std::string structure(Standard standard, const std::vector<FmiVariable>& variabl
     }
   }
   if (standard == Standard::fmi3) return outputs + unknowns;
-  return fmt::format("    <Outputs>\n{}    </Outputs>\n    <InitialUnknowns>\n{}    </InitialUnknowns>\n", outputs,
-                     unknowns);
+  return fmt::format("    <Outputs>\n{}    </Outputs>\n    <InitialUnknowns>\n{}    </InitialUnknowns>\n",
+                     outputs, unknowns);
 }
 
 }  // namespace
@@ -221,8 +223,9 @@ std::string model_description(Standard standard, const FmuHead& head,
         "canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" mightReturnEarlyFromDoStep=\"true\"/>\n",
         identifier, head.step);
   text += unit_definitions(variables);
-  text += "  <LogCategories>\n    <Category name=\"logStatusError\" description=\"what is refused, and why\"/>\n"
-          "  </LogCategories>\n";
+  text +=
+      "  <LogCategories>\n    <Category name=\"logStatusError\" description=\"what is refused, and why\"/>\n"
+      "  </LogCategories>\n";
   text += experiment(head) + "  <ModelVariables>\n";
   for (std::size_t n = 0; n < variables.size(); ++n)
     text += two ? variable2(variables[n], n) : variable3(variables[n], n);
@@ -236,22 +239,23 @@ std::string documentation(Standard standard, const FmuHead& head, const std::vec
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{0}</title>\n"
       "<style>body {{font: 15px sans-serif; max-width: 70em; margin: 2em auto}} td, th {{text-align: left; "
       "padding: 0.1em 1em 0.1em 0; vertical-align: top}}</style></head>\n<body>\n<h1>{0}</h1>\n<p>{1}</p>\n"
-      "<p>The machine of a Drycut line without its controller, for co-simulation by FMI {2}. It steps by {3} s; a "
-      "communication step is any whole multiple of that. Inputs are taken at the beginning of a step and hold, "
+      "<p>The machine of a Drycut line without its controller, for co-simulation by FMI {2}. It steps by {3} "
+      "s; a "
+      "communication step is any whole multiple of that. Inputs are taken at the beginning of a step and "
+      "hold, "
       "outputs are those at its end: call your controller, set, step, in this order, and nothing is late. "
-      "Parameters (parameters.), settings (set.) and faults (fault.) are in SI units, all else in the unit that "
+      "Parameters (parameters.), settings (set.) and faults (fault.) are in SI units, all else in the unit "
+      "that "
       "is named. A fault acts when its value changes.</p>\n<table>\n"
       "<tr><th>variable</th><th>is</th><th>unit</th><th>start</th><th>meaning</th></tr>\n",
       escaped(head.identifier), escaped(head.title), standard == Standard::fmi2 ? "2.0" : "3.0", head.step);
   for (const auto& variable : variables)
     text += fmt::format("<tr><td>{}</td><td>{}{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                        escaped(variable.name),
-                        variable.role == Role::live_parameter ? "tunable " : "", causality(variable),
-                        escaped(unit_of(variable)), has_start(variable) ? escaped(start_of(variable)) : "",
-                        escaped(meaning(variable)));
+                        escaped(variable.name), variable.role == Role::live_parameter ? "tunable " : "",
+                        causality(variable), escaped(unit_of(variable)),
+                        has_start(variable) ? escaped(start_of(variable)) : "", escaped(meaning(variable)));
   text += "</table>\n<p>It carries libraries of others under licences of their own:";
-  for (const auto& licence : licences)
-    text += fmt::format(" <a href=\"{0}\">{0}</a>", escaped(licence));
+  for (const auto& licence : licences) text += fmt::format(" <a href=\"{0}\">{0}</a>", escaped(licence));
   return text + "</p>\n</body>\n</html>\n";
 }
 

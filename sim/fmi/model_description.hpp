@@ -18,7 +18,8 @@ struct FmuHead {
 };
 
 /// modelDescription.xml of either standard.
-std::string model_description(Standard standard, const FmuHead& head, const std::vector<FmiVariable>& variables);
+std::string model_description(Standard standard, const FmuHead& head,
+                              const std::vector<FmiVariable>& variables);
 
 /// documentation/index.html: the same table for people. `licences`: files beside it.
 std::string documentation(Standard standard, const FmuHead& head, const std::vector<FmiVariable>& variables,

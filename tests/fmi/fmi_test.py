@@ -333,7 +333,13 @@ def instances(program, there):
         assert early or (instance.reached.value == 1 and instance.get("knife.cut.count") > 1)
 
     pi = build_example("pi", there)
+    single = Path("/usr/lib/x86_64-linux-gnu")
     for fmu in folders:
+        # An importer with Bullet in single precision would get other results: it gets none.
+        for library in ("libBulletDynamics.so", "libBulletCollision.so"):
+            others = dict(os.environ, LD_PRELOAD=str(single / library))
+            done = subprocess.run([pi, fmu.path], env=others, capture_output=True, text=True)
+            assert done.returncode == 3 and library in done.stderr and "single precision" in done.stderr, done
         said = subprocess.run([pi, fmu.path], check=True, capture_output=True, text=True).stdout
         count = int(re.search(r"at rest: (-?\d+) counts", said)[1])
         assert abs(count - 4096) <= 2, said

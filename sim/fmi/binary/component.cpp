@@ -1,5 +1,8 @@
 #include "sim/fmi/binary/component.hpp"
 
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <typeinfo>
 
 namespace drycut::sim::fmi {
 
@@ -27,15 +31,32 @@ std::string_view name_of(FmiVariable::Type type) {
   return names[static_cast<int>(type)];
 }
 
+// Bullet in single precision has the same names in C++, and where an importer has made them global, the
+// loader takes those: results would be others, and nobody would be told.
+void refuse_other_bullet() {
+  for (const auto* type : {&typeid(btRigidBody), &typeid(btBoxShape)}) {
+    Dl_info found{};
+    if (dladdr(type, &found) == 0 || found.dli_fname == nullptr) continue;
+    const auto name = std::filesystem::path(found.dli_fname).filename().string();
+    if (name.starts_with("libBullet") && name.find("float64") == std::string::npos)
+      throw Refusal(fmt::format(
+          "{} is loaded in this process for all, in single precision, and hides the Bullet of this "
+          "FMU; load it without RTLD_GLOBAL",
+          found.dli_fname));
+  }
+}
+
 }  // namespace
 
 Component::Component(const std::filesystem::path& resources, std::string_view token) {
+  refuse_other_bullet();
   const auto text = text_of(resources / "machine.json");
   token_ = token_of(text);
   if (token != token_)
-    throw Refusal(fmt::format("the description has the token {}, the machine in its resources {}: they are of "
-                              "two FMUs",
-                              token, token_));
+    throw Refusal(
+        fmt::format("the description has the token {}, the machine in its resources {}: they are of "
+                    "two FMUs",
+                    token, token_));
   resolved_ = read_machine(text);
   machine_ = std::make_unique<BuiltMachine>(resolved_);
 }
@@ -147,9 +168,8 @@ Component::Reached Component::step(double at, double size, bool early) {
   const double steps = std::round(size / h);
   // The difference of two times has lost digits.
   if (!(std::abs(size / h - steps) < 1e-6 * std::max(1.0, steps)) || steps < 1 || steps > 1e15)
-    throw Refusal(
-        fmt::format("a communication step of {:.12g} s is no whole multiple of the machine's step of {:g} s",
-                    size, h));
+    throw Refusal(fmt::format(
+        "a communication step of {:.12g} s is no whole multiple of the machine's step of {:g} s", size, h));
   if (!machine_->failure().empty()) throw Refusal(machine_->failure());
   for (auto left = static_cast<std::int64_t>(steps); left > 0; --left) {
     machine_->step();

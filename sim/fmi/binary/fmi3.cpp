@@ -21,11 +21,12 @@ DRYCUT_FMI void* fmi3InstantiateCoSimulation(const char* /*name*/, const char* t
                                              bool /*visible*/, bool /*logging*/, bool /*event mode*/,
                                              bool early, const FmiReference* /*intermediate*/, std::size_t,
                                              void* environment, LogMessage message,
-                                             void (*/*intermediate update*/)()) {
-  auto* const instance = instance_of(
-      resources == nullptr ? "" : resources, token, [=](FmiStatus status, const std::string& text) {
-        if (message != nullptr) message(environment, status, log_category, text.c_str());
-      });
+                                             void (* /*intermediate update*/)()) {
+  auto* const instance = instance_of(resources == nullptr ? "" : resources, token,
+                                     [=](FmiStatus status, const std::string& text) {
+                                       if (message != nullptr)
+                                         message(environment, status, log_category, text.c_str());
+                                     });
   if (instance != nullptr) instance->early = early;
   return instance;
 }
@@ -85,9 +86,9 @@ DRYCUT_FMI FmiStatus fmi3SetString(void* handle, const FmiReference* vr, std::si
 }
 
 // No variable is of these types; of none there is nothing to do.
-#define DRYCUT_FMI3_NONE(function)                                                          \
+#define DRYCUT_FMI3_NONE(function)                                                            \
   DRYCUT_FMI FmiStatus function(void* handle, const FmiReference* /*vr*/, std::size_t size) { \
-    return size == 0 ? fmi_ok : cannot(handle, #function);                                  \
+    return size == 0 ? fmi_ok : cannot(handle, #function);                                    \
   }
 DRYCUT_FMI3_NONE(fmi3GetFloat32)
 DRYCUT_FMI3_NONE(fmi3GetInt8)

@@ -82,7 +82,8 @@ FmiStatus set_numbers(void* handle, const FmiReference* references, std::size_t 
   });
 }
 FmiStatus get_words(void* handle, const FmiReference* references, std::size_t size, const char** values);
-FmiStatus set_words(void* handle, const FmiReference* references, std::size_t size, const char* const* values);
+FmiStatus set_words(void* handle, const FmiReference* references, std::size_t size,
+                    const char* const* values);
 
 // The states of both standards: bytes that may be put away as they are.
 FmiStatus get_state(void* handle, void** state);

@@ -16,7 +16,6 @@ using Type = FmiVariable::Type;
 
 struct BuiltMachine::NamedDefinition {
   std::string name;
-  std::string type;
   std::unique_ptr<plants::PlantDefinition> definition;
   plants::Parameters parameters;
   // Those that change while it runs: in the table of the definition and in the machine itself.
@@ -73,6 +72,13 @@ void take(const plants::Parameter& row, const FmiValue& given) {
       row.value);
 }
 
+FmiVariable output(std::string name, std::string meaning, Type type, std::string unit,
+                   std::function<double()> get) {
+  FmiVariable made{std::move(name), std::move(meaning), type, Role::output, std::move(unit)};
+  made.get = std::move(get);
+  return made;
+}
+
 // Words that only say where values come from, or which plants there are, are no parameters of the machine.
 bool is_parameter(const plants::Parameter& row) {
   if (!std::holds_alternative<std::string*>(row.value)) return true;
@@ -102,9 +108,11 @@ BuiltMachine::BuiltMachine(const ResolvedMachine& resolved, const Given& given)
     const auto& name = definitions_[plant].name;
     bind_live_parameters(plant);
     add_plugs(name, *plants_[plant]);
-    for (auto& channel : plants_[plant]->channels())
-      add({name + "." + channel.name + (names_.contains(name + "." + channel.name) ? ".channel" : ""), channel.meaning, Type::real, Role::output, channel.unit, false, false,
-           false, 0, 0, {}, channel.read});
+    for (auto& channel : plants_[plant]->channels()) {
+      const auto full = name + "." + channel.name;
+      add(output(names_.contains(full) ? full + ".channel" : full, channel.meaning, Type::real, channel.unit,
+                 channel.read));
+    }
     add_events(plant);
     add_settings(name, *plants_[plant]);
   }
@@ -115,7 +123,7 @@ void BuiltMachine::define(const ResolvedMachine& resolved) {
     const auto& types = plants::plant_types();
     const auto type = std::ranges::find(types, values.type, &plants::PlantType::name);
     if (type == types.end()) throw Refusal(fmt::format("there is no plant of type '{}'", values.type));
-    NamedDefinition made{values.name, values.type, type->define(), {}};
+    NamedDefinition made{values.name, type->define(), {}};
     made.parameters = made.definition->parameters();
     for (const auto& [name, value] : values.parameters) {
       const auto row = std::ranges::find(made.parameters, name, &plants::Parameter::name);
@@ -133,7 +141,7 @@ void BuiltMachine::refuse_objections() {
     return found == definitions_.end() ? nullptr : found->definition.get();
   };
   std::string all;
-  for (const auto& [name, type, definition, rows, live] : definitions_) {
+  for (const auto& [name, definition, rows, live] : definitions_) {
     auto objections = definition->objections(h_);
     for (auto& more : definition->objections_with(find, h_)) objections.push_back(std::move(more));
     for (const auto& objection : objections)
@@ -163,19 +171,15 @@ void BuiltMachine::add_parameters(std::size_t plant) {
     if (!is_parameter(row)) continue;
     constexpr Type types[] = {Type::real, Type::whole, Type::flag, Type::word};
     const auto type = types[row.value.index()];
-    FmiVariable variable{"parameters." + definition.name + "." + row.name,
-                         std::string(row.meaning),
-                         type,
-                         row.live ? Role::live_parameter : Role::parameter,
-                         std::string(row.unit),
-                         true,
-                         type == Type::real || type == Type::whole,
-                         false,
-                         row.min,
-                         row.max,
-                         row.choices,
-                         [row] { return number_of(row); },
-                         [row](double value) { take(row, value); }};
+    FmiVariable variable{"parameters." + definition.name + "." + row.name, std::string(row.meaning), type,
+                         row.live ? Role::live_parameter : Role::parameter, std::string(row.unit)};
+    variable.in_si = true;
+    variable.ranged = type == Type::real || type == Type::whole;
+    variable.min = row.min;
+    variable.max = row.max;
+    variable.choices = row.choices;
+    variable.get = [row] { return number_of(row); };
+    variable.set = [row](double value) { take(row, value); };
     if (auto* const* word = std::get_if<std::string*>(&row.value)) variable.word = *word;
     add(std::move(variable));
   }
@@ -232,9 +236,10 @@ void BuiltMachine::add_plugs(const std::string& name, plants::Plant& plant) {
       variable.get = [to = *pulses] { return static_cast<double>(to->pulses); };
       variable.set = [to = *pulses](double count) {
         if (count < static_cast<double>(to->pulses))
-          throw Refusal(fmt::format("{} pulses after {}: pulses are counted up whatever their direction, which "
-                                    "is a signal of its own",
-                                    count, to->pulses));
+          throw Refusal(
+              fmt::format("{} pulses after {}: pulses are counted up whatever their direction, which "
+                          "is a signal of its own",
+                          count, to->pulses));
         to->pulses = static_cast<std::int64_t>(count);
       };
     }
@@ -253,27 +258,28 @@ void BuiltMachine::add_signal(const std::string& name, const plants::Port& port,
   signals_.push_back(std::make_unique<Signal>(Signal{from, encoder}));
   auto* const signal = signals_.back().get();
   const auto full = name + "." + port.name;
-  const auto output = [&](const std::string& what, std::string meaning, Type type, std::string unit,
-                          std::function<double()> get) {
-    add({full + what, std::move(meaning), type, Role::output, std::move(unit), false, false, false, 0, 0, {},
-         std::move(get)});
-  };
-  output("", port.meaning, Type::flag, "", [from] { return from->level ? 1.0 : 0.0; });
-  output(".rises", "rising edges since the start", Type::count, "",
-         [signal] { return static_cast<double>(signal->rises); });
-  output(".rise_time", "when it rose last, exactly, inside its step", Type::real, "s",
-         [signal] { return signal->rise_time; });
+  add(output(full, port.meaning, Type::flag, "", [from] { return from->level ? 1.0 : 0.0; }));
+  add(output(full + ".rises", "rising edges since the start", Type::count, "",
+             [signal] { return static_cast<double>(signal->rises); }));
+  add(output(full + ".rise_time", "when it rose last, exactly, inside its step", Type::real, "s",
+             [signal] { return signal->rise_time; }));
   if (encoder != nullptr)
-    output(".latch", "count of the encoder at that very moment", Type::count, "",
-           [signal] { return static_cast<double>(signal->latch); });
+    add(output(full + ".latch", "count of the encoder at that very moment", Type::count, "",
+               [signal] { return static_cast<double>(signal->latch); }));
 }
 
 void BuiltMachine::add_settings(const std::string& name, plants::Plant& plant) {
   const auto input = [&](std::string full, std::string meaning, std::string_view unit,
                          const plants::Range& range) {
     const bool is_switch = unit.empty() && range.whole && range.min == 0 && range.max == 1;
-    return FmiVariable{std::move(full), std::move(meaning), is_switch ? Type::flag : Type::real, Role::input,
-                       std::string(unit), true, !is_switch, range.whole && !is_switch, range.min, range.max};
+    FmiVariable made{std::move(full), std::move(meaning), is_switch ? Type::flag : Type::real, Role::input,
+                     std::string(unit)};
+    made.in_si = true;
+    made.ranged = !is_switch;
+    made.integral = range.whole && !is_switch;
+    made.min = range.min;
+    made.max = range.max;
+    return made;
   };
   for (auto& setting : plant.settings()) {
     auto variable = input("set." + name + "." + setting.name, setting.meaning, setting.unit, setting.range);
@@ -299,18 +305,14 @@ void BuiltMachine::add_events(std::size_t plant) {
     happenings_.push_back(std::make_unique<Happening>(Happening{plant, type}));
     auto* const event = happenings_.back().get();
     const auto full = fmt::format("{}.{}", definitions_[plant].name, type.name);
-    const auto output = [&](std::string_view what, std::string meaning, Type kind, std::string_view unit,
-                            std::function<double()> get) {
-      add({fmt::format("{}.{}", full, what), std::move(meaning), kind, Role::output, std::string(unit), false,
-           false, false, 0, 0, {}, std::move(get)});
-    };
-    output("count", fmt::format("{}: how often since the start", type.meaning), Type::count, "",
-           [event] { return static_cast<double>(event->count); });
-    output("time", "when it happened last, exactly, inside its step", Type::real, "s",
-           [event] { return event->time; });
+    add(output(full + ".count", fmt::format("{}: how often since the start", type.meaning), Type::count, "",
+               [event] { return static_cast<double>(event->count); }));
+    add(output(full + ".time", "when it happened last, exactly, inside its step", Type::real, "s",
+               [event] { return event->time; }));
     for (std::size_t n = 0; n < type.values.size(); ++n)
-      output(type.values[n].name, fmt::format("{} of the last {}", type.values[n].name, type.name), Type::real,
-             type.values[n].unit, [event, n] { return event->values[n]; });
+      add(output(fmt::format("{}.{}", full, type.values[n].name),
+                 fmt::format("{} of the last {}", type.values[n].name, type.name), Type::real,
+                 std::string(type.values[n].unit), [event, n] { return event->values[n]; }));
   }
 }
 

@@ -41,8 +41,8 @@ struct FmiVariable {
   Type type = Type::real;
   Role role = Role::output;
   std::string unit = {};  ///< in which people read it; "" = pure number
-  bool in_si = false;    ///< the number itself is in SI, whatever `unit` is
-  bool ranged = false;   ///< `min` and `max` hold, in `unit`
+  bool in_si = false;     ///< the number itself is in SI, whatever `unit` is
+  bool ranged = false;    ///< `min` and `max` hold, in `unit`
   bool integral = false;  ///< a real that takes whole numbers only
   double min = 0;
   double max = 0;
@@ -52,10 +52,10 @@ struct FmiVariable {
   std::string* word = nullptr;
 };
 
-/// The plants of a resolved machine, built and stepped without a controller, and the table of their variables:
-/// parameters as `parameters.knife.circumference`, plugs and channels as scenarios name them, what the timeline
-/// sets as `set.web.speed`, faults as `fault.knife.encoder.stuck`, events as `knife.cut.count`, `.time` and
-/// their values. A channel that has the name of a plug is `knife.home.channel`.
+/// The plants of a resolved machine, built and stepped without a controller, and the table of their
+/// variables: parameters as `parameters.knife.circumference`, plugs and channels as scenarios name them, what
+/// the timeline sets as `set.web.speed`, faults as `fault.knife.encoder.stuck`, events as `knife.cut.count`,
+/// `.time` and their values. A channel that has the name of a plug is `knife.home.channel`.
 class BuiltMachine {
  public:
   /// Values of parameters in place of the resolved ones, by place in the table.

@@ -26,8 +26,7 @@ std::string machine_text(const ResolvedMachine& machine) {
 ResolvedMachine read_machine(std::string_view text) {
   const auto json = Json::parse(text);
   ResolvedMachine machine{json.at("made_by"), json.at("step_ns"), json.at("seed")};
-  for (const auto& [unit, scale] : json.at("units").items())
-    machine.units[unit] = {scale.at(0), scale.at(1)};
+  for (const auto& [unit, scale] : json.at("units").items()) machine.units[unit] = {scale.at(0), scale.at(1)};
   for (const auto& plant : json.at("plants")) {
     auto& values = machine.plants.emplace_back();
     values = {plant.at("name"), plant.at("type"), {}};
