@@ -62,20 +62,38 @@ DRYCUT_FMI FmiStatus fmi3Reset(void* handle) {
 }
 
 // Scalars only: of each as many values as references.
-#define DRYCUT_FMI3_NUMBERS(name, type, of)                                                                \
-  DRYCUT_FMI FmiStatus fmi3Get##name(void* handle, const FmiReference* vr, std::size_t size, type* values, \
-                                     std::size_t) {                                                        \
-    return get_numbers(handle, vr, size, values, of, of);                                                  \
-  }                                                                                                        \
-  DRYCUT_FMI FmiStatus fmi3Set##name(void* handle, const FmiReference* vr, std::size_t size,               \
-                                     const type* values, std::size_t) {                                    \
-    return set_numbers(handle, vr, size, values, of, of);                                                  \
-  }
-DRYCUT_FMI3_NUMBERS(Float64, double, Type::real)
-DRYCUT_FMI3_NUMBERS(Int32, std::int32_t, Type::whole)
-DRYCUT_FMI3_NUMBERS(Int64, std::int64_t, Type::count)
-DRYCUT_FMI3_NUMBERS(Boolean, bool, Type::flag)
-
+DRYCUT_FMI FmiStatus fmi3GetFloat64(void* handle, const FmiReference* vr, std::size_t size, double* values,
+                                    std::size_t) {
+  return get_numbers(handle, vr, size, values, Type::real, Type::real);
+}
+DRYCUT_FMI FmiStatus fmi3SetFloat64(void* handle, const FmiReference* vr, std::size_t size,
+                                    const double* values, std::size_t) {
+  return set_numbers(handle, vr, size, values, Type::real, Type::real);
+}
+DRYCUT_FMI FmiStatus fmi3GetInt32(void* handle, const FmiReference* vr, std::size_t size,
+                                  std::int32_t* values, std::size_t) {
+  return get_numbers(handle, vr, size, values, Type::whole, Type::whole);
+}
+DRYCUT_FMI FmiStatus fmi3SetInt32(void* handle, const FmiReference* vr, std::size_t size,
+                                  const std::int32_t* values, std::size_t) {
+  return set_numbers(handle, vr, size, values, Type::whole, Type::whole);
+}
+DRYCUT_FMI FmiStatus fmi3GetInt64(void* handle, const FmiReference* vr, std::size_t size,
+                                  std::int64_t* values, std::size_t) {
+  return get_numbers(handle, vr, size, values, Type::count, Type::count);
+}
+DRYCUT_FMI FmiStatus fmi3SetInt64(void* handle, const FmiReference* vr, std::size_t size,
+                                  const std::int64_t* values, std::size_t) {
+  return set_numbers(handle, vr, size, values, Type::count, Type::count);
+}
+DRYCUT_FMI FmiStatus fmi3GetBoolean(void* handle, const FmiReference* vr, std::size_t size, bool* values,
+                                    std::size_t) {
+  return get_numbers(handle, vr, size, values, Type::flag, Type::flag);
+}
+DRYCUT_FMI FmiStatus fmi3SetBoolean(void* handle, const FmiReference* vr, std::size_t size,
+                                    const bool* values, std::size_t) {
+  return set_numbers(handle, vr, size, values, Type::flag, Type::flag);
+}
 DRYCUT_FMI FmiStatus fmi3GetString(void* handle, const FmiReference* vr, std::size_t size,
                                    const char** values, std::size_t) {
   return get_words(handle, vr, size, values);
