@@ -90,6 +90,10 @@ std::vector<fs::path> licences_of_carried() {
     if (carried && fs::exists(package.path() / "copyright", none))
       found.push_back(package.path() / "copyright");
   }
+  if (found.empty())
+    throw std::runtime_error(
+        "the licences of the libraries that an FMU carries are not installed: "
+        "/usr/share/doc/libbullet*/copyright");
   std::ranges::sort(found);
   return found;
 }

@@ -189,6 +189,47 @@ def description(program, there):
     print("the descriptions")
 
 
+def scenes(program, there):
+    """Every scene's machine: each variable starts where the description says; a state in the middle, and the same from there."""
+    types = set()
+    for scene in sorted(SCENES.glob("*.yaml")):
+        text = scene.read_text()
+        if re.search("^compare:", text, re.MULTILINE):
+            continue
+        fmu = write_fmu(program, scene, 2 + len(types) % 2, there / f"{scene.stem}.fmu")
+        types.update(re.findall(r'"type": "(\w+)"', (fmu.path / "resources" / "machine.json").read_text()))
+        instance = Instance(fmu)
+        assert instance.initialise() == OK, instance.said
+        for row in fmu.variables.values():
+            value = instance.get(row["name"])
+            assert instance.status == OK, (scene.name, row, instance.said)
+            if "start" in row:
+                start = {"true": 1, "false": 0}.get(row["start"], row["start"])
+                assert value == (start if row["type"] == "String" else float(start)), (scene.name, row, value)
+        step = float(fmu.root.find("DefaultExperiment").get("stepSize"))
+
+        def steps():
+            for row in fmu.variables.values():
+                if row["causality"] == "input" and row["type"] == "Boolean" and not re.search("fault|backward", row["name"]):
+                    instance.set(row["name"], 1)
+                elif row["causality"] == "input" and row.get("unit") == "V" and "fault" not in row["name"]:
+                    instance.set(row["name"], 1.5)
+                elif row["name"].endswith(".pulses") and row["causality"] == "input":
+                    instance.set(row["name"], int(instance.get(row["name"])) + 200)
+            for _ in range(200):
+                assert instance.step(instance.get("time"), step) == OK, (scene.name, instance.said)
+            return [instance.get(name) for name, row in fmu.variables.items() if row["causality"] == "output"]
+
+        begin = steps()
+        kept = instance.save()
+        end = steps()
+        assert instance.restore(kept) == OK and steps() == end != begin, scene.name
+        instance.free()
+        shutil.rmtree(fmu.path)
+    print(f"scenes with {', '.join(sorted(types))}")
+    assert len(types) >= 7, types
+
+
 def drive(instance, begin, steps):
     """A reference that moves; what comes of it."""
     seen = []
@@ -346,10 +387,33 @@ def instances(program, there):
     print("instances")
 
 
+def bode(program, there):
+    """The margins behind an FMI step are those of a loop whose controller computes for so long, which a run measures."""
+    def margins(*more):
+        said = subprocess.run([program, "bode", SCENES / "rotary_knife.yaml", *more], capture_output=True, text=True)
+        assert said.returncode == 0, said.stdout + said.stderr
+        found = {}
+        for line in said.stdout.splitlines():
+            number = re.match(r"(phase|gain) margin( behind an FMI step of 1 ms:)? +(-?[0-9.]+) (deg|dB) at", line)
+            if number:
+                found[number[1], bool(number[2])] = float(number[3])
+        return found
+
+    told = margins("--fmi-step", "1 ms")
+    measured = margins("--set", "controller.qmove.compute_time=1 ms")
+    assert len(told) == 4 and len(measured) == 2, (told, measured)
+    for margin in ("phase", "gain"):
+        lost = told[margin, False] - measured[margin, False]
+        assert lost > 0.5 and abs(told[margin, True] - measured[margin, False]) < 0.1 * lost, (margin, told, measured)
+    bad = subprocess.run([program, "bode", SCENES / "rotary_knife.yaml", "--fmi-step", "1 mm"], capture_output=True, text=True)
+    assert bad.returncode == 2 and "[option.out-of-range]" in bad.stderr
+    print("margins:", told)
+
+
 def main():
     program, kind = sys.argv[1:3]
-    kinds = {"native": native, "functions": functions, "description": description, "state": state, "refusals": refusals,
-             "instances": instances}
+    kinds = {"native": native, "functions": functions, "description": description, "scenes": scenes, "state": state,
+             "refusals": refusals, "instances": instances, "bode": bode}
     with tempfile.TemporaryDirectory() as there:
         kinds[kind](program, Path(there))
 
