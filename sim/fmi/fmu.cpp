@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 #include <link.h>
 #include <minizip/zip.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
 
+#include "base/output_file.hpp"
 #include "sim/fmi/resolve.hpp"
 
 // The library of binary/, which the build puts into this program.
@@ -61,6 +64,23 @@ std::string bytes_of(const fs::path& file) {
   if (!stream) throw std::runtime_error(fmt::format("cannot read {}", file.string()));
   return bytes;
 }
+
+// A file for the archive, which minizip writes by a name; what --out names takes the bytes as all outputs do.
+class ScratchFile {
+ public:
+  ScratchFile() : name_((fs::temp_directory_path() / "drycut-XXXXXX").string()) {
+    const int made = mkstemp(name_.data());
+    if (made < 0) throw std::runtime_error(fmt::format("cannot write {}", name_));
+    close(made);
+  }
+  ~ScratchFile() { unlink(name_.c_str()); }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+};
 
 // Libraries that the machine needs and a bare Debian has not, as this very process has them loaded, which is
 // linked to them too.
@@ -119,8 +139,8 @@ WrittenFmu write_fmu(const scenario::Scenario& scenario, Standard standard, cons
   const FmuHead head{identifier_of(scenario.file), scenario.scene.title, token_of(text),
                      seconds(resolved.step), seconds(scenario.scene.duration)};
 
-  const auto part = fs::path(out.string() + ".part");
-  ZipFile zip(part);
+  const ScratchFile scratch;
+  ZipFile zip(scratch.name());
   zip.add("modelDescription.xml", model_description(standard, head, variables),
           0);  // who wrote it is seen so
   const std::string folder = standard == Standard::fmi2 ? "binaries/linux64/" : "binaries/x86_64-linux/";
@@ -135,7 +155,7 @@ WrittenFmu write_fmu(const scenario::Scenario& scenario, Standard standard, cons
   }
   zip.add("documentation/index.html", documentation(standard, head, variables, licences));
   zip.finish();
-  fs::rename(part, out);
+  write_file(out, bytes_of(scratch.name()));
 
   WrittenFmu written;
   for (const auto& variable : variables) {
