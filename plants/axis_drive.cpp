@@ -251,6 +251,10 @@ void AxisDrive::offer_faults(std::vector<Fault>& faults) {
   if (data_.brake.torque > 0) brake_.offer_faults(faults);
 }
 
+bool AxisDrive::has_events() {
+  return just_tripped_ || just_against_brake_ || !switched_.empty() || power().has_events();
+}
+
 std::vector<MachineEvent> AxisDrive::take_events(const Shaft& rotor) {
   std::vector<MachineEvent> events = power().take_events();
   for (MachineEvent& event : switched_) events.push_back(std::move(event));

@@ -65,6 +65,7 @@ class AxisDrive {
   [[nodiscard]] const HoldingBrake& brake() const { return brake_; }
   /// Neither the drive moves the motor nor may the brake be open.
   [[nodiscard]] bool at_rest() const { return !moves_ && brake_.commanded_to_hold(); }
+  [[nodiscard]] bool has_events();
   /// What happened to it since it was asked last.
   [[nodiscard]] std::vector<MachineEvent> take_events(const Shaft& rotor);
 

@@ -128,10 +128,8 @@ void Cutter::push_by_helix(const Shaft& drum, const Slide& web, Load& load) cons
   push(std::max(trailing, cut), leading, 0);
 }
 
-Cutter::Load Cutter::load(const Shaft& drum, const Slide& web) {
+Cutter::Load Cutter::meet(const Shaft& drum, const Slide& web) {
   Load load;
-  force_ = 0;
-  if (!engaged_) return load;
   if (lag_ > 0) {
     if (!separated_) shear_by_helix(drum, load.dry);
     push_by_helix(drum, web, load);

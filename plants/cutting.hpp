@@ -68,7 +68,10 @@ class Cutter {
     double torque = 0;     ///< on the drum, from the speed mismatch [N m]
     double web_force = 0;  ///< on the web, from the speed mismatch [N]
   };
-  [[nodiscard]] Load load(const Shaft& drum, const Slide& web);
+  [[nodiscard]] Load load(const Shaft& drum, const Slide& web) {
+    force_ = 0;
+    return engaged_ ? meet(drum, web) : Load();
+  }
 
   /// Another coupling from now on [N s/m].
   void couple(double coupling) { coupling_ = coupling; }
@@ -107,6 +110,7 @@ class Cutter {
   [[nodiscard]] double lead() const { return direction_ * theta_ + lag_ / 2; }
   [[nodiscard]] double nearest_point() const;
   [[nodiscard]] double along_web(const Shaft& drum, double theta) const;
+  [[nodiscard]] Load meet(const Shaft& drum, const Slide& web);
   void shear(const Shaft& drum, DryResistance& dry);
   void shear_by_helix(const Shaft& drum, DryResistance& dry);
   void push_by_helix(const Shaft& drum, const Slide& web, Load& load) const;

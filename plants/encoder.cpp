@@ -16,14 +16,6 @@ namespace {
 
 constexpr double most_false_counts = 100000;  // of one burst
 
-// Both are beyond the same whole number and before the next: the common case, told without rounding. Not
-// around 0.
-bool between_same_wholes(double a, double b) {
-  const auto whole = static_cast<std::int64_t>(a);
-  const auto exact = static_cast<double>(whole);
-  return whole != 0 && static_cast<std::int64_t>(b) == whole && a != exact && b != exact;
-}
-
 }  // namespace
 
 void PulseLine::change_gain() {
@@ -125,9 +117,8 @@ void PulseLine::visit(StateArchive& archive) {
         jitter_now_, noisy_, burst_time_, clock_, burst_);
 }
 
-void put_index(SignalPort& index, double turns_before, double turns, double count_before, double count,
-               double count_per_turn, double width) {
-  if (between_same_wholes(turns_before, turns)) return;
+void put_passed_index(SignalPort& index, double turns_before, double turns, double count_before, double count,
+                      double count_per_turn, double width) {
   const double direction = turns > turns_before ? 1 : -1;
   const double last = direction * std::floor(direction * turns);
   const double passed = std::max(0.0, std::ceil(direction * (last - turns_before)));

@@ -92,7 +92,8 @@ void FlyingSaw::sense(double h) {
   tell_motor_load(h);
   screw_.sense(h);
   servo_.sense(rotor());
-  for (MachineEvent& event : servo_.take_events(rotor())) happened(std::move(event));
+  if (servo_.has_events())
+    for (MachineEvent& event : servo_.take_events(rotor())) happened(std::move(event));
   head_.sense(h);
   const Slide& material = this->material();
   clamp_.sense(carriage(), material, h);

@@ -46,7 +46,8 @@ void LinearAxis::sense(double h) {
   screw_.sense(h);
   for (EndStop& stop : screw_.stops)
     if (stop.stopped(carriage())) happened(stop.hit("end_stop"));
-  for (MachineEvent& event : drive_.take_events(rotor())) happened(std::move(event));
+  if (drive_.has_events())
+    for (MachineEvent& event : drive_.take_events(rotor())) happened(std::move(event));
   if (tool_.level && data_.tool == "pen") draw_ink();
 }
 

@@ -13,7 +13,11 @@ namespace drycut::plants {
 double MeasuringWheelData::radius() const { return circumference * (1 + circumference_error) / units::turn; }
 
 MeasuringWheel::MeasuringWheel(const MeasuringWheelData& data, Random noise, double speed)
-    : pulses(noise), data_(data), start_speed_(speed) {
+    : pulses(noise),
+      data_(data),
+      start_speed_(speed),
+      uneven_(data.eccentricity != 0 || data.tooth_error != 0),
+      bits_per_turn_(4.0 * data.lines) {
   set_slip(data.slip);
 }
 
@@ -47,16 +51,20 @@ double MeasuringWheel::shown(double turns) const {
 }
 
 void MeasuringWheel::sense(double before, double now, double h) {
-  const double turns_before = shown(turned(base_ + turns_per_metre_ * (before - anchor_)));
-  revolutions_ = turned(base_ + turns_per_metre_ * (now - anchor_));
-  const double turns = shown(revolutions_);
+  double from = rolled(before);
+  double to = revolutions_ = rolled(now);
   travel_ = now;
-  const double bits_per_turn = 4.0 * data_.lines;
-  pulses.carry(turns_before * bits_per_turn, turns * bits_per_turn, h);
+  if (uneven_) {
+    from = shown(turned(from));
+    revolutions_ = turned(to);
+    to = shown(revolutions_);
+  }
+  const double count_before = from * bits_per_turn_;
+  const double count = to * bits_per_turn_;
+  pulses.carry(count_before, count, h);
   index.edges.clear();
   // The errors are 0 at whole turns: the index stays where it is.
-  if (!pulses.stuck())
-    put_index(index, turns_before, turns, turns_before * bits_per_turn, turns * bits_per_turn, bits_per_turn);
+  if (!pulses.stuck()) put_index(index, from, to, count_before, count, bits_per_turn_);
 }
 
 void MeasuringWheel::offer_faults(std::vector<Fault>& faults, const std::string& component) {

@@ -57,11 +57,14 @@ class MeasuringWheel {
     return data_.acceleration_slip / 2 * (speed * std::abs(speed) - start_speed_ * std::abs(start_speed_));
   }
   // Turns of the wheel when that much of its rim has rolled off [turns], and what its encoder shows of them.
+  [[nodiscard]] double rolled(double travel) const { return base_ + turns_per_metre_ * (travel - anchor_); }
   [[nodiscard]] double turned(double rolled) const;
   [[nodiscard]] double shown(double turns) const;
 
   const MeasuringWheelData data_;
   const double start_speed_;    // [m/s]
+  const bool uneven_;           // in a turn
+  const double bits_per_turn_;  // counts x4
   double slip_ = 0;             // of now
   double turns_per_metre_ = 0;  // with it
   double anchor_ = 0;           // travel where the slip changed last [m]

@@ -43,11 +43,7 @@ void PositionSwitch::follow(double distance, double h) {
   filter(h);
 }
 
-void PositionSwitch::move(double distance, double begin, double end, double h) {
-  const double was = distance_;
-  distance_ = distance;
-  const double edge = data_.width / 2 + (raw_ ? data_.hysteresis : 0);
-  if ((distance_ <= edge) == raw_) return;
+void PositionSwitch::pass(double edge, double was, double begin, double end, double h) {
   const double share = was != distance_ ? std::clamp((edge - was) / (distance_ - was), 0.0, 1.0) : 1.0;
   const double fraction = begin + share * (end - begin);
   if (pending_ && remaining_ <= fraction * h) let_through(h);

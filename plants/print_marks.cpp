@@ -58,8 +58,7 @@ double PrintMarks::nearest(double place) const {
 
 double PrintMarks::behind_mark(double place) const { return place - nearest(place); }
 
-void PrintMarks::sense(double now, double h) {
-  if (!printed()) return;
+void PrintMarks::follow(double now, double h) {
   const double under = now + data_.photocell;
   while (places_.back() <= under) print();
   while (places_.size() > 2 && places_.front() < now - kept_behind_ - data_.pitch) places_.pop_front();

@@ -34,7 +34,9 @@ class PrintMarks {
   [[nodiscard]] bool printed() const { return data_.pitch > 0; }
   [[nodiscard]] PositionSwitch& photocell() { return photocell_; }
   /// Follows the web over the last step of `h` seconds to its travel `now` [m].
-  void sense(double now, double h);
+  void sense(double now, double h) {
+    if (printed()) follow(now, h);
+  }
   /// Where on the web the nearest mark is: how far `place` lies behind its middle, against the direction of
   /// travel [m]. A place is the travel at which it passes the cut.
   [[nodiscard]] double behind_mark(double place) const;
@@ -50,6 +52,7 @@ class PrintMarks {
   void visit(StateArchive& archive);
 
  private:
+  void follow(double now, double h);
   void print();
   [[nodiscard]] double nearest(double place) const;
 

@@ -64,7 +64,8 @@ void RotaryAxis::sense(double h) {
   tell_motor_load(h);
   gear_.sense(rotor_, table_, h);
   sensors_.sense(rotor_, table_, h);
-  for (MachineEvent& event : drive_.take_events(rotor_)) happened(std::move(event));
+  if (drive_.has_events())
+    for (MachineEvent& event : drive_.take_events(rotor_)) happened(std::move(event));
 }
 
 void RotaryAxis::visit(StateArchive& archive) { STATE(archive, drive_, gear_, sensors_, outer_torque_); }

@@ -59,6 +59,9 @@ class ServoAxis {
   void offer_settings(std::vector<Setting>& settings) { amplifier_.offer_settings(settings); }
   void offer_faults(std::vector<Fault>& faults);
   static void offer_events(std::vector<EventType>& types);
+  [[nodiscard]] bool has_events() const {
+    return amplifier_.power().has_events() || (pulses_ && pulses_->just_tripped());
+  }
   /// What happened to it since it was asked last.
   [[nodiscard]] std::vector<MachineEvent> take_events(const Shaft& rotor);
 

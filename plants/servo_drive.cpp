@@ -134,6 +134,7 @@ void ServoDrive::prepare(double h) {
   speed_per_volt_ = data_.speed_at_10v / 10;
   forward_share_ = share_of(data_.torque_forward_filter, h);
   lsb_ = 20.0 / static_cast<double>(1LL << data_.adc_bits);
+  input_ = std::numeric_limits<double>::quiet_NaN();
 }
 
 double ServoDrive::convert(double volts) const {
@@ -193,7 +194,7 @@ void ServoDrive::drive(Shaft& rotor, double h, const Feed& feed) {
   double input = faults_.stuck ? faults_.stuck_at : reference.volts;
   input += data_.offset + faults_.offset + faults_.drifted;
   if (faults_.noise > 0) input += faults_.noise * random_.gaussian();
-  converted_ = convert(input);
+  if (input != input_) converted_ = convert(input_ = input);
   if (feed.open) {  // current and loops end with the circuit
     filtered_ = torque_ = 0;
     end_loops(0);
@@ -285,6 +286,7 @@ void ServoDrive::visit(StateArchive& archive) {
   STATE(archive, reference, enable, power_, random_, converted_, filtered_, integral_, commanded_,
         acceleration_, ahead_, filters_, wanted_, test_torque_, torque_, saturated_, asked_, energised_,
         enabled_before_, faults_);
+  if (archive.restores()) h_ = 0;
 }
 
 Parameters servo_parameters(ServoData& data, const ServoSources& from) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -139,7 +140,8 @@ class ServoDrive {
   PowerStage power_;
   Random random_;
   const bool ripples_;
-  double h_ = 0;  // the step for which the coefficients below hold
+  double h_ = 0;  // the step for which the coefficients below hold; 0: they are to be made anew
+  double input_ = std::numeric_limits<double>::quiet_NaN();  // what converted_ is of [V]
   double filter_share_ = 1;
   double lag_share_ = 1;
   double speed_per_volt_ = 0;

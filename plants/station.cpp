@@ -34,8 +34,7 @@ Station::Station(const StationData& data, Web& web, double from, double to)
   if (data.place > 0) web.make_room(data.place + from, data.place + to);
 }
 
-Slide& Station::under(double x, double speed) {
-  if (data_.place == 0) return *material_;
+Slide& Station::found(double x, double speed) {
   material_ = web_.lying_at(data_.place + x);
   if (material_ != nullptr) return *material_;
   material_ = &air_;

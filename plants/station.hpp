@@ -32,7 +32,7 @@ class Station {
 
   /// What lies under the blade, `x` behind the station's place [m], now; what moves with it at `speed` [m/s]
   /// where nothing does. Asked before the forces of a step and again before what the step has cut.
-  Slide& under(double x, double speed);
+  Slide& under(double x, double speed) { return data_.place == 0 ? *material_ : found(x, speed); }
   [[nodiscard]] Slide& material() const { return *material_; }  ///< that was there last
   [[nodiscard]] bool is_empty() const { return material_ == &air_; }
   /// True where a stiff damper on the material is to be taken implicitly: it may weigh next to nothing.
@@ -53,6 +53,8 @@ class Station {
   void visit(StateArchive& archive);
 
  private:
+  Slide& found(double x, double speed);
+
   const StationData data_;
   Web& web_;
   Slide air_ = {.mass = 1e-9};  // yields to everything

@@ -32,7 +32,10 @@ class PulseLine {
     port.before = base_ + gain_ * (before - anchor_) + early;
     base_ += added;
     port.now = base_ + gain_ * (now - anchor_) + late;
-    port.count = port.count_at(1);
+    // That of port.count_at(1), whose floor is a call.
+    const double exact = port.before + (port.now - port.before) + 0.5;
+    const auto towards_0 = static_cast<std::int64_t>(exact);
+    port.count = static_cast<double>(towards_0) > exact ? towards_0 - 1 : towards_0;
   }
   [[nodiscard]] bool stuck() const { return stuck_; }
 
@@ -72,13 +75,23 @@ class PulseLine {
   std::vector<FalseCount> burst_;  // still to come, the next one last
 };
 
+void put_passed_index(SignalPort& index, double turns_before, double turns, double count_before, double count,
+                      double count_per_turn, double width);
 /// Puts the index pulses of a step on `index`: pulses without width, a rising and a falling edge at the exact
 /// fraction at which `turns` passes a whole number, (before, now] forwards and [now, before) backwards. The
 /// counts are the same motion in bits x4: the fraction is taken from them, so that
 /// EncoderPort::count_at(fraction) gives the index's own count to the last digit. `width` of the pulse in
 /// counts, for whoever must know how long it lasted (SignalPort::Edge::width).
-void put_index(SignalPort& index, double turns_before, double turns, double count_before, double count,
-               double count_per_turn, double width = 1);
+inline void put_index(SignalPort& index, double turns_before, double turns, double count_before, double count,
+                      double count_per_turn, double width = 1) {
+  // Both are beyond the same whole number and before the next: the common case, told without rounding. Not
+  // around 0.
+  const auto whole = static_cast<std::int64_t>(turns_before);
+  const auto exact = static_cast<double>(whole);
+  if (whole != 0 && static_cast<std::int64_t>(turns) == whole && turns_before != exact && turns != exact)
+    return;
+  put_passed_index(index, turns_before, turns, count_before, count, count_per_turn, width);
+}
 
 /// Incremental encoder on a shaft: counts x4 since the start, and an index pulse once a turn.
 struct EncoderData {
@@ -153,8 +166,15 @@ class PositionSwitch {
 
  private:
   [[nodiscard]] double shorter(double way) const;
-  [[nodiscard]] double offset(double position) const;              // from the nearest centre
-  void move(double distance, double begin, double end, double h);  // in this part of the step, straight
+  [[nodiscard]] double offset(double position) const;  // from the nearest centre
+  // In this part of the step, straight.
+  void move(double distance, double begin, double end, double h) {
+    const double was = distance_;
+    distance_ = distance;
+    const double edge = data_.width / 2 + (raw_ ? data_.hysteresis : 0);
+    if ((distance <= edge) != raw_) pass(edge, was, begin, end, h);
+  }
+  void pass(double edge, double was, double begin, double end, double h);
   void filter(double h);
   void let_through(double h);
   void show(bool level, double fraction);

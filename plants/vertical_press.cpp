@@ -44,7 +44,8 @@ void VerticalPress::sense(double h) {
   screw_.sense(h);
   report_contacts();
   watch_for_sag(h);
-  for (MachineEvent& event : drive_.take_events(rotor())) happened(std::move(event));
+  if (drive_.has_events())
+    for (MachineEvent& event : drive_.take_events(rotor())) happened(std::move(event));
 }
 
 void VerticalPress::report_contacts() {

@@ -22,33 +22,14 @@ namespace {
 constexpr double max_rotation = std::numbers::pi / 4;
 constexpr double max_slide_speed = 1e4;  // [m/s]: nothing on a line is this fast unless it diverged
 
-/// Bullet's exponential map for a shaft that keeps its axis: turns the basis by `angle`, |angle| < pi/4,
-/// about z. The general form of Bullet (basis to quaternion and back) takes four times as long for the same
-/// digits.
-void rotate_about_z(btMatrix3x3& basis, double angle) {
-  // Up to 0.02 rad a step (1900 rpm at 100 us) these series are exact to the last bit.
-  const double a2 = angle * angle;
-  double s = angle * (1 - a2 / 6 * (1 - a2 / 20 * (1 - a2 / 42)));
-  double c = 1 - a2 / 2 * (1 - a2 / 12 * (1 - a2 / 30 * (1 - a2 / 56)));
-  if (a2 > 4e-4) {
-    s = std::sin(angle);
-    c = std::cos(angle);
-  }
-  const double x = basis[0].x();
-  const double y = basis[1].x();
-  const double nx = c * x - s * y;
-  const double ny = s * x + c * y;
-  const double unit = 0.5 * (3 - (nx * nx + ny * ny));  // first-order normalisation
-  basis.setValue(nx * unit, -ny * unit, 0, ny * unit, nx * unit, 0, 0, 0, 1);
-}
-
 void set_inertia_of(btRigidBody& body, double inertia) {
   body.setMassProps(1, btVector3(inertia, inertia, inertia));
   body.updateInertiaTensor();
 }
 void set_mass_of(btRigidBody& body, double mass) { body.setMassProps(mass, btVector3(0, 0, 0)); }
 
-// Bullet's bodies get speed and force from ours in every step: what it keeps itself are places and inertias.
+// Bullet's bodies get speed and force from ours in every step: what it keeps itself are inertias. Where a
+// body is stands in ours; Bullet's pose is made of it when somebody looks.
 
 struct ShaftBody {
   Shaft state;
@@ -56,15 +37,11 @@ struct ShaftBody {
   std::unique_ptr<btRigidBody> body;
 
   void visit(StateArchive& archive) {
-    // Its basis is turned on and on: the part of a turn has not the same last digits.
-    btMatrix3x3& basis = body->getWorldTransform().getBasis();
-    double cosine = basis[0].x();
-    double sine = basis[1].x();
     state.visit(archive);
-    STATE(archive, cosine, sine);
-    if (!archive.restores()) return;
-    basis.setValue(cosine, -sine, 0, sine, cosine, 0, 0, 0, 1);
-    set_inertia_of(*body, state.inertia);
+    if (archive.restores()) set_inertia_of(*body, state.inertia);
+  }
+  void pose() const {
+    body->getWorldTransform().setRotation(btQuaternion(btVector3(0, 0, 1), units::turn * state.part));
   }
 };
 struct SlideBody {
@@ -77,14 +54,13 @@ struct SlideBody {
   void visit(StateArchive& archive) {
     state.visit(archive);
     STATE(archive, weight);
-    if (!archive.restores()) return;
-    body->getWorldTransform().setOrigin(axis * state.position);
-    set_mass_of(*body, state.mass);
+    if (archive.restores()) set_mass_of(*body, state.mass);
   }
+  void pose() const { body->getWorldTransform().setOrigin(axis * state.position); }
 };
 
 /// Bullet's world without its collision pass: guided bodies cannot meet, so broad phase, islands, constraint
-/// solver and activation are left out. The step is Bullet's own integration of speed, force and rotation.
+/// solver and activation are left out. The step is Bullet's own integration of force to speed.
 class GuidedWorld : public btDiscreteDynamicsWorld {
  public:
   using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
@@ -138,8 +114,6 @@ class GuidedWorld : public btDiscreteDynamicsWorld {
       fail(s.name, speed);
       return;
     }
-    rotate_about_z(body.getWorldTransform().getBasis(), speed * h);
-
     state.torque = 0;
     state.speed_before = state.speed;
     state.speed = speed;
@@ -176,7 +150,6 @@ class GuidedWorld : public btDiscreteDynamicsWorld {
     const double way = speed * h + state.remainder;
     state.position += way;
     state.remainder = rounded_off(state.position_before, way, state.position);
-    body.getWorldTransform().setOrigin(s.axis * state.position);
   }
 
   void fail(const std::string& name, double speed) {
@@ -186,8 +159,10 @@ class GuidedWorld : public btDiscreteDynamicsWorld {
   }
 };
 
-Pose pose_of(const btRigidBody& body) {
-  const btTransform& t = body.getWorldTransform();
+template <class Body>
+Pose pose_of(const Body& body) {
+  body.pose();
+  const btTransform& t = body.body->getWorldTransform();
   const btQuaternion q = t.getRotation();
   return {{t.getOrigin().x(), t.getOrigin().y(), t.getOrigin().z()}, {q.x(), q.y(), q.z(), q.w()}};
 }
@@ -247,9 +222,6 @@ Shaft& World::add_shaft(const ShaftDefinition& definition) {
   s.state.speed = s.state.speed_before = definition.speed;
   s.state.turns = s.state.turns_before = static_cast<std::int64_t>(whole);
   s.state.part = s.state.part_before = definition.revolutions - whole;
-  btTransform pose = btTransform::getIdentity();
-  pose.setRotation(btQuaternion(btVector3(0, 0, 1), 2 * std::numbers::pi * s.state.part));
-  s.body->setCenterOfMassTransform(pose);
   return s.state;
 }
 
@@ -265,7 +237,6 @@ Slide& World::add_slide(const SlideDefinition& definition) {
   s.state.mass = definition.mass;
   s.state.speed = s.state.speed_before = definition.speed;
   s.state.position = s.state.position_before = definition.position;
-  s.body->getWorldTransform().setOrigin(s.axis * definition.position);
   return s.state;
 }
 
@@ -337,15 +308,15 @@ Random World::random(std::string_view source) {
 }
 
 Pose World::pose(const Shaft& shaft) const {
-  for (const ShaftBody& s : bodies_->world.shafts)
-    if (&s.state == &shaft) return pose_of(*s.body);
+  for (ShaftBody& s : bodies_->world.shafts)
+    if (&s.state == &shaft) return pose_of(s);
   throw std::invalid_argument("World::pose: a shaft of another world");
 }
 
 Pose World::pose(const Slide& slide) const {
-  for (const auto* list : {&bodies_->world.slides, &bodies_->world.slow_slides})
-    for (const SlideBody& s : *list)
-      if (&s.state == &slide) return pose_of(*s.body);
+  for (auto* list : {&bodies_->world.slides, &bodies_->world.slow_slides})
+    for (SlideBody& s : *list)
+      if (&s.state == &slide) return pose_of(s);
   throw std::invalid_argument("World::pose: a slide of another world");
 }
 

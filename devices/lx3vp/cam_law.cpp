@@ -12,6 +12,13 @@ namespace drycut::devices::lx3vp {
 namespace {
 
 Wide floor_of(Wide numerator, Wide denominator) {
+  // Nearly always both fit the 64 bit that a processor divides by itself.
+  const auto above = static_cast<std::int64_t>(numerator);
+  const auto below = static_cast<std::int64_t>(denominator);
+  if (above == numerator && below == denominator) {
+    const std::int64_t quotient = above / below;
+    return quotient * below > above ? quotient - 1 : quotient;
+  }
   const Wide quotient = numerator / denominator;
   return quotient * denominator > numerator ? quotient - 1 : quotient;
 }

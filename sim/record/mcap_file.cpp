@@ -12,7 +12,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-
 namespace drycut::sim::record {
 
 namespace {

@@ -6,11 +6,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cerrno>
 #include <cstring>
 #include <exception>
-#include <iterator>
 #include <stdexcept>
 
 #include "base/text.hpp"
@@ -90,8 +90,8 @@ void TraceFiles::sample(Time time) {
     // Most values of a row are those of the row before.
     if (const auto now = std::bit_cast<std::uint64_t>(*column.slot); now != bits || text.empty()) {
       bits = now;
-      text.clear();
-      fmt::format_to(std::back_inserter(text), FMT_COMPILE(",{}"), *column.slot);
+      std::array<char, 32> cell_text;  // the longest number takes 24
+      text.assign(cell_text.data(), fmt::format_to(cell_text.data(), FMT_COMPILE(",{}"), *column.slot));
     }
     row_ += text;
   }

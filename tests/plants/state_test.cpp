@@ -19,6 +19,7 @@
 #include "plants/linear_axis.hpp"
 #include "plants/motor_load.hpp"
 #include "plants/rotary_knife.hpp"
+#include "plants/servo_drive.hpp"
 #include "plants/vertical_press.hpp"
 #include "plants/web.hpp"
 #include "tests/plants/plants_lookup.hpp"
@@ -478,7 +479,7 @@ TEST(State, OfAWorldThatFailedIsThatItFailed) {
   EXPECT_EQ(other.world().failure(), why);
 }
 
-// Bullet's pose of a shaft has been turned step by step.
+// Bullet's pose of a shaft is made of its angle.
 TEST(State, IsThatOfBulletsPosesToo) {
   const auto turned = [](World& world, Shaft& shaft) {
     for (int i = 0; i < 1000; ++i) {
@@ -499,6 +500,26 @@ TEST(State, IsThatOfBulletsPosesToo) {
   turned(other, its);
   EXPECT_EQ(other.pose(its).rotation, world.pose(shaft).rotation);
   EXPECT_EQ(its.part, shaft.part);
+}
+
+// A reference that stands is converted once; what comes back from another moment is of another one.
+TEST(State, OfAServoIsConvertedAnew) {
+  World world;
+  Shaft& rotor = world.add_shaft({.name = "rotor", .inertia = 1e-3});
+  ServoDrive servo({}, world.random("servo"));
+  const auto volts_at = [&](double volts) {
+    servo.reference.volts = volts;
+    servo.drive(rotor, h);
+    return servo.volts();
+  };
+  EXPECT_NEAR(volts_at(2), 2, 5e-3);
+  Bytes bytes;
+  StateArchive::save(bytes, servo);
+  EXPECT_NEAR(volts_at(5), 5, 5e-3);
+  auto restoring = StateArchive::restoring(bytes.data(), bytes.size());
+  servo.visit(restoring);
+  EXPECT_NEAR(servo.volts(), 2, 5e-3);
+  EXPECT_NEAR(volts_at(5), 5, 5e-3);
 }
 
 // What was kept of a motor's load is for a report: a log beside the state.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -17,11 +18,6 @@ double middle_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
   return *middle;
-}
-
-double rms_of(const std::vector<double>& values) {
-  return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
-                   static_cast<double>(values.size()));
 }
 
 }  // namespace
@@ -62,11 +58,40 @@ std::vector<double> resampled(const recordings::Series& series, double from_s, d
   return at;
 }
 
+std::vector<double> straight(const recordings::Series& series, double from_s, double step_s,
+                             std::size_t count) {
+  std::vector<double> at(count, series.value.front());
+  if (series.time_s.size() == 1) return at;
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double t =
+        std::clamp(from_s + static_cast<double>(k) * step_s, series.time_s.front(), series.time_s.back());
+    while (i + 2 < series.time_s.size() && series.time_s[i + 1] < t) ++i;
+    const double share = (t - series.time_s[i]) / (series.time_s[i + 1] - series.time_s[i]);
+    at[k] = std::lerp(series.value[i], series.value[i + 1], share);
+  }
+  return at;
+}
+
 double sampling_of(const recordings::Series& series) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < series.time_s.size(); ++i)
     steps.push_back(series.time_s[i] - series.time_s[i - 1]);
   return middle_of(std::move(steps));
+}
+
+double step_of(const recordings::Series& series) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < series.value.size(); ++i) {
+    const double step = std::abs(series.value[i] - series.value[i - 1]);
+    if (step > 0) least = std::min(least, step);
+  }
+  return least;
+}
+
+double rms_of(const std::vector<double>& values) {
+  return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
+                   static_cast<double>(values.size()));
 }
 
 double reach_of(double cutoff) { return widths * width_of(cutoff); }
