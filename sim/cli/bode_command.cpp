@@ -12,6 +12,7 @@
 #include "sim/file.hpp"
 #include "sim/report/report.hpp"
 #include "sim/studies/bode/advice_report.hpp"
+#include "sim/studies/bode/fmi_step.hpp"
 #include "sim/studies/bode/report.hpp"
 
 namespace drycut::sim::cli {
@@ -27,6 +28,10 @@ void check_limit(const char* option, const std::optional<double>& value, double 
 
 void check_options(const BodeOptions& options, Problems& problems) {
   studies::check_request(options.loop, problems);
+  if (!options.fmi_step.empty() && !studies::fmi_step_of(options.fmi_step))
+    problems.push_back({"option.out-of-range"_code, "--fmi-step", 1, 1,
+                        fmt::format("'{}' is no time above 0 and up to 1 s", options.fmi_step),
+                        "such as 1 ms"});
   check_limit("--min-phase-margin", options.min_phase_margin, 180, "deg", problems);
   check_limit("--min-gain-margin", options.min_gain_margin, 200, "dB", problems);
   check_outputs(options.csv, options.png, {options.scenario, "scenario"},
@@ -125,6 +130,7 @@ int advise_filters(const BodeOptions& options, const scenario::Scenario& scenari
                                       {options.loop.amplitude.has_value(), "--amplitude"},
                                       {options.loop.settle.has_value(), "--settle"},
                                       {options.limit_cycle, "--limit-cycle"},
+                                      {!options.fmi_step.empty(), "--fmi-step"},
                                       {options.min_gain_margin.has_value(), "--min-gain-margin"},
                                       {options.min_phase_margin.has_value(), "--min-phase-margin"},
                                       {!options.csv.empty(), "--csv"},
@@ -188,6 +194,10 @@ void bode_options(CLI::App& bode, int& status) {
                 "sine of 5 % of rated torque at every step; takes --wire, --at, --from, --to and --points");
   bode.add_option("--min-phase-margin", options.min_phase_margin, "Fails if the margin is less [deg]");
   bode.add_option("--min-gain-margin", options.min_gain_margin, "Fails if the margin is less [dB]");
+  bode.add_option(
+      "--fmi-step", options.fmi_step,
+      "Tell too what is left of the margins where the machine is an FMU under a master that exchanges\n"
+      "values after each communication step of this length, such as \"1 ms\"");
   bode.add_option("--csv", options.csv, "Write the response; - prints it, the report to standard error");
   bode.add_option("--png", options.png, "Draw gain and phase");
   add_force(bode, options.force);
@@ -232,6 +242,8 @@ int measure_bode(const BodeOptions& options) {
   std::vector<std::string> faults;
   auto text = studies::bode_report(*result);
   if (cycle) text += '\n' + studies::limit_cycle_text(*cycle);
+  if (!options.fmi_step.empty())
+    text += studies::fmi_step_text(*result, *studies::fmi_step_of(options.fmi_step));
   for (const auto& limit : limits) {
     text += fmt::format("{}: {}\n", limit.check.passed ? "PASS" : "FAIL", judged_text(limit));
     if (!limit.check.passed) faults.push_back(judged_text(limit));

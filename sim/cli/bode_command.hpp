@@ -16,6 +16,7 @@ struct BodeOptions {
   bool advise = false;                     ///< which filter the torque of the servo wants
   std::optional<double> min_phase_margin;  ///< [deg], less fails
   std::optional<double> min_gain_margin;   ///< [dB], less fails
+  std::string fmi_step;                    ///< communication step of a master, "" = none
   std::string csv;                         ///< "" = none, "-" = standard output
   std::string png;                         ///< "" = none
   std::filesystem::path out;               ///< folder for report, plot and table, "" = none

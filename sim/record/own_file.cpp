@@ -19,6 +19,7 @@ bool is_own_file(const std::filesystem::path& file, std::string_view header) {
   if (head.empty()) return true;
   if (head.starts_with("\x89PNG")) return head.find("Software\0drycut"sv) != std::string::npos;
   if (head.starts_with("\x89MCAP")) return head.find("drycut") != std::string::npos;
+  if (head.starts_with("PK")) return head.find("generationTool=\"Drycut") != std::string::npos;
   if (is_hdf5(file)) return names_drycut(file);
   const auto line = std::string_view(head).substr(0, head.find('\n'));
   if (!header.empty() && line.starts_with(header)) return true;
