@@ -26,7 +26,7 @@ constexpr double least_effect = 0.05;
 /// A value is known within half of itself.
 constexpr double known_within = 0.5;
 /// Steps, interpolation and rounding bend a value by what changes this share of all that was measured.
-constexpr double least_half = 5e-4;
+constexpr double least_half = 4e-4;
 /// Above this columns are not told apart; below this share a value has no part in it.
 constexpr double most_condition = 30;
 constexpr double least_part = 0.25;
