@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/studies/fit/signal.hpp"
 
@@ -14,8 +15,12 @@ namespace {
 using Role = Finding::Role;
 
 double steps_of(const recordings::Series& series) {
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < series.value.size(); ++i)
+    if (series.value[i] != series.value[i - 1])
+      step = std::min(step, std::abs(series.value[i] - series.value[i - 1]));
   const auto [low, high] = std::ranges::minmax(series.value);
-  return (high - low) / step_of(series.value);
+  return (high - low) / step;
 }
 
 /// Work that the torque did on the motion over all work, whatever its direction: friction takes some, so it

@@ -21,6 +21,20 @@ std::vector<double> readings_of(const ReplaySeries& series) {
   return readings;
 }
 
+/// What readings are rounded to: the least by which their differences differ, whatever the speed; 0 where
+/// they never do.
+double step_of(const std::vector<double>& readings) {
+  constexpr double rounding = 1e-7;  // of a double, over the largest
+  std::vector<double> bends;
+  for (std::size_t i = 2; i < readings.size(); ++i)
+    bends.push_back(std::abs(readings[i] - 2 * readings[i - 1] + readings[i - 2]));
+  const double most = bends.empty() ? 0 : std::ranges::max(bends);
+  double least = most;
+  for (const double bend : bends)
+    if (bend > rounding * most) least = std::min(least, bend);
+  return least;
+}
+
 }  // namespace
 
 double motion_noise(const ReplaySeries& series) {
@@ -31,8 +45,7 @@ double motion_noise(const ReplaySeries& series) {
                              readings[i - 4]));
   // Of white noise fourth differences have 70 times the variance; half of them are below 0.6745 deviations.
   const double white = bends.empty() ? 0 : middle_of(std::move(bends)) / 0.6745 / std::sqrt(70.0);
-  const double step = step_of(readings);
-  return std::max(white, std::isfinite(step) ? step / std::sqrt(12.0) : 0);
+  return std::max(white, step_of(readings) / std::sqrt(12.0));
 }
 
 double resolved_up_to(const ReplaySeries& series, const Plausible& about) {

@@ -53,9 +53,9 @@ void unwrap(recordings::Series& series) {
   }
 }
 
-/// Whether what goes back is less than a hundredth of what goes forwards, or the other way round.
+/// Whether what goes back is less than a fiftieth of what goes forwards, or the other way round.
 bool is_one_way(const recordings::Series& motion) {
-  constexpr double little = 0.01;
+  constexpr double little = 0.02;
   double forwards = 0;
   double backwards = 0;
   for (std::size_t i = 1; i < motion.value.size(); ++i) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -72,13 +71,6 @@ double sampling_of(const recordings::Series& series) {
   for (std::size_t i = 1; i < series.time_s.size(); ++i)
     steps.push_back(series.time_s[i] - series.time_s[i - 1]);
   return middle_of(std::move(steps));
-}
-
-double step_of(const std::vector<double>& values) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < values.size(); ++i)
-    if (values[i] != values[i - 1]) least = std::min(least, std::abs(values[i] - values[i - 1]));
-  return least;
 }
 
 double middle_of(std::vector<double> values) {

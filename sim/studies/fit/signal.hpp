@@ -16,10 +16,6 @@ std::vector<double> straight(const recordings::Series& series, double from_s, do
 /// Usual time between two samples [s].
 double sampling_of(const recordings::Series& series);
 
-/// The least by which two values in succession differ: what they are counted in, infinite where all are
-/// alike.
-double step_of(const std::vector<double>& values);
-
 /// A low pass without phase, half the power at `cutoff` [Hz]: a Gaussian window. Its ends are those of what
 /// there is.
 std::vector<double> smoothed(const std::vector<double>& values, double step_s, double cutoff);

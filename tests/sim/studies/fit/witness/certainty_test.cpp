@@ -55,7 +55,10 @@ TEST(FitWitness, SwingingBackIsNoOtherDirection) {
       until += part.until;
       legs.push_back({until, part.from, part.to});
     }
-  const auto found = fitted(HiddenAxis(belt_axis(), legs).recorded({}, 1));
+  const auto recording = HiddenAxis(belt_axis(), legs).recorded({}, 1);
+  const auto& counts = recording.series[1].value;
+  ASSERT_LT(counts.back(), std::ranges::max(counts) - 10);
+  const auto found = fitted(recording);
   EXPECT_EQ(value_of(found, "carriage_friction.coulomb").known, FitKnown::joined);
   EXPECT_EQ(found.torque_offset.known, FitKnown::joined);
   expect_known(found, "mass", 37, 0.01);
@@ -90,6 +93,15 @@ TEST(FitWitness, CountsAndSpeedThatContradictEachOtherAreTold) {
   EXPECT_FALSE(is_told(fitted(recording), "fit.contradiction"));
   for (double& value : recording.series.back().value) value *= 2;
   EXPECT_TRUE(is_told(fitted(recording), "fit.contradiction"));
+}
+
+// Sanitizers run this one alone: a fit of little, in coarse steps.
+TEST(FitShort, GoesFromRecordingToValues) {
+  auto question = asking(rigid);
+  question.set = {{"scene.step", "500 us"}};
+  const auto recording = part_of(HiddenAxis(belt_axis(), both_ways()).recorded({.every = 2e-3}, 1), 0, 1.3);
+  const auto found = fit(question, {series_of(recording, question)}, 2);
+  expect_known(found, "mass", 37, 0.05);
 }
 
 // A machine of the scenario's inertia and 17 kg more at a radius of 100 mm / turn, told as drives tell it.
