@@ -1,7 +1,7 @@
 # The front door. Thin: installs what is missing, then CMake does the work.
 #
 #   make demo    the rotary knife line: builds, runs it, says where the report is
-#   make test    builds and runs all tests: some twenty minutes of two cores from nothing; its last line says how long it took
+#   make test    builds and runs all tests; its last line says how long it took
 #   make test-all  those, and the tests that take many minutes
 #   make quick   the tests that take seconds
 #   make bench   speed beside stock Bullet (and MuJoCo), in one run
