@@ -12,7 +12,7 @@
 namespace drycut::sim::studies {
 
 inline constexpr auto* scenario_text = R"(
-scene: {title: a belt axis, step: 100 us, duration: 1 s}
+scene: {title: a belt axis, step: 200 us, duration: 1 s}
 plants:
   axis:
     {type: linear_axis, mass: 20 kg, lead: 100 mm, start: 0 mm, travel_max: 2000 mm, limit_max: 1990 mm,

@@ -76,7 +76,9 @@ TEST(FitWitness, FindsStiffnessDampingAndPlay) {
   data.gear.backlash = 0.004;
   auto question = asking(
       {"mass", "carriage_friction.coulomb", "carriage_friction.viscous", "gear.stiffness", "gear.backlash"});
-  question.set = {{"plants.axis.gear.backlash", "0.05 deg"}, {"plants.axis.gear.damping", "2 N m s/rad"}};
+  question.set = {{"scene.step", "100 us"},
+                  {"plants.axis.gear.backlash", "0.05 deg"},
+                  {"plants.axis.gear.damping", "2 N m s/rad"}};
   for (const bool scale : {true, false}) {
     SCOPED_TRACE(scale ? "with a scale on the carriage" : "from the motor's side alone");
     const HiddenAxis axis(data, scale ? both_ways() : shaken());
