@@ -20,12 +20,12 @@ using testing::Field;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string belt_axis = R"(
+const std::string machine_of_belt = R"(
 plants:
   axis: {type: linear_axis, mass: 31 kg, lead: 100 mm, carriage_friction: {coulomb: 80 N, viscous: 60 N s/m},
          gear: {stiffness: 5000 N m/rad, damping: 1 N m s/rad}}
 )";
-const std::string belt = "scene: {step: 100 us, duration: 1 s}" + belt_axis;
+const std::string belt = "scene: {step: 100 us, duration: 1 s}" + machine_of_belt;
 
 constexpr auto* knife = R"(
 variables: {length: 800 mm}
@@ -100,7 +100,7 @@ const std::vector<std::string> of_belt = {"plants.axis.mass", "plants.axis.carri
 
 TEST_F(FitPlanned, MoveUnderEachControllerShowsMassAndFriction) {
   // Mass and friction need no finer step, and a fit takes half the time.
-  const auto request = request_for("scene: {step: 200 us, duration: 1 s}" + belt_axis, of_belt);
+  const auto request = request_for("scene: {step: 200 us, duration: 1 s}" + machine_of_belt, of_belt);
   const auto move = planned(request);
   ASSERT_TRUE(move) << lines_of(problems);
   written(*move);
