@@ -18,10 +18,13 @@ namespace {
 
 constexpr std::string_view torque_constant = "servo.torque_constant";
 
+bool is_of_spring(const FitPath& path) {
+  return path.row.starts_with("gear.") || path.row.starts_with("nut.");
+}
+
 /// Values that show only where the motion begins, turns or stands.
 bool shows_at_standstill(const FitPath& path) {
-  return path.row.starts_with("gear.") || path.row.starts_with("nut.") || path.row.ends_with(".breakaway") ||
-         path.row.ends_with(".stribeck_speed");
+  return is_of_spring(path) || path.row.ends_with(".breakaway") || path.row.ends_with(".stribeck_speed");
 }
 
 void begin(scenario::Scenario& machine, const ReplaySeries& series, bool closed) {
@@ -43,7 +46,8 @@ FitBench::FitBench(const FitQuestion& question, const std::vector<ReplaySeries>&
     : question_(question),
       recordings_(recordings),
       jobs_(jobs),
-      standstill_(standstill || std::ranges::any_of(question.vary, shows_at_standstill)) {
+      standstill_(standstill || std::ranges::any_of(question.vary, shows_at_standstill)),
+      springs_(std::ranges::any_of(question.vary, is_of_spring)) {
   collect_unknowns();
   auto machine = take_machine();
   for (const auto& series : recordings) {
@@ -103,7 +107,7 @@ Plausible FitBench::answer_with(const std::vector<double>& set) {
 }
 
 double FitBench::resolved(std::size_t recording) const {
-  return resolved_up_to(recordings_[recording], about_[recording]);
+  return resolved_up_to(recordings_[recording], about_[recording], noise_share());
 }
 
 FitUnknown FitBench::fix(std::size_t number, double value) {

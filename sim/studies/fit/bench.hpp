@@ -52,6 +52,8 @@ class FitBench {
   /// Up to where the noise of a recorded motion is worth little of its torque [Hz]; see resolved_up_to(). A
   /// closed loop takes no torque from it.
   [[nodiscard]] double resolved(std::size_t recording) const;
+  /// How much of the torque that may be: springs and play show high up, where there is little else.
+  [[nodiscard]] double noise_share() const { return springs_ ? 0.1 : 0.02; }
 
   using OfRecordings = std::vector<std::optional<Replayed>>;
   /// Of each set each recording; none where the machine cannot be built or diverges.
@@ -69,6 +71,7 @@ class FitBench {
   const std::vector<ReplaySeries>& recordings_;
   int jobs_;
   bool standstill_ = false;
+  bool springs_ = false;  ///< of gear or nut something is looked for
   std::size_t runs_ = 0;
   std::vector<FitUnknown> unknowns_;
   std::vector<std::string> units_;

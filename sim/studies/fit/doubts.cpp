@@ -91,10 +91,11 @@ void doubt_resolution(const FitBench& bench, std::size_t i, std::vector<Finding>
   if (bench.resolved(i) < bandwidth_of(one.torque))
     found.emplace_back(
         "fit.coarse"_code,
-        fmt::format("{}: above {:.3g} Hz what the motion is rounded to is worth more than 2 % of the torque; "
-                    "only what is below counts. Springs and play show above: record a finer position, or "
-                    "the speed that the drive measures",
-                    one.name(), bench.resolved(i)));
+        fmt::format(
+            "{}: above {:.3g} Hz what the motion is rounded to is worth more than {:.0f} % of the torque; "
+            "only what is below counts. Springs and play show above: record a finer position, or "
+            "the speed that the drive measures",
+            one.name(), bench.resolved(i), bench.noise_share() * 100));
 }
 
 }  // namespace

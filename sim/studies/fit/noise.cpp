@@ -48,14 +48,13 @@ double motion_noise(const ReplaySeries& series) {
   return std::max(white, step_of(readings) / std::sqrt(12.0));
 }
 
-double resolved_up_to(const ReplaySeries& series, const Plausible& about) {
-  constexpr double little = 0.02;
+double resolved_up_to(const ReplaySeries& series, const Plausible& about, double share) {
   const double gain = about.inertia / std::abs(about.scale);
   const double noise = motion_noise(series);
   if (!(gain * noise > 0)) return std::numeric_limits<double>::infinity();
   // The torque of a place that swings is inertia times the square of its frequency, that of a speed inertia
   // times frequency.
-  const double allowed = little * rms_of(series.torque.value) / gain;
+  const double allowed = share * rms_of(series.torque.value) / gain;
   const double omega = series.summed ? allowed / (noise / series.sampling) : std::sqrt(allowed / noise);
   return omega / (2 * std::numbers::pi);
 }

@@ -14,9 +14,8 @@ namespace drycut::sim::studies {
 /// sample adds.
 double motion_noise(const ReplaySeries& series);
 
-/// Up to where such noise is worth little of the torque [Hz], infinite where there is none. `inertia`: at the
-/// motor [kg m2]; `scale`: of the motion over the motor's angle [unit/rad].
-double resolved_up_to(const ReplaySeries& series, const Plausible& about);
+/// Up to where such noise is worth less than `share` of the torque [Hz], infinite where there is none.
+double resolved_up_to(const ReplaySeries& series, const Plausible& about, double share);
 
 /// The series with as much noise again in its motion, another one a `seed`.
 ReplaySeries with_noise_again(ReplaySeries series, std::uint64_t seed);

@@ -23,6 +23,8 @@ using Eigen::VectorXd;
 constexpr double wanted_effect = 0.02;
 /// A value whose limits change less than this is known.
 constexpr double least_effect = 0.05;
+/// Of what is never 0 less than this is nothing: it moved, and hardly anything was due to it.
+constexpr double least_whole_effect = 0.005;
 /// A value is known within half of itself.
 constexpr double known_within = 0.5;
 /// Steps, interpolation and rounding bend a value by what changes this share of all that was measured.
@@ -229,7 +231,9 @@ void judge(FitSolution& solution, const UnitColumns& columns, const Functor& fun
     if (one.known != FitKnown::yes) continue;
     const double half = (one.high - one.low) / 2;
     const double effect = half / functor.step(i) * columns.norms[static_cast<Index>(i)] / whole;
-    const bool moves = columns.norms[static_cast<Index>(i)] > 1e-9 * whole;
+    const double norm = columns.norms[static_cast<Index>(i)];
+    const double all_of_it = std::abs(one.value) / functor.step(i) * norm / whole;
+    const bool moves = norm > 1e-9 * whole && !(functor.is_never_zero(i) && all_of_it < least_whole_effect);
     const bool is_wide = half > known_within * std::abs(one.value);
     if (!moves || (is_wide && (functor.is_never_zero(i) || effect > least_effect))) one.known = FitKnown::no;
   }

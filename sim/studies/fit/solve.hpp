@@ -11,7 +11,9 @@ struct FitUnknown {
   double start = 0;
   double low = 0;  ///< least and largest value that may be tried
   double high = 0;
-  bool never_zero = false;  ///< as a mass: known only where its limits are narrower than itself
+  /// As a mass: known only where its limits are narrower than itself, and it is worth half a percent of the
+  /// whole.
+  bool never_zero = false;
 
   [[nodiscard]] bool is_held() const { return low == high; }
 };
