@@ -9,7 +9,10 @@ namespace drycut::renders {
 PlotLook look_of(const Curve& curve, std::size_t index) {
   static const std::array<Dash, 5> dashes = {Dash{}, {7, 5}, {2, 4}, {9, 4, 2, 4}, {9, 4, 2, 4, 2, 4}};
   constexpr Tone faint = {0xb9c2cc, 0x56606b};
-  const double size = curve.style != Curve::Style::points ? 2 : curve.faint ? 1.8 : 2.8;
+  const bool is_line = curve.style != Curve::Style::points;
+  // One with a name is told from another that lies on it by what shows at both sides.
+  const double line = curve.faint && !curve.label.empty() ? 6 : 2;
+  const double size = is_line ? line : curve.faint ? 1.8 : 2.8;
   return {curve.faint ? faint : kCurves[index % kCurves.size()], 0.35, size,
           dashes[index / kCurves.size() % dashes.size()]};
 }

@@ -10,12 +10,25 @@
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/commands.hpp"
 #include "sim/cli/verb.hpp"
+#include "sim/file.hpp"
 #include "sim/recordings/guess.hpp"
 #include "sim/recordings/recording.hpp"
 
 namespace drycut::sim::cli {
 
 namespace {
+
+/// Whether a file may be written over by `text`: it is not there, or says the same, or is to be replaced.
+void check_unchanged(const ImportOptions& options, const std::string& text, Problems& problems) {
+  std::error_code ignored;
+  if (options.out.empty() || options.force || !std::filesystem::is_regular_file(options.out, ignored)) return;
+  Problems unread;
+  const auto there = read_file(options.out, unread);
+  if (there == text || (there && there->empty())) return;
+  problems.push_back({"file.not-ours"_code, options.out.string(), 1, 1,
+                      "it is there already and is not what import would write: it may have been corrected",
+                      "name another file, or replace it with --force"});
+}
 
 /// What the whole file has to say, where the guess is enough to read it.
 void tell_doubts(const std::string& yaml, const std::filesystem::path& beside, Problems& problems) {
@@ -42,14 +55,15 @@ int import_file(const ImportOptions& options) {
   const auto guess = recordings::guess(options.file, yaml, problems);
   if (problems.empty()) {
     const auto text = recordings::write(guess);
+    fmt::print("{}", text);
+    std::fflush(stdout);  // before what is told of it
+    check_unchanged(options, text, problems);
+    tell_doubts(text, yaml, problems);
     try {
-      fmt::print("{}", text);
-      std::fflush(stdout);  // before what is told of it
-      if (!options.out.empty()) write_file(options.out, text);
+      if (problems.empty() && !options.out.empty()) write_file(options.out, text);
     } catch (const std::exception& error) {
       return print_failure(drycut::words_of(error));
     }
-    tell_doubts(text, yaml, problems);
   }
   if (problems.empty()) return all_passed;
   print_problems(problems);
@@ -63,7 +77,7 @@ void import_options(CLI::App& import, int& status) {
   auto& options = *chosen;
   import.add_option("file", options.file, "Export of a scope or drive tool, as text")->required();
   import.add_option("--out", options.out,
-                    "Write the guess to this file, too; one is replaced if drycut wrote it");
+                    "Write the guess to this file, too; one that says anything else stays");
   add_force(import, options.force);
   import.callback([chosen, &status] { status = import_file(*chosen);
 });

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace drycut::sim::recordings {
 
 std::optional<std::pair<double, double>> Clock::take(const DataCell& cell, int line) {
   now.reset();
   if (cell.kind != DataCell::Kind::number) return {};
-  const double since = cell.value * (source.column == none ? source.step : source.unit);
+  // A time of day is in seconds, whatever unit was told.
+  const double unit = cell.is_moment ? 1 : source.unit;
+  const double since = cell.value * (source.column == none ? source.step : unit);
   // A date counts from 1970; here the first sample is the beginning.
   constexpr double years = 3e8;
   if (times.empty()) origin = source.column != none && !source.counts && since > years ? since : 0;

@@ -112,6 +112,9 @@ Problem problem_of(const HeadFault& fault, const std::string& file) {
       return made("recording.ambiguous-comma"_code,
                   "a comma stands both between cells and in numbers: more cells than columns",
                   "export it with semicolons or tabs, or with decimal points");
+    case Kind::thousands:
+      return made("recording.not-a-number"_code, "a sign stands between the thousands of a number",
+                  "export the numbers without it: 1234,5");
     case Kind::no_data:
       break;
   }

@@ -36,7 +36,7 @@ Dialect dialect_of(const FirstLines& beginning, const GivenSigns& given, bool si
 
 /// What is wrong with a text as a table.
 struct HeadFault {
-  enum class Kind { empty, binary, utf16, ambiguous_comma, no_data };
+  enum class Kind { empty, binary, utf16, ambiguous_comma, thousands, no_data };
   Kind kind;
   int line = 1;
   int column = 1;

@@ -19,6 +19,13 @@ namespace {
 
 using Values = std::vector<double>;
 
+/// Whether a column has times of day.
+bool has_moments(const FirstLines& beginning, const ExportHead& head, std::size_t column) {
+  std::vector<std::string_view> cells;
+  split(beginning.lines[static_cast<std::size_t>(head.first_line - 1)], head.dialect, cells);
+  return cell_at(cells, column, head.dialect.decimal).is_moment;
+}
+
 /// The columns of the first rows; what is no number is left out.
 std::vector<Values> first_rows(const FirstLines& beginning, const ExportHead& head) {
   std::vector<Values> columns(head.columns.size());
@@ -61,6 +68,11 @@ constexpr std::array spellings = {UnitSpelling{"1/min", "rpm"},
                                   UnitSpelling{"ampere", "A"},
                                   UnitSpelling{"inc", "counts"},
                                   UnitSpelling{"incr", "counts"},
+                                  UnitSpelling{"ink", "counts"},
+                                  UnitSpelling{"inkr", "counts"},
+                                  UnitSpelling{"inkremente", "counts"},
+                                  UnitSpelling{"increments", "counts"},
+                                  UnitSpelling{"pulses", "counts"},
                                   UnitSpelling{"pls", "counts"},
                                   UnitSpelling{"pulse", "counts"},
                                   UnitSpelling{"\u00b0", "deg"},
@@ -70,7 +82,8 @@ constexpr std::array spellings = {UnitSpelling{"1/min", "rpm"},
                                   UnitSpelling{"mm/sec", "mm/s"},
                                   UnitSpelling{"sec", "s"}};
 
-std::string unit_of(const std::string& written) {
+std::string unit_of(std::string written) {
+  while (written.ends_with('.')) written.pop_back();  // "Inkr."
   for (const auto& [known, unit] : spellings)
     if (same_word(known, written)) return std::string(unit);
   if (!written.empty() && scenario::is_unit(written)) return written;
@@ -81,7 +94,7 @@ std::string unit_of(const std::string& written) {
 /// A name for a channel, of what stands over the column.
 std::string channel_name(const std::string& header, std::size_t column) {
   std::string name;
-  for (const char c : header.substr(0, header.find_first_of("[("))) name += in_name(c) || c == '.' ? c : '_';
+  for (const char c : name_alone(header)) name += in_name(c) || c == '.' ? c : '_';
   while (name.ends_with('_') || name.ends_with('.')) name.pop_back();
   return name.empty() || is_digit(name.front()) ? fmt::format("column_{}", column + 1) : name;
 }
@@ -89,7 +102,7 @@ std::string channel_name(const std::string& header, std::size_t column) {
 class Guesser {
  public:
   Guesser(const FirstLines& beginning, const ExportHead& head)
-      : head_(head), columns_(first_rows(beginning, head)) {}
+      : beginning_(beginning), head_(head), columns_(first_rows(beginning, head)) {}
 
   Guess guess(std::string file, std::filesystem::path yaml) {
     auto& recording = guess_.recording;
@@ -144,6 +157,7 @@ class Guesser {
     const auto rise = head_.columns.size() > 1 ? rise_of(columns_.front()) : Rise();
     if (!rise.rises) return remark("channels:", "THE FILE HAS NO TIME: add a line time: {rate: 1 kHz}");
     skip_ = 0;
+    if (has_moments(beginning_, head_, 0)) return time_column(0);
     time.column.text = reference(0);
     remark("time:", rise.by_one ? "it counts samples; ADD THEIR RATE, which is not in the file: rate: 1 kHz"
                                 : "it rises all the time; ADD ITS UNIT, which is not in the file: unit: ms");
@@ -154,7 +168,10 @@ class Guesser {
     skip_ = column;
     time.column.text = reference(column);
     time.unit.text = unit_of_time(head_.columns[column].unit);
-    if (time.unit.text.empty()) {
+    if (has_moments(beginning_, head_, column)) {
+      time.unit.text = "s";
+      remark("time:", "times of day");
+    } else if (time.unit.text.empty()) {
       remark("time:", "ADD ITS UNIT, which is not in the file: unit: ms");
     } else if (head_.interval) {
       remark("time:", fmt::format("the header says {:g} s a sample; the column is taken", *head_.interval));
@@ -179,7 +196,9 @@ class Guesser {
     if (made.unit.text == "%" || made.unit.text == "permille")
       says.emplace_back("of what is not in the file: of: 9.55 N m, say, if that is the rated torque");
     if (made.unit.text == "counts")
-      says.emplace_back("what a count is, is not in the file: of: 1 rev, full: 8192, say");
+      says.emplace_back(
+          "an encoder's count (knife.encoder.count) needs no more; of a position add what so many are: "
+          "of: 1 rev, full: 8192, say");
     if (reference(column) != header.name && !header.name.empty())
       says.emplace_back("several columns have its name");
     numbers(columns_[column], made, says);
@@ -229,6 +248,7 @@ class Guesser {
     return made;
   }
 
+  const FirstLines& beginning_;
   const ExportHead& head_;
   std::vector<Values> columns_;
   std::size_t skip_ = none;

@@ -44,7 +44,9 @@ struct Above {
   }
 };
 
-/// "Torque [N m]", "pos (5)", "Speed in rpm": the name without its unit, and the unit.
+constexpr std::string_view slash = " / ";  // between name and unit
+
+/// "Torque [N m]", "M / Nm", "pos (5)": the name as it stands, and the unit.
 ExportColumn named(std::string_view text) {
   for (const auto& [open, close] : {std::pair{'[', ']'}, {'(', ')'}}) {
     const auto begin = text.rfind(open);
@@ -54,12 +56,14 @@ ExportColumn named(std::string_view text) {
     if (unit.empty() || parsed<double>(unit)) continue;
     return {std::string(text), std::string(unit == "-" ? "" : unit)};
   }
+  if (const auto at = text.find(slash); at != std::string_view::npos && at > 0)
+    return {std::string(text), std::string(trimmed(text.substr(at + slash.size())))};
   return {std::string(text)};
 }
 
 bool says_time(const ExportColumn& column) {
   return is_one_of(std::array{"time", "t", "zeit", "timestamp", "time stamp", "second", "seconds", "date"},
-                   trimmed(std::string_view(column.name).substr(0, column.name.find_first_of("[("))));
+                   name_alone(column.name));
 }
 
 // TwinCAT Scope: rows `key, value, ...`, where the key stands over each column of time.
@@ -170,12 +174,24 @@ bool is_row_of_names(const Row* row, int width) {
   return static_cast<int>(row->size()) >= width || (width > 2 && static_cast<int>(row->size()) >= width - 1);
 }
 
-/// A row of nothing but units: short words, blanks, no two long ones.
+/// "Nm" of "[Nm]".
+std::string_view without_brackets(std::string_view cell) {
+  for (const auto& [open, close] : {std::pair{'[', ']'}, {'(', ')'}})
+    if (cell.size() >= 2 && cell.front() == open && cell.back() == close)
+      return trimmed(cell.substr(1, cell.size() - 2));
+  return cell;
+}
+
+/// A row of nothing but units: short words, blanks, or all of them in brackets.
 bool is_row_of_units(const Row& row) {
-  constexpr std::array known = {"s",   "ms",     "us",    "second", "volt",  "v",    "mv",  "a",
-                                "ma",  "%",      "rpm",   "1/min",  "r/min", "nm",   "n m", "deg",
-                                "rad", "rad/s",  "deg/s", "mm",     "m",     "mm/s", "m/s", "m/min",
-                                "n",   "counts", "inc",   "inch",   "in",    "hz",   "-",   ""};
+  if (std::all_of(row.begin(), row.end(), [](const auto& cell) {
+        return cell.empty() || without_brackets(cell).size() < cell.size();
+      }))
+    return true;
+  constexpr std::array known = {"s",     "ms",  "us",    "second", "volt", "v",     "mv",  "a",      "ma",
+                                "%",     "rpm", "1/min", "r/min",  "nm",   "n m",   "deg", "rad",    "rad/s",
+                                "deg/s", "mm",  "m",     "mm/s",   "m/s",  "m/min", "n",   "counts", "inc",
+                                "inch",  "in",  "hz",    "min-1",  "-",    ""};
   return std::all_of(row.begin(), row.end(),
                      [&](const auto& cell) { return is_one_of(known, trimmed(cell)); });
 }
@@ -192,7 +208,7 @@ void read_csv(const Above& above, ExportHead& head) {
   if (!is_row_of_names(names, head.width)) return;
   for (std::size_t i = 0; i < names->size(); ++i) {
     auto column = named(names->at(i));
-    if (units != nullptr && i < units->size()) column.unit = units->at(i);
+    if (units != nullptr && i < units->size()) column.unit = without_brackets(units->at(i));
     if (column.unit == "-") column.unit.clear();
     column.is_time = says_time(column);
     head.columns.push_back(column);
@@ -248,6 +264,21 @@ std::optional<HeadFault> fault_of_commas(const FirstLines& beginning, const Abov
   return {};
 }
 
+/// The first cell with a sign between thousands.
+std::optional<HeadFault> fault_of_thousands(const FirstLines& beginning, const ExportHead& head) {
+  std::vector<std::string_view> cells;
+  for (auto i = static_cast<std::size_t>(head.first_line - 1); i < beginning.lines.size(); ++i) {
+    const std::string_view line = beginning.lines[i];
+    if (!is_data(line, head.dialect)) continue;
+    split(line, head.dialect, cells);
+    for (const auto cell : cells)
+      if (has_thousands(cell, head.dialect.decimal))
+        return HeadFault{HeadFault::Kind::thousands, static_cast<int>(i) + 1,
+                         static_cast<int>(cell.data() - line.data()) + 1};
+  }
+  return {};
+}
+
 void cut_above(const FirstLines& beginning, std::size_t lines, const Dialect& dialect, bool is_twincat,
                Above& above) {
   std::vector<std::string_view> cells;
@@ -273,6 +304,10 @@ const std::vector<std::string>& format_names() {
     return all;
   }();
   return names;
+}
+
+std::string_view name_alone(std::string_view header) {
+  return trimmed(header.substr(0, std::min(header.find_first_of("[("), header.find(slash))));
 }
 
 ExportHead head_of(const FirstLines& beginning, const Given& given, std::optional<HeadFault>& fault) {
@@ -310,6 +345,7 @@ ExportHead head_of(const FirstLines& beginning, const Given& given, std::optiona
   cut_above(beginning, block.first, head.dialect, is_twincat, above);
   if (!above.rows.empty()) formats[static_cast<std::size_t>(head.format)].read(above, head);
   if (head.dialect.separator == ',' && !given.separator) fault = fault_of_commas(beginning, above, head);
+  if (!fault) fault = fault_of_thousands(beginning, head);
   for (auto i = head.columns.size(); i < static_cast<std::size_t>(head.width); ++i)
     head.columns.push_back({""});
   return head;

@@ -43,6 +43,9 @@ struct Given : GivenSigns {
   std::optional<Format> format = {};
 };
 
+/// A header's name without the unit behind it: "Torque" of "Torque [N m]", "M" of "M / Nm".
+std::string_view name_alone(std::string_view header);
+
 /// Understands the beginning of a file. `fault` says why not; the result is not to be used then.
 ExportHead head_of(const FirstLines& beginning, const Given& given, std::optional<HeadFault>& fault);
 

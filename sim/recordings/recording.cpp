@@ -49,7 +49,7 @@ class Loader {
     std::optional<HeadFault> fault;
     head_ = head_of(beginning, {{recording_.separator, recording_.decimal}, recording_.format}, fault);
     if (fault) {
-      problems_.push_back(problem_of(*fault, made.file.string()));
+      if (!refuse_signs(beginning, *fault)) problems_.push_back(problem_of(*fault, made.file.string()));
       return made;
     }
     const auto before = problems_.size();
@@ -64,6 +64,29 @@ class Loader {
   }
 
  private:
+  /// Where the YAML's separator or decimal leave no data, and others would not.
+  bool refuse_signs(const FirstLines& beginning, const HeadFault& fault) {
+    if (fault.kind != HeadFault::Kind::no_data || !(recording_.separator || recording_.decimal)) return false;
+    std::optional<HeadFault> still;
+    const auto dialect = head_of(beginning, {{}, recording_.format}, still).dialect;
+    if (still) return false;
+    const auto before = problems_.size();
+    const auto refuse_one = [&](const scenario::ScenePlace& place, const char* key, std::string_view given,
+                                std::string_view better) {
+      problems_.push_back(recording_.problem(
+          "recording.no-rows"_code, place,
+          fmt::format("with {}: {} no row of {} has numbers", key, given, recording_.file.text),
+          fmt::format("the file looks like {}: {}", key, better)));
+    };
+    if (recording_.separator && *recording_.separator != dialect.separator)
+      refuse_one(recording_.separator_place, "separator", word_of_separator(*recording_.separator),
+                 word_of_separator(dialect.separator));
+    if (recording_.decimal && *recording_.decimal != dialect.decimal)
+      refuse_one(recording_.decimal_place, "decimal", word_of_decimal(*recording_.decimal),
+                 word_of_decimal(dialect.decimal));
+    return problems_.size() != before;
+  }
+
   /// As read_file has it, but for the size.
   std::ifstream open() {
     const auto path = recording_.export_path();
@@ -86,11 +109,15 @@ class Loader {
   std::size_t find(const scenario::Text& wanted) {
     std::vector<std::string> names;
     std::vector<std::size_t> same;
+    std::vector<std::size_t> alone;  // without the unit behind the name
     for (std::size_t i = 0; i < head_.columns.size(); ++i) {
       const auto& name = head_.columns[i].name;
-      if (!name.empty()) names.push_back(name);
-      if (name == wanted.text && !name.empty()) same.push_back(i);
+      if (name.empty()) continue;
+      names.push_back(name);
+      if (name == wanted.text) same.push_back(i);
+      if (name_alone(name) == wanted.text) alone.push_back(i);
     }
+    if (same.empty()) same = alone;
     if (same.size() == 1) return same.front();
     if (same.size() > 1) {
       problems_.push_back(
@@ -193,6 +220,7 @@ class Loader {
       ++made.rows;
     }
     made.checksum = lines.checksum();
+    rows_ = row;
     if (made.rows == 0)
       problems_.push_back(
           {"recording.no-rows"_code, file, std::max(1, lines.number()), 1,
@@ -218,7 +246,7 @@ class Loader {
       const auto& clock = clocks_[reader.clock];
       const auto cell = cell_at(cells, reader.column, head_.dialect.decimal);
       if (cell.kind == DataCell::Kind::text) refuse_text(cells[reader.column], line, number);
-      if (!clock.now) continue;
+      if (!clock.now || cell.kind == DataCell::Kind::text) continue;
       if (cell.kind == DataCell::Kind::number) {
         append(reader, *clock.now, cell.value, number, made.series[i]);
       } else if (cell.kind == DataCell::Kind::empty) {
@@ -244,6 +272,10 @@ class Loader {
 
   void refuse_text(std::string_view cell, std::string_view line, int number) {
     const auto at = cell.data() >= line.data() ? cell.data() - line.data() : 0;
+    if (has_thousands(cell, head_.dialect.decimal)) {
+      auto problem = problem_of({HeadFault::Kind::thousands}, "");
+      return refuse(problem.code, number, static_cast<int>(at) + 1, problem.what, problem.remedy);
+    }
     refuse("recording.not-a-number"_code, number, static_cast<int>(at) + 1,
            fmt::format("{} is not a number", in_quotes(as_utf8(cell))),
            "leave the rows out with rows: [1, 5000], or export it again");
@@ -264,8 +296,27 @@ class Loader {
                            role);
   }
 
+  void doubt_yaml(Code code, const scenario::ScenePlace& place, const std::string& text) {
+    findings_.emplace_back(
+        code, fmt::format("{}:{}:{}: {}", recording_.path.string(), place.line, place.column, text),
+        Finding::Role::note);
+  }
+
+  /// What is sound in the YAML, and may not be what was meant.
+  void tell_of_yaml(const Recording& made) {
+    if (recording_.rows && made.rows > 0 && recording_.rows->second > static_cast<double>(rows_))
+      doubt_yaml("recording.too-few-rows"_code, recording_.rows_place,
+                 fmt::format("rows go to {}, the file has {}: {} taken", recording_.rows->second, rows_,
+                             counted(static_cast<std::int64_t>(made.rows), "row")));
+    for (const auto& channel : recording_.channels)
+      if (const auto meant = channel_meant_by(channel.name.text); !meant.empty())
+        doubt_yaml("recording.unknown-channel"_code, channel.name.place,
+                   fmt::format("no machine has a channel {}; did you mean {}?", channel.name.text, meant));
+  }
+
   void tell(const Recording& made) {
     using Role = Finding::Role;
+    tell_of_yaml(made);
     for (const auto& clock : clocks_)
       for (const auto& one : doubts_of(clock)) doubt(one.code, Role::warning, one.line, one.text);
     for (std::size_t i = 0; i < readers_.size(); ++i) {
@@ -297,6 +348,7 @@ class Loader {
   ExportHead head_;
   std::vector<Clock> clocks_;
   std::vector<ColumnReader> readers_;
+  std::size_t rows_ = 0;  ///< of data in the file
   int refused_ = 0;
   bool is_given_up_ = false;
 };

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/text.hpp"
+#include "devices/qmove/catalogue.hpp"
 #include "plants/plant.hpp"
 #include "sim/file.hpp"
 #include "sim/scenario/archive.hpp"
@@ -108,12 +109,15 @@ void judge_dimension(MapReader& reader, const RecordingFile::Channel& channel) {
   const auto fits = [&](const std::string& known) { return scenario::same_dimension(known, unit); };
   if (wanted.empty() || std::any_of(wanted.begin(), wanted.end(), fits)) return;
   const bool is_share = channel.of.unit.empty() && scenario::same_dimension(unit, "");
+  const bool is_count = wanted.front().empty();
   reader.findings().add(
       "scenario.wrong-unit"_code, channel.of.unit.empty() ? channel.unit.place : channel.of.place,
       fmt::format("{} is {}, not {} ({})", channel.name.text, scenario::dimension_name(wanted.front()),
                   scenario::dimension_name(unit), unit),
-      is_share ? fmt::format("say what it is a share of: of: 1 {}", wanted.front())
-               : fmt::format("give it in {}, or name another channel", wanted.front()));
+      is_count   ? channel.of.unit.empty() ? "give it in counts, or name another channel"
+                                           : "leave of and full out, or name a position or angle"
+      : is_share ? fmt::format("say what it is a share of: of: 1 {}", wanted.front())
+                 : fmt::format("give it in {}, or name another channel", wanted.front()));
 }
 
 void judge_channel(MapReader& reader, const RecordingFile::Channel& channel) {
@@ -185,6 +189,9 @@ void visit(Archive& archive, RecordingFile& recording) {
   archive.require("channels", "name one: channels: {knife.motor.torque: {column: Torque, unit: N m}}");
   archive.judge([&recording](MapReader& reader) {
     const auto& rows = recording.rows;
+    if (reader.has("separator")) recording.separator_place = reader.value_place("separator");
+    if (reader.has("decimal")) recording.decimal_place = reader.value_place("decimal");
+    if (reader.has("rows")) recording.rows_place = reader.value_place("rows");
     if (rows && (rows->first < 1 || std::floor(rows->first) != rows->first ||
                  std::floor(rows->second) != rows->second || rows->second > 1e15))
       reader.findings().add("scenario.out-of-range"_code, reader.value_place("rows"),
@@ -236,7 +243,10 @@ std::string write(const RecordingFile& recording) {
   return scenario::yaml_of([&](Archive& archive) { visit(archive, const_cast<RecordingFile&>(recording)); });
 }
 
-std::vector<std::string> units_of_channel(const std::string& name) {
+namespace {
+
+/// Of every channel of every plant its units: "motor.torque".
+const std::map<std::string, std::set<std::string>, std::less<>>& plant_channels() {
   static const auto known = [] {
     std::map<std::string, std::set<std::string>, std::less<>> all;
     for (const auto& type : plants::plant_types())
@@ -244,10 +254,45 @@ std::vector<std::string> units_of_channel(const std::string& name) {
         for (const auto& channel : specimen->plant().channels()) all[channel.name].insert(channel.unit);
     return all;
   }();
+  return known;
+}
+
+bool is_variable_of_a_device(const std::string& name) {
+  return std::ranges::any_of(devices::catalogue(), [&](const auto& entry) {
+    const auto is_it = [&](const auto& row) { return same_word(row.name, name); };
+    return std::ranges::any_of(entry.type->variables, is_it) ||
+           std::ranges::any_of(entry.type->states, is_it);
+  });
+}
+
+template <std::size_t Count>
+std::string_view word_of(const std::array<SignWord, Count>& words, char sign) {
+  return std::ranges::find(words, sign, &SignWord::sign)->word;
+}
+
+}  // namespace
+
+std::string_view word_of_separator(char sign) { return word_of(separator_words, sign); }
+std::string_view word_of_decimal(char sign) { return word_of(decimal_words, sign); }
+
+std::vector<std::string> units_of_channel(const std::string& name) {
+  const auto& known = plant_channels();
   const auto dot = name.find('.');
   const auto found = dot == std::string::npos ? known.end() : known.find(name.substr(dot + 1));
   if (found == known.end()) return {};
   return {found->second.begin(), found->second.end()};
+}
+
+std::string channel_meant_by(const std::string& name) {
+  const auto& known = plant_channels();
+  const auto dot = name.find('.');
+  if (dot == std::string::npos) return "";
+  const auto own = name.substr(dot + 1);
+  if (known.contains(own) || is_variable_of_a_device(own)) return "";
+  std::vector<std::string> names;
+  for (const auto& [channel, units] : known) names.push_back(channel);
+  const auto meant = nearest(own, names);
+  return meant.empty() ? "" : name.substr(0, dot + 1) + meant;
 }
 
 std::string unit_of_time(const std::string& written) {

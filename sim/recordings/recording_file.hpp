@@ -27,6 +27,8 @@ struct RecordingFile {
   Format format = Format::csv;
   std::optional<char> separator = {};
   std::optional<char> decimal = {};
+  scenario::ScenePlace separator_place = {};  ///< where it is given, of the value
+  scenario::ScenePlace decimal_place = {};
   /// Its own column, a rate, or the number of the sample and the rate; nothing of it: as the format has it.
   struct TimeBase {
     scenario::Text column;  ///< a header's name, or its number from 1; "" = none
@@ -36,6 +38,7 @@ struct RecordingFile {
   };
   TimeBase time;
   std::optional<std::pair<double, double>> rows = {};  ///< of the data, from 1, both included
+  scenario::ScenePlace rows_place = {};
 
   struct Channel {
     scenario::Text name;    ///< "knife.motor.torque"
@@ -72,6 +75,14 @@ std::string write(const RecordingFile& recording);
 /// The quantity of a channel of its kind in the machines: "N m" for "knife.motor.torque"; several where
 /// machines differ, none where no machine has such a channel.
 std::vector<std::string> units_of_channel(const std::string& name);
+
+/// The channel of the machines that was probably meant, "axis.motor.torque" for "axis.motor.torqe"; "" if
+/// they have such a channel, or none that is near, or a device of a controller has a variable of that name.
+std::string channel_meant_by(const std::string& name);
+
+/// "semicolon" for ';' between cells, "point" for '.' in numbers.
+std::string_view word_of_separator(char sign);
+std::string_view word_of_decimal(char sign);
 
 /// A unit of time as a header writes it, "Second", "ms"; "" if it is none.
 std::string unit_of_time(const std::string& written);

@@ -131,9 +131,29 @@ DataCell cell_of(std::string_view text, char decimal) {
     if (error == std::errc()) return {DataCell::Kind::not_a_number, 0};
   }
   if (whole.find(':') != std::string_view::npos)
-    if (const auto seconds = time_of_day(whole)) return {DataCell::Kind::number, *seconds};
+    if (const auto seconds = time_of_day(whole)) return {DataCell::Kind::number, *seconds, true};
   const bool is_none = is_one_of(std::array{"nan", "-nan", "1.#qnan", "-1.#ind", "-", "--", "---"}, whole);
   return {is_none ? DataCell::Kind::not_a_number : DataCell::Kind::text, 0};
+}
+
+bool has_thousands(std::string_view text, char decimal) {
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  const auto point = text.find(decimal);
+  const auto whole = text.substr(0, point);
+  const auto fraction = point == std::string_view::npos ? std::string_view() : text.substr(point + 1);
+  const auto sign_at = whole.find_first_not_of("0123456789");
+  if (sign_at == std::string_view::npos || sign_at == 0 || sign_at > 3) return false;
+  const char sign = whole[sign_at];
+  constexpr std::string_view signs = ".,' ";
+  if (signs.find(sign) == std::string_view::npos) return false;
+  constexpr std::size_t group = 4;  // with its sign
+  std::size_t groups = 0;
+  for (auto rest = whole.substr(sign_at); !rest.empty(); rest.remove_prefix(group), ++groups)
+    if (rest.size() < group || rest[0] != sign ||
+        !std::all_of(rest.begin() + 1, rest.begin() + group, is_digit))
+      return false;
+  // "1.234" alone is a number, with another sign for its decimals.
+  return std::all_of(fraction.begin(), fraction.end(), is_digit) && (groups > 1 || !fraction.empty());
 }
 
 DataCell cell_at(const std::vector<std::string_view>& cells, std::size_t index, char decimal) {
@@ -146,8 +166,9 @@ bool is_data(std::string_view line, const Dialect& dialect) {
   bool has_number = false;
   for (const auto cell : cells) {
     const auto kind = cell_of(cell, dialect.decimal).kind;
-    if (kind == DataCell::Kind::text) return false;
-    has_number = has_number || kind == DataCell::Kind::number;
+    const bool is_grouped = kind == DataCell::Kind::text && has_thousands(cell, dialect.decimal);
+    if (kind == DataCell::Kind::text && !is_grouped) return false;
+    has_number = has_number || is_grouped || kind == DataCell::Kind::number;
   }
   return has_number;
 }

@@ -45,13 +45,17 @@ struct DataCell {
   enum class Kind { number, empty, not_a_number, text };
   Kind kind = Kind::empty;
   double value = 0;
+  bool is_moment = false;  ///< a time of day, with or without a date: `value` in s
 };
+/// "1.234,5": a sign between thousands. What "1.234" is, is not known then, so that such numbers are refused.
+bool has_thousands(std::string_view text, char decimal);
+
 /// A time of day, with or without a date, counts as a number: seconds, since 1970 if there is a date.
 DataCell cell_of(std::string_view text, char decimal);
 /// The same of a text that may be missing.
 DataCell cell_at(const std::vector<std::string_view>& cells, std::size_t index, char decimal);
 
-/// True if all cells of the line are data, and one of them is a number.
+/// True if all cells of the line are data, and one of them is a number, be it with a sign between thousands.
 bool is_data(std::string_view line, const Dialect& dialect);
 
 /// The line is no data at all: blank, or the mark that TwinCAT ends a file with.

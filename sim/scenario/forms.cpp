@@ -292,6 +292,17 @@ Form form(std::array<double, 3>& values, std::string_view unit) {
       fmt::format(R"({{"type": "array", "minItems": 3, "maxItems": 3, "items": {}}})", schema_of_unit(unit)));
 }
 
+namespace {
+
+/// Two limits as they may have been meant.
+std::string example_of(const std::vector<double>& numbers) {
+  if (numbers.size() < 2) return "for example [499.8, 500.2]";
+  const auto [least, most] = std::minmax_element(numbers.begin(), numbers.end());
+  return fmt::format("for example [{}, {}]", *least, *most);
+}
+
+}  // namespace
+
 Form form(std::optional<std::pair<double, double>>& values) {
   return whole(
       YamlNode::Kind::sequence,
@@ -303,8 +314,7 @@ Form form(std::optional<std::pair<double, double>>& values) {
           return;
         }
         findings.add("scenario.order"_code, list.text.place,
-                     fmt::format("{} must be a lower and an upper limit", name.full),
-                     "for example [499.8, 500.2]");
+                     fmt::format("{} must be a lower and an upper limit", name.full), example_of(*numbers));
       },
       [&values] { return values ? fmt::format("[{}, {}]", values->first, values->second) : ""; },
       std::string(pair_schema));

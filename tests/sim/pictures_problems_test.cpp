@@ -68,8 +68,8 @@ TEST(PicturesProblems, FramesAndPlots) {
        {"1:40: pictures.plots.a.panels.0: event and values go together; write event: cut, values: [length] "
         "[scenario.needs-another]"}},
       {"pictures: {plots: [{name: a, panels: [{channels: [b], limits: [2, 1]}]}]}\n",
-       {"1:63: pictures.plots.a.panels.0.limits must be a lower and an upper limit; for example [499.8, "
-        "500.2] [scenario.order]"}},
+       {"1:63: pictures.plots.a.panels.0.limits must be a lower and an upper limit; for example [1, 2] "
+        "[scenario.order]"}},
       {"pictures: {plots: [{name: a, panels: [{channels: [b], limits: [x, 1]}]}]}\n",
        {"1:64: pictures.plots.a.panels.0.limits: 'x' is not a number; write a number, with its unit if it "
         "has one: 0.5, 60 m/min [scenario.not-a-number]"}},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/output_file.hpp"
 #include "base/text.hpp"
@@ -20,7 +21,7 @@ constexpr std::size_t most_points = 4000;  ///< of a curve: a page must stay rea
 constexpr double percent = 100;
 
 std::string with_unit(const std::string& name, const std::string& unit) {
-  return fmt::format("{} [{}]", name, unit.empty() ? "-" : unit);
+  return fmt::format("{}{}[{}]", name, name.empty() ? "" : " ", unit.empty() ? "-" : unit);
 }
 
 /// Every so many of a channel's instants, the worst one among them.
@@ -46,14 +47,16 @@ renders::Plot time_plot(const MeasuredChannel& channel) {
   plot.title = channel.name + ": measured and simulated";
   plot.x_label = "time in the run [s]";
   plot.panel_height = 240;
-  plot.panels.push_back({"",
-                         with_unit(channel.name, channel.unit),
-                         {renders::Curve{"measured", times, of_instants(channel.measured, instants)},
-                          renders::Curve{"simulated", times, of_instants(channel.simulated, instants)}},
-                         {},
-                         {}});
+  renders::Curve measured{"measured", times, of_instants(channel.measured, instants)};
+  measured.faint = true;  // seen on both sides of the simulated one, which lies on it
+  plot.panels.push_back(
+      {"",
+       with_unit(channel.name, channel.unit),
+       {std::move(measured), renders::Curve{"simulated", times, of_instants(channel.simulated, instants)}},
+       {},
+       {}});
   plot.panels.push_back({"Residual: simulated less measured",
-                         with_unit("residual", channel.unit),
+                         with_unit("", channel.unit),
                          {renders::Curve{"residual", times, of_instants(channel.residual, instants)}},
                          {{"", 0, 0}},
                          {}});

@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "sim/record/json.hpp"
 #include "sim/report/report.hpp"
+#include "sim/studies/fit/pictures.hpp"
 
 namespace drycut::sim::studies {
 
@@ -72,72 +73,16 @@ Table ladder_table(const FitFound& found) {
   return table;
 }
 
-/// Of torque over time, or of what is left over another quantity.
-renders::Curve points(const std::string& label, const std::vector<double>& x, const std::vector<double>& y) {
-  renders::Curve curve;
-  curve.label = label;
-  curve.style = renders::Curve::Style::points;
-  curve.x = x;
-  curve.y = y;
-  return curve;
-}
-
-renders::Plot over_time(const std::string& name, const Prose& title, const Replayed& one) {
-  renders::Plot plot;
-  plot.name = name;
-  plot.title = title;
-  plot.x_label = "time in the recording [s]";
-  plot.panel_height = 240;
-  renders::Curve recorded{"recorded", one.times, one.torque};
-  renders::Curve model{"model", one.times, {}};
-  for (std::size_t i = 0; i < one.torque.size(); ++i) model.y.push_back(one.torque[i] + one.torque_left[i]);
-  plot.panels.push_back({"Torque of the motor, filtered", "torque [N m]", {recorded, model}, {}, {}});
-  plot.panels.push_back({"Unexplained: model less recorded",
-                         "torque [N m]",
-                         {points("unexplained", one.times, one.torque_left)},
-                         {{"", 0, 0}},
-                         {}});
-  plot.panels.push_back(
-      {"Speed of the motor", "speed [rpm]", {renders::Curve{"speed", one.times, one.speed}}, {}, {}});
-  return plot;
-}
-
-renders::Plot over_speed(const std::string& name, const Replayed& one) {
-  renders::Plot plot;
-  plot.name = name;
-  plot.title = "What is left unexplained, by speed and direction";
-  plot.x_label = "speed of the motor [rpm]";
-  plot.panels.push_back({"",
-                         "torque, model less recorded [N m]",
-                         {points("unexplained", one.speed, one.torque_left)},
-                         {{"", 0, 0}},
-                         {}});
-  return plot;
-}
-
-renders::Plot over_position(const std::string& name, const Replayed& one) {
-  renders::Plot plot;
-  plot.name = name;
-  plot.title = "What is left unexplained, by position";
-  plot.x_label = fmt::format("position [{}]", one.position_unit);
-  plot.panels.push_back({"",
-                         "torque, model less recorded [N m]",
-                         {points("unexplained", one.position, one.torque_left)},
-                         {{"", 0, 0}},
-                         {}});
-  return plot;
-}
-
 std::vector<renders::Plot> plots_of(const FitPlan& plan, const FitFound& found) {
   std::vector<renders::Plot> plots;
   const auto add = [&](const std::vector<Replayed>& all, const std::vector<ReplaySeries>& series,
                        const std::string& kind, const std::string& words) {
     for (std::size_t i = 0; i < std::min(all.size(), series.size()); ++i) {
       const auto name = fmt::format("{}_{}", kind, i + 1);
-      plots.push_back(over_time(name, fmt::format("{}: {}", series[i].name(), words), all[i]));
+      plots.push_back(replay_over_time(name, fmt::format("{}: {}", series[i].name(), words), all[i]));
       if (kind != "fit") continue;
-      plots.push_back(over_speed(name + "_speed", all[i]));
-      plots.push_back(over_position(name + "_position", all[i]));
+      plots.push_back(unexplained_over_speed(name + "_speed", all[i]));
+      plots.push_back(unexplained_over_position(name + "_position", all[i]));
     }
   };
   add(found.replayed, plan.recordings, "fit", "recorded and model");

@@ -86,7 +86,7 @@ TEST_F(Formats, MrConfigurator2HasItsNamesInTheRowOfUnits) {
   EXPECT_THAT(yaml,
               HasSubstr("  Servo_motor_speed: {column: Servo motor speed, unit: rpm, clipped: -32768}"));
   EXPECT_THAT(yaml, HasSubstr("  Torque: {column: Torque, unit: \"%\", clipped: -32768}  # of what"));
-  EXPECT_THAT(yaml, HasSubstr("unit: counts, clipped: -32768}  # what a count is"));
+  EXPECT_THAT(yaml, HasSubstr("unit: counts, clipped: -32768}  # an encoder's count"));
   EXPECT_THAT(yaml, Not(HasSubstr("Digital")));
 }
 
@@ -164,6 +164,34 @@ TEST_F(Formats, PlainTextWithUnitsBehindOrBelowItsNames) {
   EXPECT_THAT(guessed("t,speed\ns,1/min\n0,1\n1,2\n"),
               testing::AllOf(HasSubstr("time: {column: t, unit: s}"),
                              HasSubstr("  speed: {column: speed, unit: rpm}\n")));
+}
+
+TEST_F(Formats, UnitsInBracketsBelowTheNamesOrBehindASlash) {
+  for (const auto* text :
+       {"Time;Torque;Speed;Pos\n[s];[Nm];[min-1];[Inkr.]\n0.000;1.25;60;1\n0.001;1.35;61;2\n",
+        "Time / s;Torque / Nm;Speed / 1/min;Pos / Inc\n0.000;1.25;60;1\n0.001;1.35;61;2\n"}) {
+    const auto yaml = guessed(text);
+    EXPECT_THAT(yaml, testing::ContainsRegex("time: .column: .*Time.*, unit: s."));
+    EXPECT_THAT(yaml, testing::ContainsRegex("  Torque: .column: .*Torque.*, unit: Nm."));
+    EXPECT_THAT(yaml, testing::ContainsRegex("  Speed: .column: .*Speed.*, unit: rpm."));
+    EXPECT_THAT(yaml, testing::ContainsRegex("  Pos: .column: .*Pos.*, unit: counts.")) << text;
+    EXPECT_THAT(yaml, Not(HasSubstr("ADD")));
+  }
+}
+
+TEST_F(Formats, TimesOfDayNeedNoUnit) {
+  for (const auto* name : {"Timestamp", "A"}) {
+    const auto text =
+        std::string(name) + ";v [mm/s]\n2026-11-20 10:12:33.000;60\n2026-11-20 10:12:33.500;61\n";
+    const auto yaml = guessed(text);
+    EXPECT_THAT(yaml, HasSubstr(std::string("time: {column: ") + name + ", unit: s}  # times of day\n"));
+    EXPECT_THAT(yaml, Not(HasSubstr("ADD")));
+    // They say their unit themselves.
+    const auto read = loaded(text, std::string("time: {column: ") + name +
+                                       ", unit: ms}\nchannels: {a: {column: 2, unit: mm/s}}\n");
+    ASSERT_EQ(read.series.size(), 1u);
+    EXPECT_THAT(read.series[0].time_s, near({0, 0.5}));
+  }
 }
 
 TEST_F(Formats, EposStudioHasTimesInWholeMilliseconds) {

@@ -54,6 +54,63 @@ TEST_F(OddFiles, EmptyCellsNanAndShortRowsAreNoSamples) {
   EXPECT_THAT(findings[1].text, HasSubstr("2 cells empty"));
 }
 
+TEST_F(OddFiles, SignsOfTheYamlThatLeaveNoData) {
+  const std::string text = "t;v\n0,0;1,5\n0,1;1,6\n";
+  const std::string channel = "time: {column: t, unit: s}\nchannels: {a: {column: v, unit: V}}\n";
+  loaded(text, "separator: semicolon\ndecimal: point\n" + channel);
+  EXPECT_THAT(places(), ElementsAre("3:10 recording.no-rows"));
+  EXPECT_THAT(problems[0].remedy, HasSubstr("decimal: comma"));
+  loaded(text, "separator: tab\ndecimal: comma\n" + channel);
+  EXPECT_THAT(places(), ElementsAre("2:12 recording.no-rows"));
+  EXPECT_THAT(problems[0].remedy, HasSubstr("separator: semicolon"));
+  loaded(text, "separator: tab\ndecimal: point\n" + channel);
+  EXPECT_THAT(places(), ElementsAre("2:12 recording.no-rows", "3:10 recording.no-rows"));
+  loaded("t;v\nx;y\n", "separator: tab\n" + channel);
+  EXPECT_THAT(places(), ElementsAre("x.csv:2:1 recording.no-rows")) << "no sign would help";
+}
+
+TEST_F(OddFiles, NumbersWithASignBetweenThousands) {
+  for (const auto* text : {"Time [ms];Torque [%]\n0;1.234,5\n1;1.200,5\n2;999,5\n", "t;v\n0;1,234.5\n1;2\n",
+                           "t;v\n0;-1'234.5\n1;2\n", "t;v\n0;1.234.567\n1;2,5\n"}) {
+    EXPECT_EQ(guessed(text), "");
+    EXPECT_THAT(places(), ElementsAre("x.csv:2:3 recording.not-a-number")) << text;
+  }
+  std::string text = "t;v\n";
+  for (int i = 0; i < 600; ++i) text += std::to_string(i) + ";1,5\n";
+  read(text + "600;1.234,5\n");
+  EXPECT_THAT(places(), ElementsAre("x.csv:602:5 recording.not-a-number"));
+  EXPECT_THAT(problems[0].remedy, HasSubstr("1234,5"));
+  EXPECT_THAT(guessed("t;v\n0;1,234\n1;1,235\n"), HasSubstr("decimal: comma")) << "decimals, no thousands";
+}
+
+TEST_F(OddFiles, RowsThatAreNotAllThere) {
+  const std::string text = "t,v\n0,1\n1,2\n2,3\n";
+  const std::string channel = "time: {column: t, unit: s}\nchannels: {a: {column: v, unit: V}}\n";
+  loaded(text, "rows: [2, 9]\n" + channel);
+  EXPECT_THAT(codes(findings), ElementsAre("recording.too-few-rows"));
+  EXPECT_THAT(findings[0].text, HasSubstr("x.yaml:2:7: rows go to 9, the file has 3: 2 rows taken"));
+  loaded(text, "rows: [2, 3]\n" + channel);
+  EXPECT_THAT(findings, IsEmpty());
+  loaded(text, "rows: [3, 2]\n" + channel);
+  EXPECT_THAT(places(), ElementsAre("2:7 scenario.order"));
+  EXPECT_THAT(problems[0].remedy, HasSubstr("[2, 3]"));
+}
+
+TEST_F(OddFiles, AChannelThatIsNearlyOneOfTheMachines) {
+  const std::string text = "t,v\n0,1\n1,2\n";
+  const auto told = [&](const std::string& name) {
+    loaded(text, "time: {column: t, unit: s}\nchannels: {" + name + ": {column: v, unit: V}}\n");
+    EXPECT_THAT(problems, IsEmpty());
+    return codes(findings);
+  };
+  EXPECT_THAT(told("axis.motor.torqe"), ElementsAre("recording.unknown-channel"));
+  EXPECT_THAT(findings[0].text, HasSubstr("x.yaml:3:12: "));
+  EXPECT_THAT(findings[0].text, HasSubstr("did you mean axis.motor.torque?"));
+  EXPECT_THAT(told("AxisX.posit"), IsEmpty()) << "a device has it";
+  EXPECT_THAT(told("hall.temperature_outside"), IsEmpty());
+  EXPECT_THAT(told("torqe"), IsEmpty()) << "of no plant";
+}
+
 TEST_F(OddFiles, LostSamples) {
   read("t,v\n0,1\n1,1\n2,1\n\n5,1\n6,1\n7,1\n10,1\n11,1\n");
   EXPECT_THAT(doubts(), ElementsAre("6 recording.gap"));
@@ -127,6 +184,32 @@ TEST_F(OddFiles, ColumnsThatAreNotThere) {
   EXPECT_THAT(problems[1].remedy, HasSubstr("2, 3"));
   EXPECT_THAT(guessed(text), HasSubstr("  Torque: {column: 2}"));
   EXPECT_THAT(guessed(text), HasSubstr("  Torque_2: {column: 3}"));
+}
+
+TEST_F(OddFiles, AColumnIsNamedWithoutItsUnitWhereThatIsUnique) {
+  const auto made =
+      loaded("time [s],axis.motor.torque [N m],M / Nm,v [mm],v [V]\n0,1,2,3,4\n1,1,2,3,4\n",
+             "time: {column: time, unit: s}\n"
+             "channels: {a: {column: axis.motor.torque, unit: N m}, b: {column: M, unit: N m}}\n");
+  EXPECT_THAT(lines_of(problems), IsEmpty());
+  ASSERT_EQ(made.series.size(), 2u);
+  EXPECT_THAT(made.series[1].value, ElementsAre(2, 2));
+  loaded("t [s],v [mm],v [V]\n0,3,4\n1,3,4\n",
+         "time: {column: t, unit: s}\nchannels: {a: {column: v, unit: V}}\n");
+  EXPECT_THAT(places(), ElementsAre("3:23 recording.column-twice"));
+  loaded("v,v [V]\n0,3\n1,4\n", "time: {column: v, unit: s}\nchannels: {a: {column: \"v [V]\", unit: V}}\n");
+  EXPECT_THAT(lines_of(problems), IsEmpty()) << "the whole name goes first";
+}
+
+TEST_F(OddFiles, ACountOfAnEncoderNeedsNothingMore) {
+  const std::string begin = "time: {column: t, unit: s}\nchannels:\n  axis.encoder.count: {column: v, unit: ";
+  loaded("t,v\n0,1\n1,2\n", begin + "counts}\n");
+  EXPECT_THAT(lines_of(problems), IsEmpty());
+  loaded("t,v\n0,1\n1,2\n", begin + "counts, of: 1 rev, full: 8192}\n");
+  EXPECT_THAT(codes(problems), ElementsAre("scenario.wrong-unit"));
+  EXPECT_THAT(problems[0].remedy, HasSubstr("leave of and full out"));
+  loaded("t,v\n0,1\n1,2\n", begin + "mm}\n");
+  EXPECT_THAT(problems[0].remedy, HasSubstr("in counts"));
 }
 
 TEST_F(OddFiles, NoTime) {

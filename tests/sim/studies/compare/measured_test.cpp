@@ -108,7 +108,10 @@ TEST_F(CompareMeasured, CommandTellsAndWrites) {
   EXPECT_THAT(out, HasSubstr("axis.motor.torque was not recorded in the run"));
   EXPECT_THAT(content(folder / "out/comparison.csv"), HasSubstr("\naxis.position,mm,5,"));
   EXPECT_THAT(content(folder / "out/verdict.json"), HasSubstr("\"exit\": 0"));
-  EXPECT_THAT(content(folder / "out/report.html"), HasSubstr("MEASURED"));
+  const auto page = content(folder / "out/report.html");
+  EXPECT_THAT(page, HasSubstr("MEASURED"));
+  EXPECT_THAT(page, HasSubstr(R"("label":"measured","style":"line","faint":true)")) << "seen below the other";
+  EXPECT_THAT(page, HasSubstr(R"("title":"Residual: simulated less measured","yLabel":"[mm]")"));
   for (const auto* plot :
        {"measured_axis_position", "residual_axis_position_over_speed", "residual_axis_angle_over_position"})
     EXPECT_TRUE(fs::exists(folder / "out/plots" / (std::string(plot) + ".png"))) << plot;
