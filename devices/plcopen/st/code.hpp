@@ -237,7 +237,8 @@ struct Compiled {
   std::vector<Doubt> doubts;
 
   // For whoever watches it.
-  std::string text;
+  std::vector<SourceFile> files;
+  SourceLines lines;
   std::size_t user_nodes = 0;  ///< so many are of the text, those behind them of standard blocks
   /// A PROGRAM or a block that runs, and what stands before the names of its variables: "", "Main.".
   struct Scope {

@@ -26,6 +26,7 @@ class Expressions : public Values {
   TypedExpression expression(const Type* wanted = nullptr) { return typed(tree(), wanted); }
   TypedExpression typed(const Tree& tree, const Type* wanted = nullptr);
   std::optional<TypedExpression> variable(const StToken& name);
+  const Variable* find_global(std::string_view name);
   [[nodiscard]] Unit* find_unit(std::string_view name) const;
   /// Reads the declarations of a unit that may be needed before its turn.
   virtual void declare(Unit& unit) = 0;
@@ -52,6 +53,7 @@ class Expressions : public Values {
   Type* globals_ = nullptr;                                    ///< its variables are where the memory begins
   std::unordered_map<std::string, const Type*> enumerations_;  ///< by name in lower case
   std::multimap<std::string, std::pair<const Type*, std::int64_t>> enum_values_;
+  std::unordered_map<std::string, Unit*> global_sections_;  ///< VAR_GLOBAL by what it declares
   const Type* cam_ref_ = nullptr;
   std::set<std::string> told_;  ///< names that are not known, told once a POU
   int open_units_ = 0;
@@ -219,12 +221,13 @@ class Statements : public Declarations {
   int loops_ = 0;
 };
 
-/// Reads a file: its units, then all declarations, then all bodies. It stands on layers, each of which knows
-/// those below it only: Reader (tokens and problems), Parser (trees), Values (constants, conversions, nodes),
-/// Expressions (names and calls), Declarations, Statements.
+/// Reads the files of a program: their units, then all declarations, then all bodies. It stands on layers,
+/// each of which knows those below it only: Reader (tokens and problems), Parser (trees), Values (constants,
+/// conversions, nodes), Expressions (names and calls), Declarations, Statements.
 class Compiler : public Statements {
  public:
-  Compiler(std::string_view text, const std::string& file, Problems& problems);
+  /// One file at least; they are needed until it has run.
+  Compiler(std::span<const SourceFile> files, const CompileOptions& options, Problems& problems);
   std::shared_ptr<const Compiled> run();
 
  private:
@@ -235,6 +238,7 @@ class Compiler : public Statements {
   void add_globals();
   void add_unit(Unit unit);
   std::size_t end_of_unit(std::size_t opening, std::string_view closing);
+  void place_in_files();
   void check_programs();
   void check_calls();
   void check_depth();
@@ -280,6 +284,7 @@ class Compiler : public Statements {
     StToken name;
     std::size_t connections = 0;  ///< where the '(' is, or 0
   };
+  CompileOptions options_;
   std::vector<Connections> connections_;
   std::size_t configuration_first_ = 0;
   std::size_t configuration_end_ = 0;

@@ -358,10 +358,11 @@ void Declarations::add_variable(Unit& unit, Type& owner, const VarSection& secti
 bool Declarations::name_is_free(const Unit& unit, const Type& owner, const StToken& name) {
   const Variable* other = find_member(owner, name.text);
   if (other == nullptr) return true;
-  const bool result = unit.kind == Unit::Kind::function && same_word(unit.name.text, name.text);
-  complain("st.declared-twice"_code, name.place,
-           in_quotes(name.text) + (result ? " is the function's result" : " is declared twice"),
-           result ? "choose another name" : fmt::format("the first one is in line {}", other->place.line));
+  if (unit.kind == Unit::Kind::function && same_word(unit.name.text, name.text))
+    complain("st.declared-twice"_code, name.place, in_quotes(name.text) + " is the function's result",
+             "choose another name");
+  else
+    tell_twice(name, other->name, other->place);
   return false;
 }
 

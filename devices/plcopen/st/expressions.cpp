@@ -100,10 +100,19 @@ std::vector<std::string> Expressions::known_names() const {
   return names;
 }
 
+/// A constant may be needed before its section has been read.
+const Variable* Expressions::find_global(std::string_view name) {
+  if (const Variable* found = find_member(*globals_, name)) return found;
+  const auto section = global_sections_.find(lower(name));
+  if (section == global_sections_.end() || section->second->state != Unit::State::untouched) return nullptr;
+  declare(*section->second);
+  return find_member(*globals_, name);
+}
+
 std::optional<TypedExpression> Expressions::variable(const StToken& name) {
   const Variable* found = unit_->type == nullptr ? nullptr : find_member(*unit_->type, name.text);
   const bool own = found != nullptr && unit_->type != globals_;
-  if (found == nullptr) found = find_member(*globals_, name.text);
+  if (found == nullptr) found = find_global(name.text);
   if (found == nullptr) return std::nullopt;
   const Basic basic = found->type->basic;
   const bool function = unit_->kind == Unit::Kind::function;

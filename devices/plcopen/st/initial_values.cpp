@@ -75,7 +75,7 @@ void Declarations::initial_array(const Type& type, std::span<Cell> cells) {
     if (given == count) too_many(place);
     initial_into(*type.element, cells.subspan(given++ * size, size));
   } while (accept(","));
-  expect("]", fmt::format("closes the values opened in line {}", opening.line));
+  expect("]", "closes the values opened in " + line_of(opening));
 }
 
 void Declarations::initial_members(const Type& type, std::span<Cell> cells) {

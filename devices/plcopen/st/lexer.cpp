@@ -21,8 +21,8 @@ std::string without_underscores(std::string_view text) {
 
 class StLexer : public Lexer<StToken> {
  public:
-  StLexer(std::string_view text, const std::string& file, Problems& problems)
-      : Lexer(without_byte_order_mark(text), file, problems), pragmas_(file, problems) {}
+  StLexer(std::string_view text, const std::string& file, Problems& problems, int line)
+      : Lexer(without_byte_order_mark(text), file, problems, line), pragmas_(file, problems) {}
 
   std::vector<StToken> run() {
     while (skip_blank(), !at_end()) next();
@@ -324,8 +324,9 @@ class StLexer : public Lexer<StToken> {
 
 }  // namespace
 
-std::vector<StToken> tokens_of(std::string_view text, const std::string& file, Problems& problems) {
-  return StLexer(text, file, problems).run();
+std::vector<StToken> tokens_of(std::string_view text, const std::string& file, Problems& problems,
+                               int first_line) {
+  return StLexer(text, file, problems, first_line).run();
 }
 
 }  // namespace drycut::devices::plcopen::st

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/scanner.hpp"
+#include "devices/plcopen/st/sources.hpp"
 #include "devices/plcopen/st/types.hpp"
 
 namespace drycut::devices::plcopen::st {
@@ -74,8 +75,9 @@ inline constexpr std::array<TimeUnit, 5> time_units{
     {{"d", 86'400'000}, {"h", 3'600'000}, {"m", 60'000}, {"s", 1000}, {"ms", 1}}};
 
 /// The tokens of a file, comments, pragmas `{...}` and what they switch off left out, ended by one of
-/// Kind::end.
-std::vector<StToken> tokens_of(std::string_view text, const std::string& file, Problems& problems);
+/// Kind::end; the first line has the number `first_line`.
+std::vector<StToken> tokens_of(std::string_view text, const std::string& file, Problems& problems,
+                               int first_line = 1);
 
 /// Thrown when a statement or a declaration is given up; its problem has been told.
 struct GiveUp {};
@@ -116,6 +118,16 @@ class Reader : public TokenReader<StToken> {
   /// The remedy for a word that is not known; a file full of them is not searched for each.
   std::string suggested(std::string_view word, const std::function<std::vector<std::string>()>& known,
                         const std::string& otherwise) const;
+  /// "line 5", of another file than that of `seen_from` "line 5 of knife.st".
+  [[nodiscard]] std::string line_of(Place place, Place seen_from) const {
+    return lines_.told(place.line, seen_from.line);
+  }
+  [[nodiscard]] std::string line_of(Place place) const { return line_of(place, place); }
+
+  /// A name that is declared in two files is told in both.
+  void tell_twice(const StToken& name, std::string_view first, Place other);
+
+  SourceLines lines_;
 };
 
 /// The names of what has a `name`, for messages.

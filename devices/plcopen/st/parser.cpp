@@ -109,7 +109,7 @@ Tree Parser::primary_tree() {
     give_up("st.syntax"_code, token.place,
             fmt::format("an expression is missing before {}", in_quotes(token.text)), "a value stands here");
   Tree inner = over(Tree::Kind::parenthesised, token, tree());
-  expect(")", fmt::format("closes the parenthesis of line {}", token.place.line));
+  expect(")", "closes the parenthesis of " + line_of(token.place));
   return inner;
 }
 
@@ -179,7 +179,7 @@ Tree Parser::call_tree(Tree callee) {
     call.parts.push_back(tree());
     call.names.push_back(argument);
   } while (accept(","));
-  expect(")", fmt::format("closes the arguments opened in line {}", opening.place.line));
+  expect(")", "closes the arguments opened in " + line_of(opening.place));
   return call;
 }
 

@@ -91,7 +91,7 @@ struct Runtime::State {
   void trace(std::size_t number) {
     traces.resize(program.compiled().instances.size());
     std::string& lines = traces[number].lines;
-    if (lines.empty()) lines.assign(split_lines(program.compiled().text).size(), ' ');
+    if (lines.empty()) lines.assign(static_cast<std::size_t>(program.lines().count()), ' ');
     std::fill(lines.begin(), lines.end(), ' ');
     traces[number].order = statement_ns > 0 ? &order : nullptr;
     machine.trace(&traces[number]);

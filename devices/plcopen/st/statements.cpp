@@ -160,7 +160,7 @@ int Statements::condition(std::string_view closing) {
     }
     if (peek().is(":=") && (value.unknown() || value.type->basic == Basic::boolean))
       give_up("st.syntax"_code, peek().place, "':=' assigns", "'=' compares");
-    expect_word(closing, fmt::format("stands behind the condition of line {}", place.line));
+    expect_word(closing, "stands behind the condition of " + line_of(place));
   } catch (const GiveUp&) {
     skip_to([&] {
       const bool next_line = peek().kind == StToken::Kind::name && peek().place.line != place.line;
@@ -181,7 +181,7 @@ void Statements::close(const StToken& opened, std::string_view closing) {
   complain("st.syntax"_code, peek().place,
            fmt::format("{} is missing before {}", closing,
                        peek().kind == StToken::Kind::end ? "the end of the file" : in_quotes(peek().text)),
-           fmt::format("it closes the {} of line {}", upper(opened.text), opened.place.line));
+           fmt::format("it closes the {} of {}", upper(opened.text), line_of(opened.place)));
 }
 
 int Statements::if_statement() {
@@ -220,7 +220,7 @@ std::vector<Subrange> Statements::case_labels(const Type& selector, Labels& labe
       if (other.first >= range.low)
         give_up("st.declared-twice"_code, place,
                 fmt::format("the label {} is there already", std::max(range.low, low)),
-                fmt::format("the first one is in line {}", other.second.line));
+                "the first one is in " + line_of(other.second));
     }
     labels.emplace(range.low, std::pair{range.high, place});
     ranges.push_back(range);
@@ -241,7 +241,7 @@ int Statements::case_statement() {
     else if (!value.unknown())
       type = value.untyped ? type_of(Basic::lint) : base_of(value.type);
     if (!value.unknown()) selector = value_node(value);
-    expect_word("OF", fmt::format("stands behind the selector of the CASE of line {}", opened.place.line));
+    expect_word("OF", "stands behind the selector of the CASE of " + line_of(opened.place));
   } catch (const GiveUp&) {
     skip_to([&] { return peek().word("OF") || peek().is(";") || at_word(closes_block); });
     accept_word("OF");
