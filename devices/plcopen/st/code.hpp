@@ -36,7 +36,13 @@ enum class StOp : std::uint8_t {
   address_own,   ///< imm in the block's own instance
   address_pool,  ///< imm among literals and scratch; an `address` once compiled
   follow,        ///< imm behind the address that the cell at address a holds: VAR_IN_OUT
+  dereference,   ///< imm behind what the reference a is of, which must be of the type of Referent c
   element,       ///< imm behind element b of the array at address a; c its Span
+
+  // Values by references.
+  make_reference,  ///< to the address a, Referent c
+  load_by,         ///< the value of type `basic` that the reference a is at
+  store_by,        ///< value b, a statement
 
   // Of the values of a and b, without effects; `basic` is the result's type.
   add,
@@ -169,6 +175,13 @@ struct Span {
   int cells = 0;
 };
 
+/// What references are of: see references.hpp.
+struct Referent {
+  const Type* type = nullptr;
+  Basic basic = Basic::unknown;  ///< of all its values, if they are of one elementary type or characters
+  int cells = 0;
+};
+
 /// One label of a CASE.
 struct Choice {
   Subrange range;
@@ -203,6 +216,8 @@ struct Compiled {
   std::vector<int> lists;
   std::vector<Span> spans;
   std::vector<Choice> choices;
+  std::vector<Referent> referents;
+  std::vector<Basic> kinds;  ///< of each cell of plain data, if there are references; else `unknown`
   std::vector<Pou> pous;
   /// A PROGRAM with variables of its own.
   struct Instance {
@@ -225,6 +240,8 @@ struct Compiled {
   std::vector<Motion> motions;
   std::vector<StSymbol> symbols;
   std::vector<SymbolPlace> places;
+  std::size_t longest_text =
+      255;  ///< characters that functions of STRING give: of the longest that is declared
 
   /// What is no fault and hardly meant.
   struct Doubt {

@@ -38,6 +38,7 @@ class Expressions : public Values {
   int sequence_node(std::vector<int> statements, Place place);
   /// The statements that give an instance's inputs and take its outputs.
   struct BlockCall {
+    std::size_t unnamed = 0;      ///< so many arguments had no name
     std::set<std::string> given;  ///< pins; "?" if something was given that is none
     std::vector<int> before;
     std::vector<int> after;
@@ -57,6 +58,8 @@ class Expressions : public Values {
   const Type* cam_ref_ = nullptr;
   std::set<std::string> told_;  ///< names that are not known, told once a POU
   int open_units_ = 0;
+  int memory_ = 0;          ///< cells before the pool, once everything has its place
+  bool statement_ = false;  ///< what is called is a statement, not a value
 
  private:
   // expressions.cpp
@@ -70,6 +73,9 @@ class Expressions : public Values {
   TypedExpression no_member(const TypedExpression& owner, const StToken& name);
   TypedExpression bits_of_number(const Tree& tree, const TypedExpression& owner);
   TypedExpression element_of(const Tree& tree);
+  TypedExpression dereferenced(const Tree& tree);
+  std::optional<TypedExpression> reference_call(const StToken& name, const std::vector<Argument>& given);
+  int referent(const Type& type);
   TypedExpression element_at(TypedExpression owner, const TypedExpression& index);
   [[nodiscard]] std::vector<std::string> known_names() const;
 
@@ -80,6 +86,7 @@ class Expressions : public Values {
     const Tree* result = nullptr;
   };
   int store(const TypedExpression& target, int value);
+  void note_own_input(const TypedExpression& target);
   Enable take_enable(std::vector<Argument>& given, const Type* callee);
   int enable_condition(const Enable& enable, Place place);
   int enable_store(const Enable& enable, bool on);
@@ -141,6 +148,8 @@ class Declarations : public Expressions {
                     const Location& location, std::span<const Cell> initial);
   bool check_section(const Unit& unit, const VarSection& section, const StToken& name, const Type& type,
                      const Location& location);
+  std::optional<bool> edge(const Unit& unit, const VarSection& section, const Type& type);
+  static void add_edge(Unit& unit, Type& owner, const StToken& name, bool rising);
   void external(const StToken& name, const Type* type);
   Location location();
   bool check_memory(const StToken& name, const Type& type, const MemoryPlace& place);
@@ -150,12 +159,15 @@ class Declarations : public Expressions {
   // type_declarations.cpp
   void declare_type(Unit& unit);
   void declare_structure(Type& type);
+  void initial_of(Type& type);
+  [[nodiscard]] bool at_based_enumeration() const;
   void declare_enumeration(Type& type);
   const Type* parse_type();
   const Type* array_type();
   const Type* string_type();
   const Type* subrange(const Type& base);
   const Type* named_type();
+  const Type* reference_type();
   const Type* cam_ref();
   const Type* motion_type(const BlockType& block);
   /// Gives up what grows beyond all bounds.
@@ -177,6 +189,7 @@ class Declarations : public Expressions {
     std::string name;
   };
   std::vector<Occupied> occupied_;  ///< addresses that variables AT %M take
+  int in_members_ = 0;              ///< of initial values
   std::int64_t type_cells_ = 0;     ///< of all initial values
 };
 
@@ -205,6 +218,7 @@ class Statements : public Declarations {
   int call_statement(const Tree& call);
   int if_statement();
   int case_statement();
+  void find_edges(const Unit& unit, std::vector<int>& all);
   std::int64_t case_label(const Type& selector);
   std::vector<Subrange> case_labels(const Type& selector, Labels& labels);
   [[nodiscard]] bool at_label() const;
@@ -233,6 +247,7 @@ class Compiler : public Statements {
  private:
   // units.cpp: the parts of the file.
   void find_units(bool standard);
+  void compile_bodies();
   void find_types();
   std::size_t find_type(std::size_t first);
   void add_globals();
@@ -274,6 +289,8 @@ class Compiler : public Statements {
   void place_located();
   void place_in_memory();
   void finish();
+  void find_kinds();
+  void mark_kinds(const Type& type, int cell);
   void walk(const Type& type, int cell, const std::string& prefix, bool retain, bool shown);
   void walk_value(const Type& type, int cell, const std::string& name, bool retain, bool shown,
                   bool writable);
@@ -290,7 +307,6 @@ class Compiler : public Statements {
   std::size_t configuration_end_ = 0;
   std::size_t user_tokens_ = 0;  ///< where the file begins, behind the standard blocks
   Unit outside_;                 ///< sees VAR_GLOBAL only: the CONFIGURATION
-  int memory_ = 0;               ///< cells before the pool
 };
 
 }  // namespace drycut::devices::plcopen::st

@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/lexer.hpp"
+#include "devices/plcopen/st/references.hpp"
 #include "devices/plcopen/st/values.hpp"
 
 // What the tree of an expression means: its literals, its names and what may follow them, .member and
@@ -49,6 +50,8 @@ TypedExpression Expressions::typed(const Tree& tree, const Type* wanted) {
       return member_of(tree);
     case Tree::Kind::element:
       return element_of(tree);
+    case Tree::Kind::dereference:
+      return dereferenced(tree);
     case Tree::Kind::call:
       return call(tree, wanted);
     case Tree::Kind::sign:
@@ -111,6 +114,8 @@ const Variable* Expressions::find_global(std::string_view name) {
 
 std::optional<TypedExpression> Expressions::variable(const StToken& name) {
   const Variable* found = unit_->type == nullptr ? nullptr : find_member(*unit_->type, name.text);
+  if (found != nullptr && !unit_->edges.empty())
+    if (const auto* edge = find_member(*unit_->type, fmt::format("{}{}", name.text, edge_mark))) found = edge;
   const bool own = found != nullptr && unit_->type != globals_;
   if (found == nullptr) found = find_global(name.text);
   if (found == nullptr) return std::nullopt;
@@ -122,14 +127,14 @@ std::optional<TypedExpression> Expressions::variable(const StToken& name) {
   if (found->section == VarClass::in_out) node = add_node(StOp::follow, basic, name.place, node);
   TypedExpression result = variable_of(*found, node, found->name, name.place);
   // A FUNCTION's inputs are its own; a block's are kept for the next call.
-  if (own && found->section == VarClass::input && !function)
-    result.locked = fmt::format("is an input of {}", in_quotes(unit_->name.text));
+  result.own_input = own && found->section == VarClass::input && !function;
   return result;
 }
 
 TypedExpression Expressions::name_expression(const StToken& name, const Type* wanted) {
   if (name.word("TRUE") || name.word("FALSE"))
     return constant(type_of(Basic::boolean), name.word("TRUE") ? 1 : 0, name.place);
+  if (name.word("NULL")) return constant(null_reference(), 0, name.place);
   if (std::optional<TypedExpression> found = variable(name)) return *found;
   if (std::optional<TypedExpression> found = enum_value(name, wanted)) return *found;
   if (std::optional<TypedExpression> found = predefined(name)) return *found;
@@ -269,6 +274,7 @@ TypedExpression Expressions::member_of(const Tree& tree) {
                                        owner.name + "." + member->name, owner.place);
   result.depth = owner.depth;
   if (result.locked.empty()) result.locked = owner.locked;
+  result.own_input = owner.own_input;
   if (type.basic == Basic::block && member->section == VarClass::output)
     result.locked = fmt::format("is an output of {}", type.name);
   result.cam_file = &type == cam_ref_ && member == type.members.data();
@@ -327,6 +333,15 @@ TypedExpression Expressions::element_at(TypedExpression owner, const TypedExpres
   if (!is_integer(index.type->basic) || outside) {
     owner.type = type_of(Basic::unknown);
     return owner;
+  }
+  if (owner.reference >= 0) {
+    const Type* lint = type_of(Basic::lint);
+    const auto number = [&](std::int64_t value) { return constant(lint, value, place); };
+    const TypedExpression from_first = apply_op(StOp::subtract, lint, place, index, number(type.low));
+    const TypedExpression bytes =
+        apply_op(StOp::multiply, lint, place, from_first, number(bytes_of(*type.element)));
+    const TypedExpression begin{owner.type, place, owner.reference, owner.depth};
+    owner.reference = value_node(apply_op(StOp::add, null_reference(), place, begin, bytes));
   }
   if (index.constant) {
     owner.node = address_plus(owner.node, (index.value - type.low) * type.element->cells);

@@ -142,6 +142,10 @@ struct StandardCall {
     if (std::all_of(given.begin(), given.end(), is_text)) return given;
     auto common = to_common(given);
     if (!common || !common->front().untyped || is_real(common->front().type->basic)) return common;
+    if (wanted != nullptr && is_integer(wanted->basic)) {
+      for (TypedExpression& value : *common) value = values.literal_as(std::move(value), *base_of(wanted));
+      return common;
+    }
     // Literals have the smallest type that holds them all.
     for (const Basic basic : {Basic::int_, Basic::dint, Basic::lint}) {
       const Subrange range = range_of(basic);
@@ -180,9 +184,9 @@ struct StandardCall {
   }
 
   /// The type of values of one type; of texts, which are of different lengths, the longest.
-  static const Type* chosen_type(const Inputs& given) {
+  [[nodiscard]] const Type* chosen_type(const Inputs& given) const {
     const Type* type = base_of(given.front().type);
-    return type->basic == Basic::string ? longest_string() : type;
+    return type->basic == Basic::string ? values.longest_string() : type;
   }
 
   TypedExpression select() {
@@ -240,7 +244,7 @@ struct StandardCall {
   /// A node of TextOp `op`; texts get a place of their own for each call in the text.
   TypedExpression text_value(TextOp op, const Type* number) {
     const bool text = op < TextOp::length;
-    const Type* type = text ? longest_string() : number;
+    const Type* type = text ? values.longest_string() : number;
     std::vector<int> nodes;
     if (text) nodes.push_back(values.scratch(*type, place()));
     for (const int node : nodes_of(inputs)) nodes.push_back(node);
@@ -264,7 +268,10 @@ struct StandardCall {
 
   TypedExpression truncated() {
     if (!is_real(basic(0))) return refused(inputs[0], "it takes REAL and LREAL");
-    TypedExpression result = values.apply_op(function.op, type_of(function.to), place(), inputs[0]);
+    // TRUNC gives what the context wants.
+    const bool open = function.to == Basic::dint && wanted != nullptr && is_integer(wanted->basic);
+    TypedExpression result =
+        values.apply_op(function.op, open ? base_of(wanted) : type_of(function.to), place(), inputs[0]);
     result.untyped = false;
     return result;
   }
@@ -466,7 +473,8 @@ std::optional<TypedExpression> standard_call(Values& values, const StToken& name
   if (!types) return std::nullopt;
   const auto [from, to] = *types;
   constexpr StandardFunction one_input{"", &Call::same};
-  TypedExpression value = typed(*in_order(values, name, given, one_input).front(), nullptr);
+  const Type* const inner = is_integer(from) ? type_of(from) : nullptr;  // BYTE of BYTE_TO_INT(TRUNC(x))
+  TypedExpression value = typed(*in_order(values, name, given, one_input).front(), inner);
   if (!value.unknown() && from != Basic::unknown) value = values.converted(std::move(value), *type_of(from));
   if (value.unknown()) return value;
   return Call{values, one_input, name, {std::move(value)}, nullptr}.converted(to);

@@ -107,7 +107,7 @@ class StLexer : public Lexer<StToken> {
     constexpr std::array<std::string_view, 7> pairs{":=", "=>", "**", "<=", ">=", "<>", ".."};
     if (std::any_of(pairs.begin(), pairs.end(), [&](std::string_view pair) { return starts(pair); }))
       add(Kind::sign, 2);
-    else if (std::string_view("()[],;:.+-*/<>=&#").find(peek()) != std::string_view::npos)
+    else if (std::string_view("()[],;:.+-*/<>=&#^").find(peek()) != std::string_view::npos)
       add(Kind::sign, 1);
     else
       stranger(peek() == '"' ? "a string stands between single quotes" : "comments are (* ... *) or // ...");
@@ -180,8 +180,12 @@ class StLexer : public Lexer<StToken> {
   // T#1s500ms, D#1996-08-15, TOD#15:36:55.36, DT#1996-08-15-15:36:55.
   void clock(Basic basic, std::size_t prefix) {
     const bool time = basic == Basic::time;
-    const auto belongs = [&](char x) { return in_name(x) || x == '.' || x == '-' || (x == ':' && !time); };
-    StToken& token = literal(basic, length(belongs, prefix));
+    // T#5s-e is a difference: only dates have a '-' within them.
+    int dashes = basic == Basic::date ? 2 : basic == Basic::dt ? 3 : 0;
+    const auto belongs = [&](char x) {
+      return in_name(x) || x == '.' || (x == '-' && dashes-- > 0) || (x == ':' && !time);
+    };
+    StToken& token = literal(basic, length(belongs, peek(prefix) == '-' ? prefix + 1 : prefix));
     const std::string text = without_underscores(token.text.substr(prefix));
     if (time)
       read_time(token, text);
@@ -274,8 +278,10 @@ class StLexer : public Lexer<StToken> {
   /// With its quotes, and whether it has both.
   [[nodiscard]] std::pair<std::size_t, bool> string_length() const {
     std::size_t size = 1;
-    while (at_ + size < text_.size() && peek(size) != '\'' && peek(size) != '\n')
-      size += peek(size) == '$' && peek(size + 1) != '\n' ? 2 : 1;
+    // 'it''s': a quote that is written twice.
+    const auto doubled = [&] { return peek(size) == '\'' && peek(size + 1) == '\''; };
+    while (at_ + size < text_.size() && (peek(size) != '\'' || doubled()) && peek(size) != '\n')
+      size += doubled() || (peek(size) == '$' && peek(size + 1) != '\n') ? 2 : 1;
     const bool closed = peek(size) == '\'';
     return {std::min(size + (closed ? 1 : 0), text_.size() - at_), closed};
   }
@@ -298,6 +304,7 @@ class StLexer : public Lexer<StToken> {
     for (std::size_t i = 0; i < text.size(); ++i) {
       if (text[i] != '$') {
         token.string += text[i];
+        if (text[i] == '\'') ++i;  // the second one
         continue;
       }
       const char c = i + 1 < text.size() ? text[i + 1] : '\0';

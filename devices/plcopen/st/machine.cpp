@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/code.hpp"
+#include "devices/plcopen/st/references.hpp"
 
 namespace drycut::devices::plcopen::st {
 
@@ -70,6 +71,40 @@ std::int64_t Machine::element(const Node& n) {
   if (index < span.low || index > span.high)
     throw StError(n, fmt::format("the index {} is out of bounds; {} to {}", index, span.low, span.high));
   return value(n.a) + (index - span.low) * span.cells + n.imm;
+}
+
+std::int64_t Machine::dereference(const Node& n) {
+  const Reference reference = reference_of(value(n.a));
+  if (reference.referent < 0) throw StError(n, "the reference is NULL; test it before: p <> NULL");
+  const Referent& wanted = code_.referents[static_cast<std::size_t>(n.c)];
+  const bool known = reference.referent < static_cast<std::int64_t>(code_.referents.size());
+  if (!known || reference.bytes != 0 ||
+      !same_type(*code_.referents[static_cast<std::size_t>(reference.referent)].type, *wanted.type))
+    throw StError(n, fmt::format("the reference is of no {}; REF(variable of that type)", wanted.type->name));
+  return reference.place + n.imm;
+}
+
+std::pair<const Referent*, Cell*> Machine::seen_by(const Node& n, Cell reference, std::int64_t& bytes) {
+  const Reference at = reference_of(reference);
+  if (at.referent < 0) throw StError(n, "the reference is NULL; test it before: p <> NULL");
+  const auto outside = [&] {
+    return StError(n, "the reference is outside of what it is of; see how many bytes it was moved by");
+  };
+  if (at.referent >= static_cast<std::int64_t>(code_.referents.size())) throw outside();
+  const Referent& of = code_.referents[static_cast<std::size_t>(at.referent)];
+  const int size = bytes_of(of.basic);
+  const std::int64_t last = at.bytes + bytes_of(n.basic) - 1;
+  const std::int64_t all =
+      of.basic == Basic::string ? std::int64_t{of.cells} * 8 - 1 : std::int64_t{of.cells} * size;
+  const std::int64_t per_cell = of.basic == Basic::string ? 8 : size;
+  if (last >= all) throw outside();
+  // Numbers may have been made references: only cells of plain data are touched.
+  for (const std::int64_t byte : {at.bytes, last}) {
+    const auto cell = static_cast<std::size_t>(at.place + byte / per_cell);
+    if (cell >= code_.kinds.size() || code_.kinds[cell] != of.basic) throw outside();
+  }
+  bytes = at.bytes;
+  return {&of, &memory_[static_cast<std::size_t>(at.place)]};
 }
 
 Cell Machine::operation(const Node& n) {
@@ -151,8 +186,8 @@ Cell Machine::passes(const Node& n) {
 }
 
 Cell Machine::compare(const Node& n) {
-  const std::string_view a = text(value(n.a), longest_string_length);
-  const std::string_view b = text(value(n.b), longest_string_length);
+  const std::string_view a = text(value(n.a), code_.longest_text);
+  const std::string_view b = text(value(n.b), code_.longest_text);
   charge(static_cast<std::int64_t>(std::min(a.size(), b.size()) / 8));
   const int order = a.compare(b);
   return order < 0 ? -1 : order > 0 ? 1 : 0;
@@ -164,7 +199,7 @@ Cell Machine::text_value(const Node& n) {
   const int* const end = list + n.b;
   const Cell target = op < TextOp::length ? value(*list++) : 0;
   if (op == TextOp::from_value) {
-    put_string(text_of(n.basic, value(*list)), target, longest_string_length);
+    put_string(text_of(n.basic, value(*list)), target, code_.longest_text);
     return target;
   }
   const std::size_t texts = texts_of(op, static_cast<std::size_t>(end - list));
@@ -177,7 +212,7 @@ Cell Machine::text_value(const Node& n) {
     if (i >= texts) {
       numbers.push_back(given);
     } else {
-      parts.push_back(text(given, longest_string_length));
+      parts.push_back(text(given, code_.longest_text));
       size += parts.back().size();
     }
   }
@@ -186,7 +221,7 @@ Cell Machine::text_value(const Node& n) {
   if (op == TextOp::length) return static_cast<Cell>(parts[0].size());
   if (op == TextOp::find) return found(parts[0], parts[1]);
   if (op == TextOp::to_value) return value_of(n.basic, parts[0]);
-  put_string(edited(op, parts, numbers), target, longest_string_length);
+  put_string(edited(op, parts, numbers), target, code_.longest_text);
   return target;
 }
 
@@ -210,6 +245,15 @@ Cell Machine::value(int number) {
       return at(value(n.a)) + n.imm;
     case StOp::element:
       return element(n);
+    case StOp::dereference:
+      return dereference(n);
+    case StOp::make_reference:
+      return cell_of_reference(n.c, value(n.a));
+    case StOp::load_by: {
+      std::int64_t bytes = 0;
+      const auto [of, cells] = seen_by(n, value(n.a), bytes);
+      return seen_as(n.basic, bytes, of->basic, cells);
+    }
     case StOp::call_function:
       return call_function(n);
     case StOp::and_then:
@@ -275,6 +319,13 @@ Machine::Flow Machine::execute(int number) {
     case StOp::store_at: {
       const Cell stored = value(n.b);
       at(value(n.a)) = stored;
+      return Flow::next;
+    }
+    case StOp::store_by: {
+      const Cell stored = value(n.b);
+      std::int64_t bytes = 0;
+      const auto [of, cells] = seen_by(n, value(n.a), bytes);
+      put_as(n.basic, stored, bytes, of->basic, cells);
       return Flow::next;
     }
     case StOp::store_bits:

@@ -2,6 +2,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "devices/plcopen/st/code.hpp"
@@ -68,6 +69,9 @@ class Machine {
   Cell operation(const Node& node);
   Cell multiplex(const Node& node);
   std::int64_t element(const Node& node);
+  std::int64_t dereference(const Node& node);
+  /// The first of the cells that a value of `node` by a reference lies in, and how many bytes behind.
+  std::pair<const Referent*, Cell*> seen_by(const Node& node, Cell reference, std::int64_t& bytes);
   Cell call_function(const Node& node);
   Cell enabled(const Node& node);
   Cell in_range(const Node& node);

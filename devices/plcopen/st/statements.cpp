@@ -14,6 +14,7 @@ void Statements::compile_body(Unit& unit) {
   unit_ = &unit;
   told_.clear();
   std::vector<int> all;
+  find_edges(unit, all);
   while (at_ < stop_) {
     all.push_back(statements({}));
     if (at_ >= stop_) break;
@@ -24,6 +25,28 @@ void Statements::compile_body(Unit& unit) {
     skip_statement();
   }
   pou(unit).body = sequence_node(std::move(all), unit.name.place);
+}
+
+/// What the body sees of its inputs with R_EDGE and F_EDGE.
+void Statements::find_edges(const Unit& unit, std::vector<int>& all) {
+  const Type* boolean = type_of(Basic::boolean);
+  for (const auto& [input, rising] : unit.edges) {
+    const Place place = input.place;
+    const auto cell = [&](std::string_view mark) {
+      const Variable* member = find_member(*unit.type, fmt::format("{}{}", input.text, mark));
+      return variable_at(boolean, leaf_node(StOp::address_own, Basic::boolean, place, member->offset),
+                         std::string(input.text), place);
+    };
+    const auto inverted = [&](const TypedExpression& value) {
+      return apply_op(StOp::bit_not, boolean, place, value);
+    };
+    const TypedExpression now = cell("");
+    const TypedExpression last = cell(last_mark);
+    const TypedExpression edge =
+        apply_op(StOp::bit_and, boolean, place, rising ? now : inverted(now), rising ? inverted(last) : last);
+    all.push_back(assign(cell(edge_mark), edge));
+    all.push_back(assign(last, now));
+  }
 }
 
 int Statements::statements(std::initializer_list<std::string_view> closing) {
@@ -123,6 +146,7 @@ int Statements::call_statement(const Tree& call) {
   const Tree& callee = call.parts[0];
   const StToken& name = *callee.token;
   if (names_function(callee)) {
+    statement_ = true;
     const TypedExpression value = typed(call);
     expect(";", "ends a call");
     // For what it does: what it gives, nobody wants.

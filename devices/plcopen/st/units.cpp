@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -42,12 +44,7 @@ std::shared_ptr<const Compiled> Compiler::run() {
   check_programs();
   read_configuration();
   place_memory();
-  for (const auto& unit : units_) {
-    if (unit->pou < 0 || unit->state != Unit::State::done) continue;
-    compile_body(*unit);
-    // The standard blocks come last.
-    if (!unit->standard) code_->user_nodes = code_->nodes.size();
-  }
+  compile_bodies();
   connect_instances();
   unit_ = nullptr;
   check_calls();
@@ -56,6 +53,19 @@ std::shared_ptr<const Compiled> Compiler::run() {
   sort();
   place_in_files();
   return code_;
+}
+
+/// The standard blocks and functions come last; one may need another one.
+void Compiler::compile_bodies() {
+  std::set<int> compiled;
+  for (bool more = true; std::exchange(more, false);) {
+    for (const auto& unit : units_) {
+      if (unit->pou < 0 || unit->state != Unit::State::done || !compiled.insert(unit->pou).second) continue;
+      compile_body(*unit);
+      more = true;
+      if (!unit->standard) code_->user_nodes = code_->nodes.size();
+    }
+  }
 }
 
 void Compiler::find_units(bool standard) {
@@ -159,7 +169,10 @@ std::size_t Compiler::find_type(std::size_t first) {
   std::size_t i = first;
   for (; i < stop_; ++i) {
     if (tokens_[i].word("STRUCT")) structure = true;
-    if (structure && tokens_[i].word("END_STRUCT")) return i + 1;
+    if (structure && tokens_[i].word("END_STRUCT")) {
+      if (i + 1 >= stop_ || !tokens_[i + 1].is(":=")) return i + 1;
+      structure = false;
+    }
     if (tokens_[i].is(";") && !structure) return i;
   }
   return i;
