@@ -43,7 +43,8 @@ int Expressions::assign(const TypedExpression& target, const TypedExpression& va
                                           : "it holds function blocks: assign its other members");
     return -1;
   }
-  const TypedExpression source = converted(value, type);
+  const bool interface = type.basic == Basic::reference && value.type->basic == Basic::block;
+  const TypedExpression source = converted(interface ? interface_value(value, type) : value, type);
   if (source.unknown() || target.node < 0) return -1;
   if (target.own_input) note_own_input(target);
   return store(target, value_node(source));
@@ -147,6 +148,14 @@ TypedExpression Expressions::call(const Tree& tree, const Type* wanted) {
   const Tree& callee = tree.parts[0];
   const StToken& name = *callee.token;
   const bool statement = std::exchange(statement_, false);
+  if (const Method method = method_of(callee, ""); method.unit != nullptr) {
+    std::vector<Argument> given = arguments(tree);
+    const Enable enable = take_enable(given, method.unit->type);
+    if (method.unit->procedure && !statement)
+      give_up("st.use"_code, method.place, fmt::format("{} gives no value", method.unit->name.text),
+              "call it in a statement of its own");
+    return enabled(enable, method_call(method, given), wanted);
+  }
   if (!names_function(callee)) {
     const TypedExpression named = typed(callee);
     if (named.unknown()) return named;
@@ -227,7 +236,8 @@ int Expressions::in_out_store(const Type& type, const Variable& pin, const Typed
   if (value.unknown()) return -1;
   // A motion block takes its axes by value: they do not change.
   const bool by_value = type.motion != nullptr;
-  if (!value.address || value.bits || !same_type(*value.type, *pin.type)) {
+  if (!value.address || value.bits ||
+      !(same_type(*value.type, *pin.type) || extends(*value.type, *pin.type))) {
     complain("st.type"_code, value.place,
              value.address && !value.bits
                  ? fmt::format("{} is {}, not {}", in_quotes(value.name), value.type->name, pin.type->name)
@@ -366,7 +376,8 @@ std::vector<int> Expressions::input_triple(const Type& function, const Variable&
   return {value_node(value), at, cells};
 }
 
-TypedExpression Expressions::user_call(Unit& unit, const StToken& name, const std::vector<Argument>& given) {
+TypedExpression Expressions::user_call(Unit& unit, const StToken& name, const std::vector<Argument>& given,
+                                       const Method* method) {
   const TypedExpression unknown = unknown_at(name.place);
   const bool known = unit.state == Unit::State::done && unit.type != nullptr && unit.pou >= 0;
   if (!known || unit.type->broken) {
@@ -415,12 +426,17 @@ TypedExpression Expressions::user_call(Unit& unit, const StToken& name, const st
     return unknown;
   list.push_back(static_cast<int>(after.size()));
   list.insert(list.end(), after.begin(), after.end());
+  if (method != nullptr) {
+    const int next = static_cast<int>(method_numbers_.size());
+    const int number = method->fixed ? -1 : method_numbers_.emplace(unit.key, next).first->second;
+    list.insert(list.begin(), {method->instance, number});
+  }
   const int first = add_list(list);
   // A text or structure outlives the next call of the function.
   const bool whole = !is_single(unit.result->basic);
   const int kept = whole ? scratch(*unit.result, name.place) : -1;
-  result.node = add_node(StOp::call_function, unit.result->basic, name.place, first, kept, unit.pou,
-                         whole ? unit.result->cells : 0);
+  result.node = add_node(method != nullptr ? StOp::call_method : StOp::call_function, unit.result->basic,
+                         name.place, first, kept, unit.pou, whole ? unit.result->cells : 0);
   return result;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "devices/plcopen/st/program.hpp"
@@ -27,6 +29,11 @@ enum class StOp : std::uint8_t {
   /// -n: n cells from the address that the node is, 2 + n: a STRING of n characters), how many outputs, and
   /// their statements. b: where a result of imm cells is copied to, an address that is the value then; or -1.
   call_function,
+  /// The same of a method: in front of the list are the instance and the method's number, by which the kind
+  /// of
+  /// the instance has it; -1: POU c whatever the instance is.
+  call_method,
+  instance,  ///< where that is which the interface a stands for
   /// EN, list from a on: the condition, the value if it holds, the value if it does not, what stores ENO in
   /// either case (-1: nothing).
   enabled,
@@ -216,6 +223,7 @@ struct Compiled {
   std::vector<int> lists;
   std::vector<Span> spans;
   std::vector<Choice> choices;
+  std::map<std::pair<Cell, int>, int> methods;  ///< POUs by the kind of an instance and the method's number
   std::vector<Referent> referents;
   std::vector<Basic> kinds;  ///< of each cell of plain data, if there are references; else `unknown`
   std::vector<Pou> pous;

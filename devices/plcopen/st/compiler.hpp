@@ -33,6 +33,21 @@ class Expressions : public Values {
 
   // calls.cpp
   int assign(const TypedExpression& target, const TypedExpression& value);
+  // methods.cpp
+  /// A method, and the instance that it is called of.
+  struct Method {
+    Unit* unit = nullptr;  ///< nullptr: it is none
+    int instance = -1;
+    bool fixed = false;  ///< SUPER: the one that is named, whatever the instance is
+    Place place = {};
+  };
+  Method method_of(const Tree& callee, std::string_view mark);
+  [[nodiscard]] static Unit* find_method(Unit* unit, const std::string& key);
+  /// Whether an instance of `from` may stand for one of `to`: it EXTENDS it.
+  [[nodiscard]] bool extends(const Type& from, const Type& to) const;
+  std::optional<int> set_property(const Tree& target);
+  std::optional<int> super_call(const Tree& callee);
+
   /// Notes a table's file that the text names.
   void cam_file(const StToken& text);
   int sequence_node(std::vector<int> statements, Place place);
@@ -56,12 +71,20 @@ class Expressions : public Values {
   std::multimap<std::string, std::pair<const Type*, std::int64_t>> enum_values_;
   std::unordered_map<std::string, Unit*> global_sections_;  ///< VAR_GLOBAL by what it declares
   const Type* cam_ref_ = nullptr;
-  std::set<std::string> told_;  ///< names that are not known, told once a POU
+  std::set<std::string> told_;                           ///< names that are not known, told once a POU
+  std::set<std::string> method_names_;                   ///< keys of all methods
+  std::unordered_map<std::string, int> method_numbers_;  ///< of those that are called, by their keys
   int open_units_ = 0;
   int memory_ = 0;          ///< cells before the pool, once everything has its place
   bool statement_ = false;  ///< what is called is a statement, not a value
 
  private:
+  // methods.cpp
+  [[nodiscard]] Unit* block_unit() const;
+  TypedExpression this_instance(Place place);
+  TypedExpression method_call(const Method& method, const std::vector<Argument>& given);
+  TypedExpression interface_value(const TypedExpression& instance, const Type& interface);
+
   // expressions.cpp
   TypedExpression literal(const StToken& token);
   TypedExpression typed_literal(const Tree& tree);
@@ -93,7 +116,8 @@ class Expressions : public Values {
   TypedExpression enabled(const Enable& enable, TypedExpression value, const Type* wanted);
   TypedExpression call(const Tree& tree, const Type* wanted);
   TypedExpression function_call(const StToken& name, const std::vector<Argument>& given, const Type* wanted);
-  TypedExpression user_call(Unit& unit, const StToken& name, const std::vector<Argument>& given);
+  TypedExpression user_call(Unit& unit, const StToken& name, const std::vector<Argument>& given,
+                            const Method* method = nullptr);
   std::vector<int> input_triple(const Type& function, const Variable& pin, const Argument& argument,
                                 int frame, int& depth);
   bool all_connected(const Unit& unit, const StToken& name, const std::vector<Argument>& given,
@@ -140,6 +164,10 @@ class Declarations : public Expressions {
   };
   void declare_pou(Unit& unit);
   void declare_function_result(Unit& unit, Type& type);
+  // methods.cpp
+  void declare_base(Unit& unit, Type& type);
+  void declare_interface(Unit& unit);
+  void declare_property(Unit& unit, Type& type);
   bool variable_section(Unit& unit, Type& owner);
   std::optional<VarSection> section_header();
   void declare_variables(Unit& unit, Type& owner, const VarSection& section);
@@ -247,6 +275,20 @@ class Compiler : public Statements {
  private:
   // units.cpp: the parts of the file.
   void find_units(bool standard);
+  // find_methods.cpp
+  void read_modifiers(Unit& unit);
+  void read_header(Unit& unit);
+  std::size_t end_of_method(std::size_t first, std::size_t unit_end);
+  void find_methods(Unit& unit);
+  void find_method_text(Unit& owner, std::size_t first, std::size_t end);
+  void find_property(Unit& owner, std::size_t first, std::size_t end);
+  void add_method(Unit& owner, Unit method, std::string_view mark);
+  void find_bases();
+  // check_methods.cpp
+  void check_methods();
+  void check_lacks(Unit& unit, const Unit& of, Place place);
+  void check_override(const Unit& method, const Unit& base);
+  void fill_method_table();
   void compile_bodies();
   void find_types();
   std::size_t find_type(std::size_t first);

@@ -113,25 +113,29 @@ void Declarations::declare_pou(Unit& unit) {
     }
     return;
   }
+  if (unit.kind == Unit::Kind::interface) return declare_interface(unit);
   Type& type = new_type(Basic::block, std::string(unit.name.text), true);
   type.standard = unit.standard;
   unit.type = &type;
   unit.pou = static_cast<int>(code_->pous.size());
   type.pou = unit.pou;
   code_->pous.emplace_back();
-  if (unit.kind == Unit::Kind::function) declare_function_result(unit, type);
+  if (unit.framed())
+    declare_function_result(unit, type);
+  else
+    declare_base(unit, type);
   while (variable_section(unit, type)) {
   }
   fill_empty(type);
   name_standard_pins(type);
   Pou& own = pou(unit);
   own.type = &type;
-  if (unit.kind == Unit::Kind::function) own.resets.push_back({0, type.cells - 1});
+  if (unit.framed()) own.resets.push_back({0, type.cells - 1});
   for (const Variable& member : type.members)
-    if (unit.kind != Unit::Kind::function && member.section == VarClass::temp)
+    if (!unit.framed() && member.section == VarClass::temp)
       own.resets.push_back({member.offset, member.offset + member.type->cells - 1});
   unit.body = at_;
-  if (unit.kind != Unit::Kind::function || memory_ == 0) return;
+  if (!unit.framed() || memory_ == 0) return;
   own.frame = memory_;
   memory_ += type.cells;
 }
@@ -139,6 +143,7 @@ void Declarations::declare_pou(Unit& unit) {
 void Declarations::declare_function_result(Unit& unit, Type& type) {
   Variable result{
       .name = std::string(unit.name.text), .type = type_of(Basic::unknown), .place = unit.name.place};
+  if (unit.property_type > 0) return declare_property(unit, type);
   unit.procedure = !peek().is(":") && elementary_type(peek().text) == nullptr;
   if (unit.procedure) {
     // A cell that no name of the text means.
@@ -286,11 +291,15 @@ bool Declarations::check_section(const Unit& unit, const VarSection& section, co
                   fmt::format("the AXIS_REF {} in {} has no axis", in_quotes(name.text), in),
                   "an axis of the configuration is named in VAR_EXTERNAL, a caller's in VAR_IN_OUT");
   const bool own = section.section == VarClass::local || section.section == VarClass::output;
-  const bool keeps = section.section == VarClass::in_out || (own && unit.kind != Unit::Kind::function);
+  const bool keeps = section.section == VarClass::in_out || (own && !unit.framed());
   if (type.holds_block && (!keeps || section.constant))
     return refuse("st.declaration"_code,
                   fmt::format("the function block {} cannot be in {} here", in_quotes(name.text), in),
                   "it keeps its state: declare it in VAR of a PROGRAM or FUNCTION_BLOCK, or in VAR_GLOBAL");
+  if (const Unit* block = type.basic == Basic::block ? find_unit(type.name) : nullptr;
+      block != nullptr && block->abstract && section.section != VarClass::in_out)
+    return refuse("st.declaration"_code, fmt::format("{} is ABSTRACT and has no instances", type.name),
+                  "declare one of a block that EXTENDS it");
   if (!located.terminal && !located.memory) return true;
   if (located.terminal && type.basic != Basic::boolean)
     return refuse("st.place"_code,
@@ -392,7 +401,7 @@ void Declarations::add_variable(Unit& unit, Type& owner, const VarSection& secti
 bool Declarations::name_is_free(const Unit& unit, const Type& owner, const StToken& name) {
   const Variable* other = find_member(owner, name.text);
   if (other == nullptr) return true;
-  if (unit.kind == Unit::Kind::function && same_word(unit.name.text, name.text))
+  if (unit.framed() && same_word(unit.name.text, name.text))
     complain("st.declared-twice"_code, name.place, in_quotes(name.text) + " is the function's result",
              "choose another name");
   else

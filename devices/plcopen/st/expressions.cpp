@@ -116,11 +116,15 @@ std::optional<TypedExpression> Expressions::variable(const StToken& name) {
   const Variable* found = unit_->type == nullptr ? nullptr : find_member(*unit_->type, name.text);
   if (found != nullptr && !unit_->edges.empty())
     if (const auto* edge = find_member(*unit_->type, fmt::format("{}{}", name.text, edge_mark))) found = edge;
+  // A method sees the variables of its block behind its own.
+  const bool of_unit = found != nullptr;
+  if (found == nullptr && unit_->owner != nullptr && unit_->owner->type != nullptr)
+    found = find_member(*unit_->owner->type, name.text);
   const bool own = found != nullptr && unit_->type != globals_;
   if (found == nullptr) found = find_global(name.text);
   if (found == nullptr) return std::nullopt;
   const Basic basic = found->type->basic;
-  const bool function = unit_->kind == Unit::Kind::function;
+  const bool function = unit_->framed() && of_unit;
   const int frame = own && function ? pou(*unit_).frame : 0;
   int node = leaf_node(own && !function ? StOp::address_own : StOp::address, basic, name.place,
                        frame + found->offset);
@@ -136,6 +140,10 @@ TypedExpression Expressions::name_expression(const StToken& name, const Type* wa
     return constant(type_of(Basic::boolean), name.word("TRUE") ? 1 : 0, name.place);
   if (name.word("NULL")) return constant(null_reference(), 0, name.place);
   if (std::optional<TypedExpression> found = variable(name)) return *found;
+  if (name.word("THIS") && block_unit() != nullptr) return this_instance(name.place);
+  const Tree getter{Tree::Kind::name, &name, false, {}, {}, {}};
+  if (const Method method = method_of(getter, get_mark); method.unit != nullptr)
+    return method_call(method, {});
   if (std::optional<TypedExpression> found = enum_value(name, wanted)) return *found;
   if (std::optional<TypedExpression> found = predefined(name)) return *found;
   // Told once a POU; what hangs on it is passed over.
@@ -251,12 +259,13 @@ TypedExpression Expressions::member_of(const Tree& tree) {
   const StToken& name = *tree.token;
   if (before.kind == Tree::Kind::name && !variable(*before.token))
     if (const Type* type = enumeration(before.token->text)) return qualified_enum(*type, name);
+  if (const Method method = method_of(tree, get_mark); method.unit != nullptr) return method_call(method, {});
   const TypedExpression owner = typed(before);
   if (owner.unknown()) return owner;
   if (name.kind != StToken::Kind::name) return bits_of_number(tree, owner);
   const Type& type = *owner.type;
   const Variable* member = find_member(type, name.text);
-  const bool inside = member != nullptr && type.basic == Basic::block &&
+  const bool inside = member != nullptr && type.basic == Basic::block && owner.name != "THIS" &&
                       (member->section == VarClass::local || member->section == VarClass::temp);
   const bool connected =
       member != nullptr && type.basic == Basic::block && member->section == VarClass::in_out;

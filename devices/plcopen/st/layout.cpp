@@ -54,7 +54,7 @@ void Compiler::place_memory() {
     return at;
   };
   for (const auto& unit : units_)
-    if (unit->pou >= 0 && unit->kind == Unit::Kind::function) pou(*unit).frame = place(*unit->type);
+    if (unit->pou >= 0 && unit->framed()) pou(*unit).frame = place(*unit->type);
   for (std::size_t i = 0; i < code_->instances.size(); ++i)
     code_->instances[i].cell = place(*connections_[i].unit->type);
   memory_ = std::max(next, 1);
@@ -115,7 +115,7 @@ void Compiler::finish() {
   };
   fill(*globals_, 0);
   for (const auto& unit : units_)
-    if (unit->pou >= 0 && unit->kind == Unit::Kind::function) fill(*unit->type, pou(*unit).frame);
+    if (unit->pou >= 0 && unit->framed()) fill(*unit->type, pou(*unit).frame);
   for (std::size_t i = 0; i < code.instances.size(); ++i)
     fill(*connections_[i].unit->type, code.instances[i].cell);
   code.image.insert(code.image.end(), pool_.begin(), pool_.end());
@@ -135,14 +135,15 @@ void Compiler::find_kinds() {
   code_->kinds.assign(code_->image.size(), Basic::unknown);
   mark_kinds(*globals_, 0);
   for (const auto& unit : units_)
-    if (unit->pou >= 0 && unit->kind == Unit::Kind::function) mark_kinds(*unit->type, pou(*unit).frame);
+    if (unit->pou >= 0 && unit->framed()) mark_kinds(*unit->type, pou(*unit).frame);
   for (std::size_t i = 0; i < code_->instances.size(); ++i)
     mark_kinds(*connections_[i].unit->type, code_->instances[i].cell);
 }
 
 void Compiler::mark_kinds(const Type& type, int cell) {
   for (const Variable& member : type.members)
-    if (member.section != VarClass::in_out) mark_kinds(*member.type, cell + member.offset);
+    if (member.section != VarClass::in_out && member.name != kind_name)
+      mark_kinds(*member.type, cell + member.offset);
   if (type.basic == Basic::array)
     for (int at = 0; at < type.cells; at += type.element->cells) mark_kinds(*type.element, cell + at);
   if (is_elementary(type.basic) || type.basic == Basic::string)

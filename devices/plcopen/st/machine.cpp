@@ -24,6 +24,7 @@ void Machine::start(bool all) {
   memory_ = std::move(fresh);
   for (std::size_t i = 0; i < code_.external_cells.size(); ++i)
     at(code_.external_cells[i]) = kernel_.find_axis(code_.externals[i].name).number;
+  active_.clear();
   motions_.clear();
   for (const Compiled::Motion& place : code_.motions) {
     Motion motion;
@@ -121,7 +122,27 @@ Cell Machine::multiplex(const Node& n) {
   return value(code_.lists[static_cast<std::size_t>(n.b + which)]);
 }
 
-Cell Machine::call_function(const Node& n) {
+Cell Machine::call_function(const Node& n) { return call_framed(n, code_.lists.data() + n.a, n.c, own_); }
+
+Cell Machine::call_method(const Node& n) {
+  const int* const list = code_.lists.data() + n.a;
+  const std::int64_t instance = value(list[0]);
+  int number = n.c;
+  if (list[1] >= 0)
+    if (const auto actual = code_.methods.find({at(instance), list[1]}); actual != code_.methods.end())
+      number = actual->second;
+  active_.resize(code_.pous.size());
+  const auto pou = static_cast<std::size_t>(number);
+  if (active_[pou]) throw StError(n, fmt::format("{} calls itself; use a loop", code_.pous[pou].type->name));
+  active_[pou] = true;
+  const Cell result = call_framed(n, list + 2, number, instance);
+  active_[pou] = false;
+  return result;
+}
+
+/// The arguments are for POU n.c. Where another one runs that overrides it, that has the same pins at the
+/// same places.
+Cell Machine::call_framed(const Node& n, const int* list, int number, std::int64_t own) {
   struct Input {
     Cell value = 0;
     int place = 0;
@@ -130,15 +151,17 @@ Cell Machine::call_function(const Node& n) {
   constexpr std::size_t few = 8;
   std::array<Input, few> fewer;
   std::vector<Input> more;
-  const int* list = code_.lists.data() + n.a;
   const auto inputs = static_cast<std::size_t>(*list++);
   if (inputs > few) more.resize(inputs);
   Input* const given = inputs > few ? more.data() : fewer.data();
   // An input may call the same function: all are computed before the frame is used.
   for (std::size_t i = 0; i < inputs; ++i, list += 3) given[i] = {value(list[0]), list[1], list[2]};
-  const Pou& pou = code_.pous[static_cast<std::size_t>(n.c)];
+  const Pou& pou = code_.pous[static_cast<std::size_t>(number)];
+  const Pou& named = code_.pous[static_cast<std::size_t>(n.c)];
+  const int shift = pou.frame - named.frame;
   spend(n, pou.type->cells / 8);
   reset(pou, pou.frame);
+  for (std::size_t i = 0; shift != 0 && i < inputs; ++i) given[i].place += shift;
   for (std::size_t i = 0; i < inputs; ++i) {
     if (given[i].cells == 1)
       at(given[i].place) = given[i].value;
@@ -148,8 +171,12 @@ Cell Machine::call_function(const Node& n) {
       std::copy_n(memory_.begin() + given[i].value, -given[i].cells, memory_.begin() + given[i].place);
   }
   const std::int64_t caller = own_;
+  own_ = own;
   execute(pou.body);
   own_ = caller;
+  if (shift != 0)
+    std::copy_n(memory_.begin() + pou.frame, std::min(pou.type->cells, named.type->cells),
+                memory_.begin() + named.frame);
   const std::int64_t from = pou.frame + pou.result;
   Cell result = at(from);
   if (n.b >= 0) {
@@ -245,6 +272,13 @@ Cell Machine::value(int number) {
       return at(value(n.a)) + n.imm;
     case StOp::element:
       return element(n);
+    case StOp::call_method:
+      return call_method(n);
+    case StOp::instance: {
+      const Cell place = value(n.a);
+      if (place == 0) throw StError(n, "the interface stands for nothing; assign an instance to it before");
+      return place - 1;
+    }
     case StOp::dereference:
       return dereference(n);
     case StOp::make_reference:

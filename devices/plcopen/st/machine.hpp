@@ -73,6 +73,8 @@ class Machine {
   /// The first of the cells that a value of `node` by a reference lies in, and how many bytes behind.
   std::pair<const Referent*, Cell*> seen_by(const Node& node, Cell reference, std::int64_t& bytes);
   Cell call_function(const Node& node);
+  Cell call_method(const Node& node);
+  Cell call_framed(const Node& node, const int* list, int number, std::int64_t own);
   Cell enabled(const Node& node);
   Cell in_range(const Node& node);
   Cell passes(const Node& node);
@@ -106,7 +108,8 @@ class Machine {
   MotionKernel& kernel_;
   std::vector<Cell> memory_;
   std::vector<Motion> motions_;
-  std::int64_t own_ = 0;  ///< where the instance begins whose block runs
+  std::vector<bool> active_;  ///< methods that run
+  std::int64_t own_ = 0;      ///< where the instance begins whose block runs
   std::int64_t time_ms_ = 0;
   std::int64_t work_ = 0;  ///< that is left in this scan
   std::int64_t statements_ = 0;

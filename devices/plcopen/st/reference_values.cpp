@@ -57,7 +57,11 @@ int Expressions::referent(const Type& type) {
 }
 
 TypedExpression Expressions::dereferenced(const Tree& tree) {
-  const TypedExpression reference = typed(tree.parts[0]);
+  const Tree& of = tree.parts[0];
+  // THIS^ is THIS.
+  if (of.kind == Tree::Kind::name && of.token->word("THIS") && block_unit() != nullptr)
+    return this_instance(tree.token->place);
+  const TypedExpression reference = typed(of);
   if (reference.unknown()) return reference;
   const Type* const type = reference.type->element;
   if (reference.type->basic != Basic::reference || type == nullptr)
@@ -110,6 +114,15 @@ TypedExpression Values::reference_converted(TypedExpression expression, const Ty
   const auto number = [](const Type& type) {
     return type.basic == Basic::lword || type.basic == Basic::ulint;
   };
+  // An interface takes its instances only, and another one of its kind.
+  const bool interface =
+      from.basic == Basic::block ||
+      (to.basic == Basic::reference && to.element == nullptr && &to != null_reference()) ||
+      (from.basic == Basic::reference && from.element == nullptr && &from != null_reference());
+  if (interface && &from != &to && &from != null_reference() && &to != null_reference())
+    return refuse("st.type"_code, expression.place,
+                  fmt::format("a value of type {} does not go into {}", from.name, to.name),
+                  to.element == nullptr ? "an instance of a block that IMPLEMENTS it" : "REF(variable)");
   const bool null =
       expression.constant && expression.value == 0 && (from.basic == Basic::reference || expression.untyped);
   if (null || (bytes && (from.basic == to.basic || number(from) || number(to)))) {

@@ -124,6 +124,8 @@ int Statements::assignment_or_call() {
                      : "a statement is an assignment, a call, IF, CASE, FOR, WHILE or REPEAT");
   }
   const Tree left = name_tree();
+  if (peek().is(":="))
+    if (const auto setting = set_property(left)) return *setting;
   if (!peek().is(":=")) {
     if (left.kind == Tree::Kind::call) return call_statement(left);
     const TypedExpression target = typed(left);
@@ -145,7 +147,11 @@ int Statements::assignment_or_call() {
 int Statements::call_statement(const Tree& call) {
   const Tree& callee = call.parts[0];
   const StToken& name = *callee.token;
-  if (names_function(callee)) {
+  if (const auto body = super_call(callee)) {
+    expect(";", "ends a call");
+    return *body;
+  }
+  if (names_function(callee) || method_of(callee, "").unit != nullptr) {
     statement_ = true;
     const TypedExpression value = typed(call);
     expect(";", "ends a call");

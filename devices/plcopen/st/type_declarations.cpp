@@ -246,7 +246,8 @@ const Type* Declarations::named_type() {
     return peek().is("(") ? subrange(*type) : type;
   }
   if (Unit* unit = find_unit(name.text)) {
-    const bool type = unit->kind == Unit::Kind::type || unit->kind == Unit::Kind::function_block;
+    const bool type = unit->kind == Unit::Kind::type || unit->kind == Unit::Kind::function_block ||
+                      unit->kind == Unit::Kind::interface;
     if (!type)
       give_up("st.use"_code, name.place, in_quotes(name.text) + " is no type",
               "a PROGRAM or FUNCTION has no variables of its kind");

@@ -34,19 +34,23 @@ std::shared_ptr<const Compiled> Compiler::run() {
   outside_.type = globals_;
   find_units(false);
   find_units(true);
+  find_bases();
   // Types may have constants as bounds.
   for (const auto& unit : units_)
     if (unit->kind == Unit::Kind::globals && tokens_[unit->first + 1].word("CONSTANT")) declare(*unit);
-  for (const Unit::Kind kind : {Unit::Kind::type, Unit::Kind::globals, Unit::Kind::function_block,
-                                Unit::Kind::function, Unit::Kind::program})
+  for (const Unit::Kind kind :
+       {Unit::Kind::type, Unit::Kind::globals, Unit::Kind::function_block, Unit::Kind::function,
+        Unit::Kind::program, Unit::Kind::interface, Unit::Kind::method})
     for (const auto& unit : units_)
       if (unit->kind == kind && !unit->standard) declare(*unit);
+  check_methods();
   check_programs();
   read_configuration();
   place_memory();
   compile_bodies();
   connect_instances();
   unit_ = nullptr;
+  fill_method_table();
   check_calls();
   if (told() == 0) find_doubts();
   finish();
@@ -80,22 +84,29 @@ void Compiler::find_units(bool standard) {
       find_configuration();
     } else if (opening.word("VAR_GLOBAL")) {
       add_globals();
-    } else if (opening.word("PROGRAM") || opening.word("FUNCTION") || opening.word("FUNCTION_BLOCK")) {
+    } else if (opening.word("PROGRAM") || opening.word("FUNCTION") || opening.word("FUNCTION_BLOCK") ||
+               opening.word("INTERFACE")) {
       Unit unit;
       unit.standard = standard;
       unit.kind = opening.word("PROGRAM")    ? Unit::Kind::program
+                  : opening.word("INTERFACE") ? Unit::Kind::interface
                   : opening.word("FUNCTION") ? Unit::Kind::function
                                              : Unit::Kind::function_block;
       take();
+      read_modifiers(unit);
       try {
         unit.name = expect_name(fmt::format("the name of the {}", upper(opening.text)));
       } catch (const GiveUp&) {
         end_of_unit(first, "END_" + upper(opening.text));
         continue;
       }
+      if (unit.kind != Unit::Kind::function) read_header(unit);
       unit.first = at_;
       unit.end = end_of_unit(first, "END_" + upper(opening.text));
+      const bool methods = unit.kind != Unit::Kind::function;
+      const std::size_t before = units_.size();
       add_unit(std::move(unit));
+      if (methods && units_.size() > before) find_methods(*units_.back());
     } else {
       if (opening.kind != StToken::Kind::bad && !opening.is(";"))
         complain("st.declaration"_code, opening.place,

@@ -15,15 +15,27 @@ namespace drycut::devices::plcopen::st {
 
 /// A part of the file that has a name: a POU, one type of a TYPE section, or a VAR_GLOBAL section.
 struct Unit {
-  enum class Kind : std::uint8_t { program, function_block, function, type, globals };
+  enum class Kind : std::uint8_t { program, function_block, function, type, globals, method, interface };
   enum class State : std::uint8_t { untouched, open, done };
   Kind kind = Kind::program;
   State state = State::untouched;
   StToken name;
-  std::size_t first = 0;   ///< token where the declarations begin
-  std::size_t body = 0;    ///< where the statements begin, once declared
-  std::size_t end = 0;     ///< the END_ keyword
-  bool standard = false;   ///< TON and its like
+  std::size_t first = 0;                           ///< token where the declarations begin
+  std::size_t body = 0;                            ///< where the statements begin, once declared
+  std::size_t end = 0;                             ///< the END_ keyword
+  bool standard = false;                           ///< TON and its like
+  Unit* owner = nullptr;                           ///< of a method: whose it is
+  std::string key;                                 ///< of a method: among the owner's
+  std::unordered_map<std::string, Unit*> methods;  ///< by name in lower case; "speed'get", "speed'set"
+  StToken base_name;                               ///< EXTENDS
+  Unit* base = nullptr;                            ///< the same, once it is known
+  std::vector<StToken> interfaces;                 ///< IMPLEMENTS
+  bool extended = false;                           ///< something EXTENDS it
+  bool abstract = false;
+  bool final = false;
+  bool closed = false;            ///< PRIVATE or PROTECTED
+  std::size_t property_type = 0;  ///< of a GET or SET: where the type begins and ends
+  std::size_t property_end = 0;
   bool procedure = false;  ///< a FUNCTION without a result
   const Type* type = nullptr;
   const Type* result = nullptr;  ///< of a FUNCTION
@@ -34,6 +46,12 @@ struct Unit {
   };
   std::vector<Edge> edges;  ///< of inputs with R_EDGE or F_EDGE
   std::set<int> calls;      ///< POUs that its body calls
+  /// Its variables have one place, whoever calls it.
+  [[nodiscard]] bool framed() const { return kind == Kind::function || kind == Kind::method; }
+  /// Its instances tell their kind, so that the right method is called.
+  [[nodiscard]] bool tells_kind() const {
+    return extended || !methods.empty() || !interfaces.empty() || base != nullptr;
+  }
   int levels = 1;  ///< how deep the machine calls itself for its body; with those that it calls at the end
   int levels_below = 0;  ///< of what it calls
 };
@@ -42,6 +60,12 @@ struct Unit {
 /// a text has a quote.
 inline constexpr std::string_view edge_mark = "'edge";
 inline constexpr std::string_view last_mark = "'last";
+
+/// Behind the name of a PROPERTY: what reads and what writes it. In front of an instance's variables: its
+/// kind.
+inline constexpr std::string_view get_mark = "'get";
+inline constexpr std::string_view set_mark = "'set";
+inline constexpr std::string_view kind_name = "'kind";
 
 /// A part of a whole number: w.3.
 struct Bits {
