@@ -75,8 +75,9 @@ int Expressions::store(const TypedExpression& target, int value) {
     return add_node(StOp::store_at, type.basic, target.place, target.node, value);
   }
   if (type.basic == Basic::string)
-    return add_node(StOp::copy_string, type.basic, target.place, target.node, value, -1,
-                    static_cast<std::int64_t>(type.length));
+    return add_node(StOp::copy_string, type.basic, target.place, target.node, value,
+                    type.wide ? static_cast<int>(type.length) : -1,
+                    static_cast<std::int64_t>(bytes_of_text(type)));
   return add_node(StOp::copy, type.basic, target.place, target.node, value, -1, type.cells);
 }
 
@@ -371,7 +372,7 @@ std::vector<int> Expressions::input_triple(const Type& function, const Variable&
   const TypedExpression value = converted(given, *pin.type);
   if (value.unknown()) return {};
   const int cells = is_single(pin.type->basic)         ? 1
-                    : pin.type->basic == Basic::string ? 2 + static_cast<int>(pin.type->length)
+                    : pin.type->basic == Basic::string ? 2 + static_cast<int>(bytes_of_text(*pin.type))
                                                        : -pin.type->cells;
   return {value_node(value), at, cells};
 }

@@ -248,6 +248,7 @@ struct Compiled {
   std::vector<Motion> motions;
   std::vector<StSymbol> symbols;
   std::vector<SymbolPlace> places;
+  std::size_t longest_bytes = 255;  ///< of such a text
   std::size_t longest_text =
       255;  ///< characters that functions of STRING give: of the longest that is declared
 
@@ -294,6 +295,12 @@ std::optional<NoResult> no_result(StOp op, Basic basic, Cell a, Cell b);
 /// LEFT, RIGHT, MID, CONCAT, INSERT, DELETE and REPLACE of one or more texts; `numbers` are L and P as far as
 /// the function has them.
 std::string edited(TextOp op, std::span<const std::string_view> texts, std::span<const Cell> numbers);
+/// Of a WSTRING those of its UTF-8, else bytes.
+std::size_t characters(std::string_view text, bool wide);
+/// The first so many characters of a WSTRING.
+std::string_view first_characters(std::string_view text, std::size_t count);
+/// What `edited` counts in bytes where the program counts in characters.
+std::vector<Cell> in_bytes(TextOp op, std::string_view text, std::span<const Cell> numbers);
 /// Where `wanted` begins in `text`, from 1; 0 if nowhere.
 Cell found(std::string_view text, std::string_view wanted);
 /// '5', '-1.5', 'TRUE', 'T#1s500ms', 'D#1996-08-15': X_TO_STRING.

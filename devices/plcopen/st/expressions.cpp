@@ -79,7 +79,8 @@ TypedExpression Expressions::typed(const Tree& tree, const Type* wanted) {
 TypedExpression Expressions::literal(const StToken& token) {
   if (token.kind == StToken::Kind::number)
     return constant(type_of(token.basic), token.value, token.place, is_number(token.basic));
-  TypedExpression text{type_of(Basic::string), token.place, literal_string(token.string, token.place)};
+  TypedExpression text{elementary_type(token.wide ? "WSTRING" : "STRING"), token.place,
+                       literal_string(token.string, token.place)};
   text.string = token.string;
   return text;
 }
@@ -138,7 +139,6 @@ std::optional<TypedExpression> Expressions::variable(const StToken& name) {
 TypedExpression Expressions::name_expression(const StToken& name, const Type* wanted) {
   if (name.word("TRUE") || name.word("FALSE"))
     return constant(type_of(Basic::boolean), name.word("TRUE") ? 1 : 0, name.place);
-  if (name.word("NULL")) return constant(null_reference(), 0, name.place);
   if (std::optional<TypedExpression> found = variable(name)) return *found;
   if (name.word("THIS") && block_unit() != nullptr) return this_instance(name.place);
   const Tree getter{Tree::Kind::name, &name, false, {}, {}, {}};
@@ -146,6 +146,7 @@ TypedExpression Expressions::name_expression(const StToken& name, const Type* wa
     return method_call(method, {});
   if (std::optional<TypedExpression> found = enum_value(name, wanted)) return *found;
   if (std::optional<TypedExpression> found = predefined(name)) return *found;
+  if (name.word("NULL")) return constant(null_reference(), 0, name.place);
   // Told once a POU; what hangs on it is passed over.
   if (told_.insert(lower(name.text)).second) {
     const bool type = find_unit(name.text) != nullptr || elementary_type(name.text) != nullptr ||

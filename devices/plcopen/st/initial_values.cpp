@@ -46,9 +46,12 @@ void Declarations::initial_into(const Type& type, std::span<Cell> cells) {
   if (text.kind != StToken::Kind::string)
     give_up("st.initial-value"_code, text.place, "a STRING begins with a text, not " + in_quotes(text.text),
             "'text'");
-  if (text.string.size() > type.length)
+  if (text.wide != type.wide)
+    give_up("st.initial-value"_code, text.place, fmt::format("{} is no {}", in_quotes(text.text), type.name),
+            type.wide ? "a WSTRING is written \"text\"" : "a STRING is written 'text'");
+  if (const auto size = characters(text.string, type.wide); size > type.length)
     give_up("st.out-of-range"_code, text.place,
-            fmt::format("{} characters do not fit in {}", text.string.size(), type.name),
+            fmt::format("{} characters do not fit in {}", size, type.name),
             fmt::format("{} at most", type.length));
   std::fill(cells.begin(), cells.end(), 0);
   std::memcpy(cells.data(), text.string.data(), text.string.size());

@@ -55,7 +55,7 @@ class StLexer : public Lexer<StToken> {
         return;
       else
         // Texts may hold what looks like a comment or a pragma.
-        advance(c == '\'' ? string_length().first : 1);
+        advance(c == '\'' || c == '"' ? string_length().first : 1);
     }
   }
 
@@ -90,7 +90,7 @@ class StLexer : public Lexer<StToken> {
       word();
     else if (is_digit(c))
       number();
-    else if (c == '\'')
+    else if (c == '\'' || c == '"')
       string();
     else if (c == '%')
       add(Kind::address, length([](char x) { return in_name(x) || x == '.' || x == '%'; }));
@@ -110,7 +110,7 @@ class StLexer : public Lexer<StToken> {
     else if (std::string_view("()[],;:.+-*/<>=&#^").find(peek()) != std::string_view::npos)
       add(Kind::sign, 1);
     else
-      stranger(peek() == '"' ? "a string stands between single quotes" : "comments are (* ... *) or // ...");
+      stranger("comments are (* ... *) or // ...");
   }
 
   void word() {
@@ -278,11 +278,12 @@ class StLexer : public Lexer<StToken> {
   /// With its quotes, and whether it has both.
   [[nodiscard]] std::pair<std::size_t, bool> string_length() const {
     std::size_t size = 1;
+    const char quote = peek();
     // 'it''s': a quote that is written twice.
-    const auto doubled = [&] { return peek(size) == '\'' && peek(size + 1) == '\''; };
-    while (at_ + size < text_.size() && (peek(size) != '\'' || doubled()) && peek(size) != '\n')
+    const auto doubled = [&] { return peek(size) == quote && peek(size + 1) == quote; };
+    while (at_ + size < text_.size() && (peek(size) != quote || doubled()) && peek(size) != '\n')
       size += doubled() || (peek(size) == '$' && peek(size + 1) != '\n') ? 2 : 1;
-    const bool closed = peek(size) == '\'';
+    const bool closed = peek(size) == quote;
     return {std::min(size + (closed ? 1 : 0), text_.size() - at_), closed};
   }
 
@@ -292,19 +293,21 @@ class StLexer : public Lexer<StToken> {
     const std::size_t size = whole - 1;
     StToken& token = add(Kind::string, whole);
     if (!closed) {
-      complain("st.syntax"_code, token, "a string is not closed on its line", "end it with '");
+      complain("st.syntax"_code, token, "a string is not closed on its line",
+               fmt::format("end it with {}", token.text.front()));
       return;
     }
+    token.wide = token.text.front() == '"';
     unescape(token, token.text.substr(1, size - 1), begin);
   }
 
   void unescape(StToken& token, std::string_view text, Place begin) {
-    constexpr std::string_view names = "$'LlNnPpRrTt";
-    constexpr std::string_view values = "$'\n\n\n\n\f\f\r\r\t\t";
+    constexpr std::string_view names = "$'\"LlNnPpRrTt";
+    constexpr std::string_view values = "$'\"\n\n\n\n\f\f\r\r\t\t";
     for (std::size_t i = 0; i < text.size(); ++i) {
       if (text[i] != '$') {
         token.string += text[i];
-        if (text[i] == '\'') ++i;  // the second one
+        if (text[i] == token.text.front()) ++i;  // the second one
         continue;
       }
       const char c = i + 1 < text.size() ? text[i + 1] : '\0';

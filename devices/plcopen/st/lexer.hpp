@@ -62,6 +62,7 @@ struct StToken : drycut::Token {
   Basic basic = Basic::unknown;  ///< of a number: LINT, above it ULINT, LREAL, TIME, TOD, DATE or DT
   Cell value = 0;
   std::string string;  ///< without quotes and escapes
+  bool wide = false;   ///< "text": of WSTRING
 
   [[nodiscard]] bool whole() const { return kind == Kind::number && is_integer(basic); }
 };

@@ -213,8 +213,8 @@ Cell Machine::passes(const Node& n) {
 }
 
 Cell Machine::compare(const Node& n) {
-  const std::string_view a = text(value(n.a), code_.longest_text);
-  const std::string_view b = text(value(n.b), code_.longest_text);
+  const std::string_view a = text(value(n.a), longest_bytes());
+  const std::string_view b = text(value(n.b), longest_bytes());
   charge(static_cast<std::int64_t>(std::min(a.size(), b.size()) / 8));
   const int order = a.compare(b);
   return order < 0 ? -1 : order > 0 ? 1 : 0;
@@ -226,7 +226,7 @@ Cell Machine::text_value(const Node& n) {
   const int* const end = list + n.b;
   const Cell target = op < TextOp::length ? value(*list++) : 0;
   if (op == TextOp::from_value) {
-    put_string(text_of(n.basic, value(*list)), target, code_.longest_text);
+    put_string(text_of(n.basic, value(*list)), target, longest_bytes());
     return target;
   }
   const std::size_t texts = texts_of(op, static_cast<std::size_t>(end - list));
@@ -239,16 +239,23 @@ Cell Machine::text_value(const Node& n) {
     if (i >= texts) {
       numbers.push_back(given);
     } else {
-      parts.push_back(text(given, code_.longest_text));
+      parts.push_back(text(given, longest_bytes()));
       size += parts.back().size();
     }
   }
   // FIND looks at each place.
   charge(static_cast<std::int64_t>(op == TextOp::find ? 8 + size : 8 + size / 8));
-  if (op == TextOp::length) return static_cast<Cell>(parts[0].size());
-  if (op == TextOp::find) return found(parts[0], parts[1]);
+  const bool wide = n.c > 0;
+  if (op == TextOp::length) return static_cast<Cell>(characters(parts[0], wide));
+  if (op == TextOp::find) {
+    const Cell at = found(parts[0], parts[1]);
+    return at == 0 || !wide
+               ? at
+               : static_cast<Cell>(characters(parts[0].substr(0, static_cast<std::size_t>(at)), true));
+  }
+  if (wide) numbers = in_bytes(op, parts[0], numbers);
   if (op == TextOp::to_value) return value_of(n.basic, parts[0]);
-  put_string(edited(op, parts, numbers), target, code_.longest_text);
+  put_string(edited(op, parts, numbers), target, longest_bytes());
   return target;
 }
 
@@ -372,7 +379,12 @@ Machine::Flow Machine::execute(int number) {
       return Flow::next;
     }
     case StOp::copy_string:
-      copy_string(value(n.b), value(n.a), static_cast<std::size_t>(n.imm));
+      if (n.c >= 0)
+        put_string(first_characters(text(value(n.b), static_cast<std::size_t>(n.imm)),
+                                    static_cast<std::size_t>(n.c)),
+                   value(n.a), static_cast<std::size_t>(n.imm));
+      else
+        copy_string(value(n.b), value(n.a), static_cast<std::size_t>(n.imm));
       return Flow::next;
     case StOp::evaluate:
       value(n.a);

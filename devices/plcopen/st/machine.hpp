@@ -82,6 +82,8 @@ class Machine {
   Cell compare(const Node& node);
   /// Gives a POU's variables at `frame` that do not outlast a call their initial values.
   void reset(const Pou& pou, std::int64_t frame);
+  /// Of what functions of texts give; a WSTRING has up to four a character.
+  [[nodiscard]] std::size_t longest_bytes() const { return code_.longest_bytes; }
   [[nodiscard]] std::string_view text(std::int64_t place, std::size_t most) const;
 
   void note(int number, char mark);

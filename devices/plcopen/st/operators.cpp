@@ -196,7 +196,7 @@ struct Operation {
 
   TypedExpression comparison() {
     const Type* boolean = type_of(Basic::boolean);
-    if (a.type->basic == Basic::string && b.type->basic == Basic::string) {
+    if (a.type->basic == Basic::string && b.type->basic == Basic::string && a.type->wide == b.type->wide) {
       const Type* whole = type_of(Basic::int_);
       const TypedExpression order{
           whole, told.place, values.add_node(StOp::compare_strings, Basic::int_, told.place, a.node, b.node),

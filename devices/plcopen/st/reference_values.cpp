@@ -114,6 +114,12 @@ TypedExpression Values::reference_converted(TypedExpression expression, const Ty
   const auto number = [](const Type& type) {
     return type.basic == Basic::lword || type.basic == Basic::ulint;
   };
+  // To be compared.
+  if (&to == null_reference() && from.basic == Basic::reference) {
+    TypedExpression any = expression.constant ? std::move(expression) : as_value(std::move(expression));
+    any.type = &to;
+    return any;
+  }
   // An interface takes its instances only, and another one of its kind.
   const bool interface =
       from.basic == Basic::block ||

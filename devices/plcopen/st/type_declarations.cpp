@@ -162,7 +162,7 @@ const Type* Declarations::parse_type() {
     const Nested nested(nesting_);
     return array_type();
   }
-  if (peek().word("STRING")) return string_type();
+  if (peek().word("STRING") || peek().word("WSTRING")) return string_type();
   if (peek().word("REF_TO") || (peek().word("POINTER") && peek(1).word("TO"))) return reference_type();
   if (peek().is("(") || at_based_enumeration()) {
     Type& type = new_type(Basic::enumeration, "enumeration");
@@ -222,20 +222,22 @@ const Type* Declarations::array_type() {
 }
 
 const Type* Declarations::string_type() {
-  take();
+  const bool wide = take().word("WSTRING");
+  const std::string name = wide ? "WSTRING" : "STRING";
   const bool round = peek().is("(");
-  if (!round && !peek().is("[")) return elementary_type("STRING");
+  if (!round && !peek().is("[")) return elementary_type(name);
   take();
   const Place place = peek().place;
   const std::int64_t length = constant_integer("the length");
   expect(round ? ")" : "]", "closes the length");
   if (length < 1 || length > static_cast<std::int64_t>(most_string_length))
-    give_up("st.out-of-range"_code, place, fmt::format("a STRING of {} characters", length),
+    give_up("st.out-of-range"_code, place, fmt::format("a {} of {} characters", name, length),
             fmt::format("1 to {}", most_string_length));
   code_->longest_text = std::max(code_->longest_text, static_cast<std::size_t>(length));
-  Type& type = new_type(Basic::string, fmt::format("STRING[{}]", length));
+  Type& type = new_type(Basic::string, fmt::format("{}[{}]", name, length));
+  type.wide = wide;
   type.length = static_cast<std::size_t>(length);
-  type.cells = string_cells(type.length);
+  type.cells = string_cells(bytes_of_text(type));
   type.initial.assign(static_cast<std::size_t>(type.cells), 0);
   return &type;
 }

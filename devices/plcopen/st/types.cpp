@@ -43,6 +43,12 @@ std::vector<Type> make_elementary() {
     type.initial.assign(static_cast<std::size_t>(type.cells), initial);
     types.push_back(std::move(type));
   }
+  Type wide = types[static_cast<std::size_t>(Basic::string)];
+  wide.name = "WSTRING";
+  wide.wide = true;
+  wide.cells = string_cells(bytes_of_text(wide));
+  wide.initial.assign(static_cast<std::size_t>(wide.cells), 0);
+  types.push_back(std::move(wide));
   return types;
 }
 
@@ -121,7 +127,7 @@ bool same_type(const Type& a, const Type& b) {
   if (a.basic == Basic::array) return a.low == b.low && a.high == b.high && same_type(*a.element, *b.element);
   if (a.basic == Basic::reference)
     return a.element != nullptr && b.element != nullptr && same_type(*a.element, *b.element);
-  if (a.basic == Basic::string) return a.length == b.length;
+  if (a.basic == Basic::string) return a.length == b.length && a.wide == b.wide;
   return a.basic != Basic::enumeration && a.basic != Basic::structure && a.basic != Basic::block;
 }
 
@@ -136,6 +142,8 @@ const Type* elementary_type(std::string_view name) {
 const Type* type_of(Basic basic) { return &elementary().at(static_cast<std::size_t>(basic)); }
 
 const Type* base_of(const Type* type) { return type->subrange ? type_of(type->basic) : type; }
+
+std::size_t bytes_of_text(const Type& type) { return type.wide ? 4 * type.length : type.length; }
 
 int string_cells(std::size_t length) { return static_cast<int>(length / sizeof(Cell)) + 1; }
 

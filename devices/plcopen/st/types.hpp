@@ -85,7 +85,8 @@ struct Type {
   int cells = 1;
   std::vector<Cell> initial;  ///< `cells` of them
 
-  std::size_t length = 0;         ///< of a STRING
+  std::size_t length = 0;         ///< of a STRING: bytes, of a WSTRING: characters
+  bool wide = false;              ///< WSTRING: Basic::string in UTF-8, counted by its characters
   const Type* element = nullptr;  ///< of an array; what a reference is of
   std::int64_t low = 0;           ///< bounds of an array, or of a subrange INT (0..9)
   std::int64_t high = 0;
@@ -130,6 +131,8 @@ const Type* elementary_type(std::string_view name);
 const Type* type_of(Basic basic);
 /// What values of the type are computed in: INT of INT (0..9).
 const Type* base_of(const Type* type);
+/// Most bytes of a text of the type.
+std::size_t bytes_of_text(const Type& type);
 /// Of a STRING of so many characters.
 int string_cells(std::size_t length);
 inline constexpr std::size_t default_string_length = 80;

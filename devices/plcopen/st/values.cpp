@@ -121,16 +121,19 @@ int Values::scratch(const Type& type, Place place) {
   return leaf_node(StOp::address_pool, type.basic, place, in_pool(static_cast<std::size_t>(type.cells)));
 }
 
-const Type* Values::longest_string() {
+const Type* Values::longest_string(bool wide) {
   const std::size_t length = code_->longest_text;
-  if (longest_string_ != nullptr && longest_string_->length == length) return longest_string_;
+  const Type*& known = wide ? longest_wide_ : longest_string_;
+  if (known != nullptr && known->length == length) return known;
   Type longest = *type_of(Basic::string);
-  longest.name = fmt::format("STRING[{}]", length);
+  longest.name = fmt::format("{}[{}]", wide ? "WSTRING" : "STRING", length);
   longest.length = length;
-  longest.cells = string_cells(length);
+  longest.wide = wide;
+  longest.cells = string_cells(bytes_of_text(longest));
   longest.initial.assign(static_cast<std::size_t>(longest.cells), 0);
+  code_->longest_bytes = std::max(code_->longest_bytes, bytes_of_text(longest));
   code_->types.push_back(std::make_unique<Type>(std::move(longest)));
-  return longest_string_ = code_->types.back().get();
+  return known = code_->types.back().get();
 }
 
 std::string whole_text(const TypedExpression& value) {
@@ -220,10 +223,18 @@ TypedExpression Values::converted(TypedExpression expression, const Type& to) {
   if (to.subrange) return in_subrange(converted(std::move(expression), *base_of(&to)), to);
   // A text that is too long is cut off, as on the machine; a literal is refused.
   if (from.basic == Basic::string && to.basic == Basic::string) {
-    if (expression.string && expression.string->size() > to.length)
-      complain("st.out-of-range"_code, expression.place,
-               fmt::format("{} characters do not fit in {}", expression.string->size(), to.name),
-               fmt::format("{} at most", to.length));
+    if (from.wide != to.wide)
+      return refuse("st.type"_code, expression.place,
+                    fmt::format("a value of type {} does not go into {}", from.name, to.name),
+                    expression.string
+                        ? (to.wide ? "a WSTRING is written \"text\"" : "a STRING is written 'text'")
+                    : to.wide ? "STRING_TO_WSTRING(...) converts"
+                              : "WSTRING_TO_STRING(...) converts");
+    if (expression.string && characters(*expression.string, to.wide) > to.length)
+      complain(
+          "st.out-of-range"_code, expression.place,
+          fmt::format("{} characters do not fit in {}", characters(*expression.string, to.wide), to.name),
+          fmt::format("{} at most", to.length));
     return expression;
   }
   if (widens(from.basic, to.basic) && to.basic != Basic::enumeration)

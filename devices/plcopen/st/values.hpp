@@ -149,7 +149,7 @@ class Values : public Parser {
   /// The address of cells for a value on its way.
   int scratch(const Type& type, Place place);
   /// What functions of STRING give.
-  const Type* longest_string();
+  const Type* longest_string(bool wide);
 
  protected:
   [[nodiscard]] const Node& node(int number) const { return code_->nodes[static_cast<std::size_t>(number)]; }
@@ -168,6 +168,7 @@ class Values : public Parser {
 
   std::unordered_map<std::string, int> strings_;
   const Type* longest_string_ = nullptr;
+  const Type* longest_wide_ = nullptr;
 };
 
 /// One operator between two values.
