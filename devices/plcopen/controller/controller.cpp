@@ -373,6 +373,9 @@ void PlcopenController::tell_blocks() {
     block.seen = now;
     if (!block.commanded && block.command) block.commanded = runtime_.read(*block.command) != 0;
   }
+  for (const auto& loss : runtime_.take_losses())
+    events_.push_back(
+        {"program", "value_cut", fmt::format("{}: {}", told_place(loss.line, loss.column), loss.text)});
   const auto& fault = runtime_.fault();
   if (!fault || fault_told_) return;
   fault_told_ = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -25,6 +26,8 @@ void Machine::start(bool all) {
   for (std::size_t i = 0; i < code_.external_cells.size(); ++i)
     at(code_.external_cells[i]) = kernel_.find_axis(code_.externals[i].name).number;
   active_.clear();
+  losses_.clear();
+  told_.clear();
   motions_.clear();
   for (const Compiled::Motion& place : code_.motions) {
     Motion motion;
@@ -112,7 +115,44 @@ Cell Machine::operation(const Node& n) {
   const Cell a = value(n.a);
   const Cell b = n.b >= 0 ? value(n.b) : 0;
   if (const auto none = no_result(n.op, n.basic, a, b)) throw StError(n, none->what + "; " + none->remedy);
-  return apply(n.op, n.basic, a, b);
+  const Cell result = apply(n.op, n.basic, a, b);
+  // Real numbers overflow, conversions leave their type; whole numbers wrap.
+  if (is_real(n.basic) ? !std::isfinite(real_of(result))
+                       : n.op == StOp::to_whole || n.op == StOp::truncate || n.op == StOp::wrap)
+    look_at(n, a, result);
+  return result;
+}
+
+void Machine::look_at(const Node& n, Cell before, Cell result) {
+  const std::string& type = type_of(n.basic)->name;
+  if (is_real(n.basic)) {
+    if (std::isnan(real_of(result)))
+      tell_loss(n, "the result is no number; test the values before");
+    else
+      tell_loss(n, fmt::format("a {} overflows; it goes to {}", type,
+                               n.basic == Basic::real ? "3.4e38" : "1.8e308"));
+    return;
+  }
+  // BYTE to LWORD and the parts of numbers take the lower bits by intention.
+  const bool number = is_integer(n.basic) && n.basic <= Basic::ulint;
+  if (n.op == StOp::wrap) {
+    if (number && result != before)
+      tell_loss(n, fmt::format("{} does not fit in {}, which makes {} of it", before, type, result));
+    return;
+  }
+  constexpr double two_to_64 = 18446744073709551616.0;
+  const double value = n.op == StOp::truncate ? std::trunc(real_of(before)) : std::nearbyint(real_of(before));
+  const Subrange range = range_of(n.basic);
+  const double high = is_wide(n.basic) ? two_to_64 : static_cast<double>(range.high);
+  if (value >= static_cast<double>(range.low) && (is_wide(n.basic) ? value < high : value <= high)) return;
+  tell_loss(n, fmt::format("{} does not fit in {}, which makes {} of it", real_of(before), type,
+                           is_wide(n.basic) ? fmt::format("{}", static_cast<std::uint64_t>(result))
+                                            : fmt::format("{}", result)));
+}
+
+void Machine::tell_loss(const Node& n, std::string text) {
+  if (told_.insert(static_cast<int>(&n - code_.nodes.data())).second)
+    losses_.push_back({n.line, n.column, std::move(text)});
 }
 
 Cell Machine::multiplex(const Node& n) {
@@ -379,6 +419,11 @@ Machine::Flow Machine::execute(int number) {
       return Flow::next;
     }
     case StOp::copy_string:
+      if (const std::string_view whole = whole_text(value(n.b));
+          n.c < 0 ? whole.size() > static_cast<std::size_t>(n.imm)
+                  : characters(whole, true) > static_cast<std::size_t>(n.c))
+        tell_loss(n, fmt::format("a text of {} characters is cut off at {}", characters(whole, n.c >= 0),
+                                 n.c < 0 ? n.imm : n.c));
       if (n.c >= 0)
         put_string(first_characters(text(value(n.b), static_cast<std::size_t>(n.imm)),
                                     static_cast<std::size_t>(n.c)),
@@ -549,7 +594,9 @@ void Machine::Motion::visit(StateArchive& archive) {
 }
 
 void Machine::visit(StateArchive& archive) {
-  STATE(archive, memory_);
+  std::vector<int> told(told_.begin(), told_.end());
+  archive("memory, told", memory_, told);
+  told_ = {told.begin(), told.end()};
   if (memory_.size() != code_.image.size()) throw BadState("the memory of another program");
   for (std::size_t i = 0; i < motions_.size(); ++i)
     archive.named(fmt::format("{}_{}", motions_[i].type->name, i), motions_[i]);

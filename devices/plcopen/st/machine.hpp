@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -50,6 +51,15 @@ class Machine {
   [[nodiscard]] const FunctionBlock* motion_at(int place) const;
   void set_cell(int place, Cell value) { memory_[static_cast<std::size_t>(place)] = value; }
 
+  /// A value that did not fit where it was put; told once for each place of the text.
+  struct Loss {
+    int line = 0;
+    int column = 0;
+    std::string text;
+  };
+  /// Those since it was asked last.
+  std::vector<Loss> take_losses() { return std::exchange(losses_, {}); }
+
   /// Between two runs.
   void visit(StateArchive& archive);
 
@@ -68,6 +78,10 @@ class Machine {
   Cell value(int number);
   Cell operation(const Node& node);
   Cell multiplex(const Node& node);
+  /// Tells what was lost in an operation, if anything was.
+  void look_at(const Node& node, Cell before, Cell result);
+  void tell_loss(const Node& node, std::string text);
+  [[nodiscard]] std::string_view whole_text(std::int64_t place) const { return text(place, longest_bytes()); }
   std::int64_t element(const Node& node);
   std::int64_t dereference(const Node& node);
   /// The first of the cells that a value of `node` by a reference lies in, and how many bytes behind.
@@ -110,6 +124,8 @@ class Machine {
   MotionKernel& kernel_;
   std::vector<Cell> memory_;
   std::vector<Motion> motions_;
+  std::vector<Loss> losses_;
+  std::set<int> told_;        ///< nodes whose loss has been told
   std::vector<bool> active_;  ///< methods that run
   std::int64_t own_ = 0;      ///< where the instance begins whose block runs
   std::int64_t time_ms_ = 0;
