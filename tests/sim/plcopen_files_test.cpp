@@ -5,6 +5,7 @@
 
 #include "sim/cli/check_command.hpp"
 #include "sim/controllers/kinds.hpp"
+#include "sim/file.hpp"
 #include "sim/loop/controller_loader.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -49,6 +50,15 @@ TEST_F(PlcopenFiles, AreAFileAFolderOrAList) {
   ASSERT_NE(controller, nullptr);
   controller->run_tasks(0);
   EXPECT_EQ(controller->find("x")->read(), 5.0);
+}
+
+// A study reads each file once: whether it is a folder is no other question to the set.
+TEST_F(PlcopenFiles, AreReadThroughASetOfFiles) {
+  FileSet set;
+  const UseFiles use(set);
+  const auto controller = loop::load_controller(with("[main.st, lib]"), problems, nullptr);
+  EXPECT_THAT(told(), IsEmpty());
+  EXPECT_NE(controller, nullptr);
 }
 
 TEST_F(PlcopenFiles, ThatAreNotThereAreToldAtTheirNames) {
