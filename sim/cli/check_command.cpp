@@ -195,7 +195,7 @@ class Checker {
   Problems problems_;
   std::vector<scenario::Override> overrides_;
   std::optional<qmove::Configuration> configuration_;
-  std::vector<devices::plcopen::st::SourceFile> structured_text_;
+  std::vector<SourceFile> structured_text_;
   bool configuration_given_ = false;
 };
 

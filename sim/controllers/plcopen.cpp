@@ -318,7 +318,7 @@ std::unique_ptr<devices::Controller> PlcopenSection::load(const scenario::Scenar
   configuration.tables = load_tables(*this, configuration.axes, scenario, problems);
   const bool tables_sound = problems.size() == before;
   plcopen::st::Program compiled;
-  std::vector<plcopen::st::SourceFile> sources;
+  std::vector<SourceFile> sources;
   std::vector<std::string> names;
   for (const auto& file : program_files) {
     auto text = read_program("plcopen.program", file, scenario, problems);

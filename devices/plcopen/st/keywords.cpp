@@ -1,4 +1,4 @@
-#include "devices/plcopen/st/lexer.hpp"
+#include "devices/plcopen/st/keywords.hpp"
 
 #include <array>
 #include <string>

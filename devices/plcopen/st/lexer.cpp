@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "devices/plcopen/st/pragmas.hpp"
+
 namespace drycut::devices::plcopen::st {
 namespace {
 

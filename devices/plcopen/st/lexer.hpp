@@ -1,60 +1,15 @@
 #pragma once
 #include <array>
 #include <functional>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/scanner.hpp"
-#include "devices/plcopen/st/sources.hpp"
+#include "devices/plcopen/st/keywords.hpp"
 #include "devices/plcopen/st/types.hpp"
 
 namespace drycut::devices::plcopen::st {
-
-/// Words of the language, any case: no name may be one of them.
-bool is_keyword(std::string_view word);
-/// END_IF, ELSE, UNTIL and the like: where a statement that was given up must end.
-bool closes_block(std::string_view word);
-/// Which of them a word is that is none, as ENDIF and ELSEIF; "" if it is like none.
-std::string_view meant_closer(std::string_view word);
-/// PROGRAM, FUNCTION, TYPE and the like.
-bool opens_unit(std::string_view word);
-/// The standard blocks TON, TOF, TP, R_TRIG, F_TRIG, SR, RS, CTU, CTD, CTUD, as Structured Text with the pins
-/// of CODESYS and TwinCAT.
-std::string_view standard_blocks();
-
-/// The pragmas of CODESYS that decide what is compiled: {define N}, {define N 'text'}, {undefine N}, {IF
-/// ...}, {ELSIF ...}, {ELSE}, {END_IF}, {error 'text'}. Conditions are defined(N), hasvalue(N, 'text'), NOT,
-/// AND, OR and parentheses; what asks for more is refused. Other pragmas are passed over.
-class Pragmas : private Complaints {
- public:
-  using Complaints::Complaints;
-
-  /// `text` is what stands between { and }, `place` where the { is.
-  void read(std::string_view text, Place place);
-  /// Whether the text that follows is compiled.
-  [[nodiscard]] bool active() const { return branches_.empty() || branches_.back().active; }
-  /// At the end of the file.
-  void finish();
-
- private:
-  struct Branch {
-    Place opened;
-    bool outer = true;   ///< what surrounds it is compiled
-    bool taken = false;  ///< one of its parts has been
-    bool active = false;
-    bool otherwise = false;  ///< {ELSE} has been
-  };
-  struct Condition;
-
-  void next_part(std::string_view word, bool holds, Place place);
-  void define(const std::vector<std::string>& words, Place place);
-  bool condition(const std::vector<std::string>& words, std::string_view text, Place place);
-
-  std::map<std::string, std::string> defined_;  ///< by name in lower case
-  std::vector<Branch> branches_;
-};
 
 /// A word, literal or sign of a Structured Text file. Signs are
 /// ( ) [ ] , ; : . + - * / < > = & # := => ** <= >= <> .. and times and dates are numbers too.

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/problem.hpp"
+#include "base/text.hpp"
 #include "devices/cards.hpp"
 #include "devices/plcopen/modbus_map.hpp"
-#include "devices/plcopen/st/sources.hpp"
 
 // Structured Text (IEC 61131-3) as a cam application on a PLCopen controller uses it.
 namespace drycut::devices::plcopen::st {

@@ -2,7 +2,7 @@
 #include <string>
 #include <string_view>
 
-#include "devices/plcopen/st/lexer.hpp"
+#include "devices/plcopen/st/keywords.hpp"
 
 // The standard blocks and some of the standard functions, as Structured Text.
 namespace drycut::devices::plcopen::st {
