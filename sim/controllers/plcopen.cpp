@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "base/text.hpp"
 #include "devices/plcopen/controller/controller.hpp"
@@ -8,6 +9,7 @@
 #include "sim/controllers/kinds.hpp"
 #include "sim/controllers/plcopen_scales.hpp"
 #include "sim/controllers/program_files.hpp"
+#include "sim/file.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/format.hpp"
