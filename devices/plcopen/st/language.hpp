@@ -94,7 +94,11 @@ inline constexpr std::array standard_function_blocks{
     StRow{"R_TRIG F_TRIG", "CLK; Q: a rising, a falling edge, for one scan"},
     StRow{"SR RS", "SET1, RESET and SET, RESET1; Q1: flip-flops, the one with 1 is the stronger"},
     StRow{"CTU CTD CTUD", "CU, CD, RESET, LOAD, PV; Q, QU, QD, CV: counters of INT, 0 to 32767"},
-    StRow{"CTU_DINT CTD_UDINT CTUD_LINT ...", "the same of INT, DINT, UDINT, LINT, ULINT"},
+    StRow{"CTU_INT CTD_INT CTUD_INT", "the same of INT"},
+    StRow{"CTU_DINT CTD_DINT CTUD_DINT", "the same of DINT"},
+    StRow{"CTU_UDINT CTD_UDINT CTUD_UDINT", "the same of UDINT"},
+    StRow{"CTU_LINT CTD_LINT CTUD_LINT", "the same of LINT"},
+    StRow{"CTU_ULINT CTD_ULINT CTUD_ULINT", "the same of ULINT"},
 };
 
 }  // namespace drycut::devices::plcopen::st
