@@ -40,7 +40,8 @@ void AxisObjections::gear(const TransmissionData& given, double motor_inertia, d
 
 void AxisObjections::viscous(std::string_view parameter, const Friction& friction, double inertia,
                              std::string_view part) {
-  damper(parameter, friction.viscous, inertia, fmt::format("{} and its friction", part));
+  damper(parameter, friction.viscous * std::max(1.0, friction.viscous_backward), inertia,
+         fmt::format("{} and its friction", part));
 }
 
 void AxisObjections::contact(const std::string& group, const EndStopData& stop, double mass,

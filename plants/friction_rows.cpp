@@ -19,7 +19,9 @@ Parameters rows_of(Friction& friction, const FrictionSources& from, const Units&
           row("stribeck_speed", units.speed, "speed at which 1/e of it is left", friction.stribeck_speed,
               1e-3, 1e5, "estimate"),
           live(row("backward", "%", "dry friction of a motion backwards, of that forwards", friction.backward,
-                   0, 1000, "the same both ways"))};
+                   0, 1000, "the same both ways")),
+          live(row("viscous_backward", "%", "viscous friction of a motion backwards, of that forwards",
+                   friction.viscous_backward, 0, 1000, "the same both ways"))};
 }
 
 }  // namespace

@@ -20,7 +20,12 @@ struct Friction {
   double stribeck_speed =
       0;                ///< speed at which 1/e of `breakaway` is left [rad/s or m/s], > 0 with breakaway
   double backward = 1;  ///< dry friction of a motion backwards over that forwards
+  double viscous_backward = 1;  ///< the same of viscous friction
 
+  /// Viscous friction per unit of a speed.
+  [[nodiscard]] double damping(double speed) const {
+    return speed < 0 ? viscous * viscous_backward : viscous;
+  }
   /// Dry friction forwards at a speed.
   [[nodiscard]] double dry(double speed) const {
     if (breakaway <= 0) return coulomb;
@@ -40,7 +45,7 @@ struct DryResistance {
 /// the body within the step, up to its limit: it holds at standstill and never reverses a motion.
 [[nodiscard]] inline double friction_effort(const Friction& friction, double speed, double effort,
                                             double inertia, double h, DryResistance extra = {}) {
-  const double viscous = -friction.viscous * speed;
+  const double viscous = -friction.damping(speed) * speed;
   const double dry = friction.dry(speed);
   const double stopping = -(speed * inertia / h + effort + viscous);
   return viscous + std::clamp(stopping, -(dry + extra.forward), dry * friction.backward + extra.backward);
@@ -64,7 +69,7 @@ struct MotorLoad {
                                         double h) {
   const double forward = friction.dry(speed);
   const double backward = forward * friction.backward;
-  const double viscous = friction.viscous * speed;
+  const double viscous = friction.damping(speed) * speed;
   const bool slides = std::abs(speed) * inertia > (speed > 0 ? forward : backward) * h;
   if (slides) return viscous + (speed > 0 ? forward : -backward);
   return viscous + std::clamp(effort - viscous, -backward, forward);

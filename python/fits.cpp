@@ -33,7 +33,7 @@ py::dict replay_of(const std::string& name, const studies::Replayed& one) {
 py::list replays_of(const std::vector<studies::ReplaySeries>& series,
                     const std::vector<studies::Replayed>& replays) {
   py::list list;
-  for (std::size_t i = 0; i < replays.size(); ++i) list.append(replay_of(series[i].name, replays[i]));
+  for (std::size_t i = 0; i < replays.size(); ++i) list.append(replay_of(series[i].name(), replays[i]));
   return list;
 }
 
@@ -79,9 +79,9 @@ py::dict read_recording(const std::filesystem::path& file) {
   }
   py::dict channels;
   for (auto& series : recording.series)
-    channels[py::str(series.channel)] = py::make_tuple(
-        numbers(std::move(series.time_s)), numbers(std::move(series.value)), series.unit,
-        numbers(std::vector<std::int64_t>(series.clipped.begin(), series.clipped.end())));
+    channels[py::str(series.channel)] =
+        py::make_tuple(numbers(std::move(series.time_s)), numbers(std::move(series.value)), series.unit,
+                       numbers(std::vector<std::int64_t>(series.clipped.begin(), series.clipped.end())));
   return py::dict("file"_a = recording.file, "checksum"_a = recording.checksum, "rows"_a = recording.rows,
                   "channels"_a = channels, "notes"_a = texts_of(findings));
 }
@@ -93,11 +93,11 @@ void add_fits(py::module_& module) {
       "fit",
       [](const std::filesystem::path& scenario, const Settings& set,
          const std::vector<std::filesystem::path>& recordings, const std::vector<std::string>& vary,
-         const std::vector<std::filesystem::path>& tests, std::optional<double> limit, int jobs,
+         const std::vector<std::filesystem::path>& tests, std::optional<double> limit, bool closed, int jobs,
          const std::optional<std::filesystem::path>& out) {
-        return fit({scenario, recordings, tests, vary, limit, overrides_of(set), jobs}, out);
+        return fit({scenario, recordings, tests, vary, limit, overrides_of(set), closed, jobs}, out);
       },
-      "scenario"_a, "set"_a, "recordings"_a, "vary"_a, "tests"_a, "limit"_a, "jobs"_a, "out"_a);
+      "scenario"_a, "set"_a, "recordings"_a, "vary"_a, "tests"_a, "limit"_a, "closed"_a, "jobs"_a, "out"_a);
   module.def("read_recording", read_recording, "file"_a);
 }
 

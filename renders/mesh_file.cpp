@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "base/problem.hpp"
-#include "base/text.hpp"
 #include "renders/geometry.hpp"
 #include "renders/mesh.hpp"
 #include "renders/process.hpp"

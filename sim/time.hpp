@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <string>
 
 namespace drycut::sim {
 
@@ -13,5 +14,7 @@ inline constexpr Time second = 1'000'000'000;
 inline constexpr Time never = std::numeric_limits<Time>::max();
 
 inline constexpr double seconds(Time time) { return static_cast<double>(time) / 1e9; }
+/// "12.0004": in seconds, exact.
+std::string seconds_text(Time time);
 
 }  // namespace drycut::sim

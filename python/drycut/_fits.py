@@ -103,6 +103,7 @@ class Fit:
     passed          all values are known, and the cross test keeps its limit
     parameters      FitValue of each path
     torque_offset   FitValue: what the recorded torque has too much
+    inputs          FitValue of each recorded force or torque: the share of it that acts
     delays          of channels against the motion, positive: late [s]
     relative_error  torque that is left unexplained, over the recorded one, both rms
     cross_error     the same of the cross test; None without
@@ -119,6 +120,7 @@ class Fit:
     passed: bool
     parameters: dict[str, FitValue]
     torque_offset: FitValue
+    inputs: dict[str, FitValue]
     delays: dict[str, float]
     relative_error: float
     cross_error: float | None
@@ -165,7 +167,8 @@ def read_recording(file: Path) -> Recording:
 
 
 def fit(scenario: Path, *, recordings: Sequence[Path], vary: Sequence[str], test: Sequence[Path] = (),
-        limit: float | None = None, set: Settings | None = None, jobs: int = 1, out: Path | None = None) -> Fit:
+        limit: float | None = None, closed: bool = False, set: Settings | None = None, jobs: int = 1,
+        out: Path | None = None) -> Fit:
     """Learns values of a machine from recordings of its motor's torque and its motion.
 
     scenario    file (.yaml) of the machine, as it is known before
@@ -173,6 +176,7 @@ def fit(scenario: Path, *, recordings: Sequence[Path], vary: Sequence[str], test
     vary        paths of what is looked for, ["plants.axis.mass"]
     test        recordings that the values found must explain, too
     limit       of the torque that `test` may leave unexplained [%]
+    closed      the whole scenario runs, with drive's loops, controller and inputs
     set         overrides of the scenario
     jobs        replays at the same time, 1 to 256; the result is the same
     out         folder for fit.json, fitted.yaml and report.html; else nothing is left
@@ -180,8 +184,9 @@ def fit(scenario: Path, *, recordings: Sequence[Path], vary: Sequence[str], test
     The numbers are those of `drycut fit`. Raises BadInput with all problems.
     """
     check_folder(out)
-    got = _core.fit(scenario, settings(set), list(recordings), list(vary), list(test), limit, jobs, out)
+    got = _core.fit(scenario, settings(set), list(recordings), list(vary), list(test), limit, closed, jobs, out)
     got["parameters"] = {one["path"]: FitValue(**one) for one in got["parameters"]}
+    got["inputs"] = {one["path"]: FitValue(**one) for one in got["inputs"]}
     got["torque_offset"] = FitValue(**got["torque_offset"])
     for name in ("replays", "tests"):
         got[name] = [Replay(**one) for one in got[name]]

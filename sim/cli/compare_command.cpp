@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "base/output_file.hpp"
@@ -10,6 +11,7 @@
 #include "sim/cli/verb.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/studies/compare/alignment.hpp"
+#include "sim/studies/compare/measured_report.hpp"
 #include "sim/studies/compare/report.hpp"
 
 namespace drycut::sim::cli {
@@ -28,6 +30,14 @@ std::optional<double> from_of(const CompareOptions& options, Problems& problems)
   return seconds(*time);
 }
 
+void refuse_own_run(const CompareOptions& options, std::size_t run, Problems& problems) {
+  std::error_code ignored;
+  if (fs::equivalent(options.out, options.runs[run], ignored))
+    problems.push_back({"compare.runs"_code, "--out", 1, 1,
+                        fmt::format("{} is one of the runs", options.out.string()),
+                        "the comparison would replace its report; name another folder"});
+}
+
 std::vector<studies::ComparedRun> read_runs(const CompareOptions& options, Problems& problems) {
   if (options.runs.size() < 2) {
     problems.push_back({"compare.runs"_code, options.runs.empty() ? "compare" : options.runs[0].string(), 1,
@@ -36,11 +46,7 @@ std::vector<studies::ComparedRun> read_runs(const CompareOptions& options, Probl
   const auto labels = studies::labels_of(options.runs, problems);
   std::vector<studies::ComparedRun> runs;
   for (std::size_t i = 0; i < options.runs.size(); ++i) {
-    std::error_code ignored;
-    if (fs::equivalent(options.out, options.runs[i], ignored))
-      problems.push_back({"compare.runs"_code, "--out", 1, 1,
-                          fmt::format("{} is one of the runs", options.out.string()),
-                          "the comparison would replace its report; name another folder"});
+    refuse_own_run(options, i, problems);
     runs.push_back(studies::read_run(options.runs[i], problems));
     runs.back().label = labels[i];
   }
@@ -74,9 +80,61 @@ void judge(const CompareOptions& options, const studies::Comparison& comparison,
                        : "no difference beyond the tolerance but parameters in force";
 }
 
+bool is_measured(const fs::path& run) { return kind_of(run) == FileKind::recording; }
+
+/// What goes with runs only.
+void refuse_options_of_runs(const CompareOptions& options, Problems& problems) {
+  const auto refuse = [&](const char* option, const char* what, const char* remedy) {
+    problems.push_back({"scenario.does-not-go-together"_code, option, 1, 1, what, remedy});
+  };
+  if (options.runs.size() != 2 || std::ranges::count_if(options.runs, is_measured) != 1)
+    problems.push_back({"compare.runs"_code, options.runs[0].string(), 1, 1,
+                        "a recording is compared with one run",
+                        "name one recording and one folder of a run"});
+  if (options.fail_on_difference)
+    refuse("--fail-on-difference", "what was measured is never quite what is simulated",
+           "say how far apart they may be: --tolerance NAME=1mm");
+  if (!options.align.empty())
+    refuse("--align", "a recording is laid over the run by the clock", "leave --align out");
+}
+
+int compare_with_recording(const CompareOptions& options) {
+  Problems problems;
+  refuse_options_of_runs(options, problems);
+  for (std::size_t i = 0; i < options.runs.size(); ++i) refuse_own_run(options, i, problems);
+  const auto from = from_of(options, problems);
+  studies::MeasuredRun measured;
+  if (problems.empty()) {
+    const bool first = is_measured(options.runs[0]);
+    measured = studies::measure_run(options.runs[first ? 0 : 1], options.runs[first ? 1 : 0],
+                                    from.value_or(0), options.without, options.tolerances, problems);
+  }
+  std::optional<OutputFolder> folder;
+  if (problems.empty()) folder.emplace(options.out, "compare", studies::comparison_files, problems);
+  if (!problems.empty()) {
+    print_problems(problems);
+    return bad_input;
+  }
+  int status = all_passed;
+  try {
+    folder->begin();
+    status = studies::write_measured(measured, options.tolerances, *folder, options.pictures);
+  } catch (const std::exception& error) {
+    return print_failure(drycut::words_of(error));
+  }
+  fmt::print("{}", studies::residual_table(measured).text(0));
+  fmt::print("{}\n", studies::residual_sentence(measured));
+  for (const auto& channel : measured.only_measured)
+    fmt::print("  note {} was not recorded in the run\n", channel);
+  fmt::print("  {}\n", options.pictures ? "report: " + (options.out / "report.html").string()
+                                        : "results: " + options.out.string());
+  return status;
+}
+
 }  // namespace
 
 int compare_runs(const CompareOptions& options) {
+  if (std::ranges::any_of(options.runs, is_measured)) return compare_with_recording(options);
   Problems problems;
   auto runs = read_runs(options, problems);
   const auto from = from_of(options, problems);
@@ -119,7 +177,10 @@ namespace {
 void compare_options(CLI::App& compare, int& status) {
   const auto chosen = std::make_shared<CompareOptions>();
   auto& options = *chosen;
-  compare.add_option("runs", options.runs, "Folders that drycut run made, such as out/rotary_knife")
+  compare
+      .add_option("runs", options.runs,
+                  "Folders that drycut run made, such as out/rotary_knife; or a recording of the real "
+                  "machine and one folder")
       ->required();
   add_out(compare, options.out, "Directory for the results");
   compare.add_option(
@@ -151,13 +212,14 @@ Verb compare_verb() {
   return {
       "compare",
       "Compare runs: checks, cuts and other events, channels, parameters in force; report.html, plots and\n"
-      "comparison.csv.\n"
+      "comparison.csv. With a recording of the real machine: what the run leaves of each measured channel.\n"
       "Exit status: 0 compared, 1 different and --fail-on-difference or --tolerance, 2 bad input, 3 a "
       "result\n"
       "could not be written",
       {"drycut compare out/before out/after",
-       "drycut compare goldens/rotary_knife out/rotary_knife --tolerance length=0.01mm"},
-      {"runs", {FileKind::run_folder, FileKind::folder}},
+       "drycut compare goldens/rotary_knife out/rotary_knife --tolerance length=0.01mm",
+       "drycut compare scope.yaml out/line --tolerance axis.position=0.5mm"},
+      {"runs", {FileKind::run_folder, FileKind::folder, FileKind::recording}},
       compare_options};
 }
 

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "base/plain_text.hpp"
-#include "base/text.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/commands.hpp"
 #include "sim/cli/progress.hpp"

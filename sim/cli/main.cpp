@@ -11,11 +11,13 @@
 #include <string>
 
 #include "base/output_file.hpp"
-#include "sim/cli/commands.hpp"
 #include "sim/cli/program.hpp"
 #include "sim/interrupt.hpp"
+#include "sim/record/verdict.hpp"
 
 using namespace drycut::sim::cli;
+using drycut::sim::record::interrupted_status;
+using drycut::sim::record::simulation_failed;
 
 int main(int argc, char** argv) {
   // What cannot be told, because standard error takes nothing either, is still told by the status.

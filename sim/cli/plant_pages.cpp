@@ -8,8 +8,8 @@
 
 #include "plants/plant.hpp"
 #include "sim/cli/pages.hpp"
-#include "sim/loop/specimens.hpp"
 #include "sim/scenario/parameter_text.hpp"
+#include "sim/scenario/specimens.hpp"
 #include "sim/scenario/units.hpp"
 
 namespace drycut::sim::cli {
@@ -26,7 +26,7 @@ struct Offered {
 /// What the specimens of a type offer. A drive brings plugs, channels and faults of its own.
 class Specimens {
  public:
-  explicit Specimens(const plants::PlantType& type) : specimens_(loop::specimens_of(type)) {}
+  explicit Specimens(const plants::PlantType& type) : specimens_(scenario::specimens_of(type)) {}
 
   [[nodiscard]] plants::Parameters parameters() const {
     return specimens_.front()->definition().parameters();
@@ -50,7 +50,7 @@ class Specimens {
   }
 
  private:
-  std::vector<std::unique_ptr<loop::Specimen>> specimens_;
+  std::vector<std::unique_ptr<scenario::Specimen>> specimens_;
 };
 
 /// In text with the drives that have it: "runs forward (drive: inverter, contactors)".

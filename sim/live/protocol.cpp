@@ -8,7 +8,6 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "base/text.hpp"
 #include "sim/record/json.hpp"
 #include "sim/scenario/archive.hpp"
 

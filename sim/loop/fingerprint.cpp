@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/state_archive.hpp"
-#include "sim/file.hpp"
-#include "sim/loop/controller_loader.hpp"
+#include "sim/loop/files_read.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
 
@@ -20,9 +20,7 @@ void Fingerprint::add(std::string_view text) {
 
 void Fingerprint::add(const scenario::Scenario& scenario) {
   add(expand(scenario));
-  Problems ignored;  // what cannot be read is told by whoever runs it
-  for (const auto& name : controller_files(scenario))
-    add(read_file(scenario.file.parent_path() / name.text, ignored).value_or(""));
+  for (const auto& [name, bytes] : read_files_of(scenario)) add(bytes);
 }
 
 namespace {

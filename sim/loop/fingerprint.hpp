@@ -2,7 +2,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "sim/scenario/scenario.hpp"
+namespace drycut::sim::scenario {
+struct Scenario;
+}
 
 namespace drycut::sim::loop {
 

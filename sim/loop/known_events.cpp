@@ -9,8 +9,8 @@
 #include "base/text.hpp"
 #include "plants/plant.hpp"
 #include "sim/loop/names.hpp"
-#include "sim/loop/specimens.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "sim/scenario/specimens.hpp"
 
 namespace drycut::sim::loop {
 
@@ -73,7 +73,7 @@ Severity severity_of(const std::string& event) {
     std::map<std::string, Severity, std::less<>> found;
     for (const auto& row : event_rows) found.emplace(row.name, row.severity);
     for (const auto& type : plants::plant_types())
-      for (const auto& specimen : specimens_of(type))
+      for (const auto& specimen : scenario::specimens_of(type))
         for (const auto& kind : specimen->plant().event_types()) found.emplace(kind.name, kind.severity);
     return found;
   }();

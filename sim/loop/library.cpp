@@ -83,6 +83,8 @@ struct Simulation::Run : sim::record::Observer {
     if (!found)
       throw BadInput(fmt::format("nothing called {} can be set; {}", in_quotes(name),
                                  simulation.names().suggest_target(name)));
+    if (simulation.names().is_driven(name))
+      throw BadInput(fmt::format("{} is driven by a recording; leave it out of inputs", in_quotes(name)));
     return targets.emplace(name, std::move(*found)).first->second;
   }
 

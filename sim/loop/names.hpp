@@ -75,6 +75,10 @@ class Names {
   };
   void stand_in(const std::string& name, StandIn in_place);
 
+  /// From now on a recording drives it, and nothing else sets it.
+  void drive(const std::string& name) { driven_.insert(name); }
+  [[nodiscard]] bool is_driven(const std::string& name) const { return driven_.contains(name); }
+
   /// Remedies for an unknown name: the nearest one, or what there is.
   [[nodiscard]] std::string suggest_reading(const std::string& name) const;
   [[nodiscard]] std::string suggest_target(const std::string& name) const;
@@ -108,6 +112,7 @@ class Names {
   std::map<std::pair<std::string, std::string>, std::size_t> fault_index_;  ///< component and fault
   std::vector<std::pair<std::string, plants::Fault>> of_wires_;
   std::set<std::string> plant_names_;
+  std::set<std::string> driven_;
   mutable std::size_t suggestions_ = 0;  ///< made so far
 };
 

@@ -18,6 +18,7 @@
 #include "sim/loop/disturbances.hpp"
 #include "sim/loop/drive_judge.hpp"
 #include "sim/loop/hunting.hpp"
+#include "sim/loop/inputs.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/loop/odd_parameters.hpp"
 #include "sim/loop/opcua_names.hpp"
@@ -67,6 +68,8 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
   watch_ = std::make_unique<Watch>(*names_);
   if (!scenario.disturbances.empty())
     disturbances_ = std::make_unique<Disturbances>(scenario, *names_, problems);
+  if (!scenario.inputs.empty())
+    inputs_ = std::make_unique<Inputs>(scenario, named_, *names_, problems, notes_of_setup_);
   timeline_ = std::make_unique<Timeline>(scenario, *names_, controller_.get(), problems);
   for (const auto& [name, plant] : named_) {
     for (const auto& type : plant->event_types()) {
@@ -241,6 +244,7 @@ void Simulation::follow_cams(CamJudge judge, bool keeps_samples) {
 // The order of everything inside a step, once and whole (design: time).
 void Simulation::step() {
   timeline_->run(time_, recording_);
+  if (inputs_) inputs_->run(time_);
   if (disturbances_) disturbances_->run(time_);
 
   if (controller_) {
@@ -366,6 +370,11 @@ std::vector<Finding> Simulation::notes() const {
   }
   if (const auto strobe = worst_strobe(strobes()))
     notes.emplace_back("pictures.strobe"_code, text_of(*strobe, scenario_.pictures, scenario_.scene.step));
+  if (inputs_ && time_ >= inputs_->end().at && time_ < scenario_.scene.duration)
+    notes.emplace_back("input.over"_code,
+                       fmt::format("the run ended at {} s, before its scene.duration: there the recording "
+                                   "ends that drives {}",
+                                   record::seconds_text(time_), inputs_->end().of));
   if (time_ > 0)  // it ran
     for (auto& undone : timeline_->left_undone(time_)) notes.push_back(std::move(undone));
   for (auto& told : contradicting_parameters()) notes.push_back(std::move(told));
@@ -403,7 +412,8 @@ void Simulation::run_to_end(const std::function<void(Time)>& progress) {
   int countdown = steps_between_reports;
   const auto next_after = [&](Time now) { return keep_ ? (now / keep_every_ + 1) * keep_every_ : never; };
   Time next_state = next_after(time_);
-  while (time_ < scenario_.scene.duration && failure_.empty()) {
+  const Time end = inputs_ ? std::min(scenario_.scene.duration, inputs_->end().at) : scenario_.scene.duration;
+  while (time_ < end && failure_.empty()) {
     step();
     if (time_ >= next_state) {
       keep_();
@@ -651,6 +661,7 @@ void Simulation::visit(StateArchive& archive) {
   if (controller_) STATE(archive, *controller_);
   STATE(archive, bus_);
   if (disturbances_) STATE(archive, *disturbances_);
+  if (inputs_) STATE(archive, *inputs_);
   STATE(archive, *timeline_, *watch_, *checks_, *drives_, *unasked_, *remarks_, causes_);
   if (directions_) STATE(archive, *directions_, *hunting_, *standing_, *whereabouts_);
   STATE(archive, recording_);

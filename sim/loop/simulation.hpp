@@ -24,6 +24,7 @@ struct Captions;
 class Checks;
 class Directions;
 class Disturbances;
+class Inputs;
 class DriveJudge;
 class Hunting;
 struct KnownEvent;
@@ -201,6 +202,7 @@ class Simulation {
   std::unique_ptr<Names> names_;
   std::unique_ptr<Watch> watch_;
   std::unique_ptr<Disturbances> disturbances_;  ///< nullptr without any
+  std::unique_ptr<Inputs> inputs_;              ///< likewise
   std::unique_ptr<Timeline> timeline_;
   std::unique_ptr<Checks> checks_;
   std::unique_ptr<DriveJudge> drives_;

@@ -7,8 +7,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "sim/file.hpp"
-#include "sim/loop/controller_loader.hpp"
+#include "sim/loop/files_read.hpp"
 #include "sim/loop/fingerprint.hpp"
 
 namespace drycut::sim::loop {
@@ -59,10 +58,7 @@ StateOrigin::StateOrigin(const scenario::Scenario& scenario)
     parts.emplace_back(section.substr(0, section.find(':')), digest(section));
     begin = end;
   }
-  Problems ignored;  // it was read
-  for (const auto& name : controller_files(scenario))
-    parts.emplace_back(name.text,
-                       digest(read_file(scenario.file.parent_path() / name.text, ignored).value_or("")));
+  for (const auto& [name, bytes] : read_files_of(scenario)) parts.emplace_back(name, digest(bytes));
 }
 
 void StateOrigin::visit(StateArchive& archive) {

@@ -57,6 +57,12 @@ class Binder {
 
   std::optional<Target> target(const scenario::Text& name) {
     auto found = names_.target(name.text);
+    if (found && names_.is_driven(name.text)) {
+      problem("input.driven-twice"_code, name.place,
+              fmt::format("{} is driven by a recording: what is set here would not last", name.text),
+              "leave it out here, or under inputs");
+      return {};
+    }
     if (found) return found;
     const auto fixed = fixed_parameter(scenario_, name.text);
     if (fixed)

@@ -7,7 +7,6 @@
 
 #include "base/text.hpp"
 #include "sim/loop/program_words.hpp"
-#include "sim/record/recording.hpp"
 
 namespace drycut::sim::loop {
 
@@ -72,7 +71,7 @@ Waits waits_of(devices::Controller& controller, Time now) {
     if (wait.ended) {
       found.texts.emplace_back("loop.program-ended"_code,
                                fmt::format("{} came to its end, line {}, at {} s", wait.program, wait.line,
-                                           record::seconds_text(wait.since_ns)));
+                                           seconds_text(wait.since_ns)));
       continue;
     }
     if (!wait.lacks.empty()) {
@@ -85,9 +84,9 @@ Waits waits_of(devices::Controller& controller, Time now) {
         "loop.program-waits"_code,
         fmt::format(
             "{} stands at line {}, {}{}, since {} s{}", wait.program, wait.line, code_of(*program, wait.line),
-            values_of(*program, wait.line, controller), record::seconds_text(wait.since_ns),
+            values_of(*program, wait.line, controller), seconds_text(wait.since_ns),
             wait.until_ns > 0
-                ? fmt::format(", until its timer elapses at {} s", record::seconds_text(wait.until_ns))
+                ? fmt::format(", until its timer elapses at {} s", seconds_text(wait.until_ns))
                 : ""));
     if (program->language == "st") break;  // what comes behind has to wait for it
   }
@@ -110,7 +109,7 @@ std::vector<Finding> ended_at_once(const scenario::Scenario& scenario, devices::
     if (!wire.empty())
       found.emplace_back("loop.program-ended-early"_code,
                          fmt::format("{} came to its end at {} s, line {}, and looks after {} no more",
-                                     wait.program, record::seconds_text(wait.since_ns), wait.line, wire));
+                                     wait.program, seconds_text(wait.since_ns), wait.line, wire));
   }
   return found;
 }

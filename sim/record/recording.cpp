@@ -30,13 +30,6 @@ const Recording::Column* Recording::column(const std::string& name) const {
   return found == index_.end() ? nullptr : &columns_[found->second];
 }
 
-std::string seconds_text(Time time) {
-  auto text = fmt::format("{}.{:09}", time / second, time % second);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text += '0';
-  return text;
-}
-
 double without_noise(double number) { return std::abs(number) < 1e-9 ? 0.0 : number; }
 
 std::string values_text(const RecordedEvent& event, int digits) {

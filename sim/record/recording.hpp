@@ -273,8 +273,7 @@ class Recording {
   bool kept_ = true;
 };
 
-/// "12.0004": a time in seconds, exact.
-std::string seconds_text(Time time);
+using sim::seconds_text;
 /// A number to print: 0 where it is nothing but rounding noise, closer to 0 than 1e-9 in its unit.
 double without_noise(double number);
 /// `name=number unit; ...` or the event's text, as events.csv and the report show it.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/text.hpp"
 
 namespace drycut::sim::recordings {
 

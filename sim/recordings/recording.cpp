@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <optional>
+#include <sstream>
+#include <utility>
 
 #include "base/text.hpp"
 #include "sim/file.hpp"
@@ -35,9 +38,13 @@ class Loader {
       : recording_(recording), problems_(problems), findings_(findings) {}
 
   Recording load() {
-    Recording made{recording_.export_path(), 0, 0, {}};
     std::ifstream stream = open();
-    if (!stream) return made;
+    if (!stream) return {recording_.export_path(), 0, 0, {}};
+    return load(stream);
+  }
+
+  Recording load(std::istream& stream) {
+    Recording made{recording_.export_path(), 0, 0, {}};
     const auto beginning = first_lines_of(stream);
     std::optional<HeadFault> fault;
     head_ = head_of(beginning, {{recording_.separator, recording_.decimal}, recording_.format}, fault);
@@ -296,8 +303,35 @@ class Loader {
 
 }  // namespace
 
+Series without_clipped(const Series& series) {
+  Series usable{series.channel, series.unit};
+  auto clipped = series.clipped.begin();
+  for (std::size_t i = 0; i < series.value.size(); ++i) {
+    if (clipped != series.clipped.end() && *clipped == i) {
+      ++clipped;
+      continue;
+    }
+    usable.time_s.push_back(series.time_s[i]);
+    usable.value.push_back(series.value[i]);
+  }
+  return usable;
+}
+
+double Recording::begin() const {
+  double first = std::numeric_limits<double>::infinity();
+  for (const auto& one : series)
+    if (!one.time_s.empty()) first = std::min(first, one.time_s.front());
+  return first;
+}
+
 Recording load(const RecordingFile& recording, Problems& problems, std::vector<Finding>& findings) {
   return Loader(recording, problems, findings).load();
+}
+
+Recording load(const RecordingFile& recording, std::string bytes, Problems& problems,
+               std::vector<Finding>& findings) {
+  std::istringstream stream(std::move(bytes));
+  return Loader(recording, problems, findings).load(stream);
 }
 
 }  // namespace drycut::sim::recordings

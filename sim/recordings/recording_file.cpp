@@ -11,9 +11,9 @@
 #include "base/text.hpp"
 #include "plants/plant.hpp"
 #include "sim/file.hpp"
-#include "sim/loop/specimens.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
+#include "sim/scenario/specimens.hpp"
 #include "sim/scenario/units.hpp"
 
 namespace drycut::sim::recordings {
@@ -240,7 +240,7 @@ std::vector<std::string> units_of_channel(const std::string& name) {
   static const auto known = [] {
     std::map<std::string, std::set<std::string>, std::less<>> all;
     for (const auto& type : plants::plant_types())
-      for (const auto& specimen : loop::specimens_of(type))
+      for (const auto& specimen : scenario::specimens_of(type))
         for (const auto& channel : specimen->plant().channels()) all[channel.name].insert(channel.unit);
     return all;
   }();

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "base/embedded.hpp"
-#include "base/text.hpp"
 #include "renders/html.hpp"
 #include "sim/file.hpp"
 #include "sim/report/report.hpp"

@@ -138,6 +138,7 @@ void visit(Archive& archive, Wire& wire);
 void visit(Archive& archive, InputFilter& filter);
 void visit(Archive& archive, Stimulus& stimulus);
 void visit(Archive& archive, Disturbance& disturbance);
+void visit(Archive& archive, RecordedInput& input);
 void visit(Archive& archive, CheckRequest& check);
 void visit(Archive& archive, OpcuaSection& opcua);
 void visit(Archive& archive, OpcuaSection::Cutter& cutter);

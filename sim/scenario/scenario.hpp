@@ -201,6 +201,18 @@ struct Disturbance {
   std::optional<std::uint64_t> seed;  ///< absent: from the scene's seed and the entry's place in the list
 };
 
+/// inputs: {web.speed: {recording: scope.yaml, channel: web.speed}}
+/// What a recorded channel drives, from its recording's first sample on.
+struct RecordedInput {
+  enum class Between { linear, hold };
+  enum class AfterEnd { hold, stop };
+  Text name;       ///< what the timeline can set, or an analogue or digital plug of a plant that has no wire
+  Text recording;  ///< its YAML (sim/recordings/recording_file.hpp), relative to the scenario
+  Text channel;    ///< of the recording
+  Between interpolate = Between::linear;
+  AfterEnd after_end = AfterEnd::hold;
+};
+
 struct RecordSection {
   enum class Format { csv, hdf5 };
   Format format = Format::csv;
@@ -425,6 +437,7 @@ struct Scenario {
   PanelSection panel;
   std::vector<Stimulus> timeline;
   std::vector<Disturbance> disturbances;
+  std::vector<RecordedInput> inputs;
   RecordSection record;
   DrivesSection drives;
   std::vector<CheckRequest> checks;

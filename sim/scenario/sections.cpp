@@ -391,6 +391,11 @@ void visit(Archive& archive, Scenario& scenario) {
   archive.list({"disturbances", "what is added to settings, live parameters and faults of plants",
                 !scenario.disturbances.empty()},
                scenario.disturbances);
+  archive.names({"inputs",
+                 "what a recording of the real machine drives: what the timeline can set, or a plug without "
+                 "a wire",
+                 !scenario.inputs.empty()},
+                scenario.inputs, &RecordedInput::name);
   archive.section({"record", "what trace.csv or trace.h5 holds"},
                   [&](Archive& inner) { visit_record(inner, scenario.record); });
   archive.section({"drives", "how the drives are judged by their ratings"},
@@ -424,8 +429,8 @@ void visit(Archive& archive, Scenario& scenario) {
 
 const std::vector<std::string>& section_names() {
   static const std::vector<std::string> names = {
-      "extends",  "variables",    "scene",  "plants", "fitted", "controller", "wiring",   "filters", "panel",
-      "timeline", "disturbances", "record", "drives", "checks", "faults",     "pictures", "opcua"};
+      "extends",  "variables",    "scene",  "plants", "fitted", "controller", "wiring", "filters",  "panel",
+      "timeline", "disturbances", "inputs", "record", "drives", "checks",     "faults", "pictures", "opcua"};
   return names;
 }
 

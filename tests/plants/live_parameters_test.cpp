@@ -69,9 +69,9 @@ TEST(LiveParameters, AreFrictionInertiaStiffnessGapAndMass) {
               testing::UnorderedElementsAre(
                   "counter.inertia", "counter.friction.coulomb", "counter.friction.viscous", "drum_inertia",
                   "drum_friction.coulomb", "drum_friction.viscous", "drum_friction.breakaway",
-                  "drum_friction.backward", "motor_friction.coulomb", "motor_friction.viscous",
-                  "motor_friction.breakaway", "motor_friction.backward", "gear.stiffness", "gear.damping",
-                  "gear.backlash"));
+                  "drum_friction.backward", "drum_friction.viscous_backward", "motor_friction.coulomb",
+                  "motor_friction.viscous", "motor_friction.breakaway", "motor_friction.backward",
+                  "motor_friction.viscous_backward", "gear.stiffness", "gear.damping", "gear.backlash"));
   EXPECT_THAT(names(WebDefinition()),
               testing::UnorderedElementsAre("mass", "drive.acceleration", "drive.stiffness", "drive.damping",
                                             "drive.max_force"));

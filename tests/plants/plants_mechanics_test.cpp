@@ -162,6 +162,14 @@ TEST(Friction, ViscousSpeedDecaysExponentially) {
   EXPECT_NEAR(shaft.speed / (10 * std::exp(-rate)), 1, rate * rate * 1e-4);
 }
 
+TEST(Friction, BackwardsItIsAnother) {
+  const Friction friction{.coulomb = 2, .viscous = 3, .backward = 0.5, .viscous_backward = 1.5};
+  EXPECT_DOUBLE_EQ(friction_effort(friction, 10, 0, 1, 1e-4), -3 * 10 - 2);
+  EXPECT_DOUBLE_EQ(friction_effort(friction, -10, 0, 1, 1e-4), 3 * 1.5 * 10 + 2 * 0.5);
+  EXPECT_DOUBLE_EQ(friction_in(friction, 10, 0, 1, 1e-4), 3 * 10 + 2);
+  EXPECT_DOUBLE_EQ(friction_in(friction, -10, 0, 1, 1e-4), -3 * 1.5 * 10 - 2 * 0.5);
+}
+
 TEST(Friction, BreakawayIsAboveCoulombAtStandstillOnly) {
   const Friction friction{.coulomb = 2, .breakaway = 1, .stribeck_speed = 0.1};
   EXPECT_DOUBLE_EQ(friction_effort(friction, 0, 2.9, 1, 1e-4), -2.9);

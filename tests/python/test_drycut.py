@@ -625,6 +625,7 @@ class FitTest(unittest.TestCase):
         said = json.loads(pathlib.Path(self.theirs, "fit.json").read_text(encoding="utf-8"))
         self.assertEqual([vars(one) for one in self.fit.parameters.values()], said.pop("parameters"))
         self.assertEqual(vars(self.fit.torque_offset), said.pop("torque_offset"))
+        self.assertEqual([vars(one) for one in self.fit.inputs.values()], said.pop("inputs"))
         for name, value in said.items():
             self.assertEqual(getattr(self.fit, name), value, name)
         for name in ("fit.json", "fitted.yaml", "report.html", "verdict.json"):

@@ -18,10 +18,10 @@ import tempfile
 SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
 
 
-def call(drycut, *arguments):
-    # From where no scene lies below: who resumes a run tells its scenario by the whole path, as `check` does.
-    done = subprocess.run([drycut, *map(str, arguments)], capture_output=True, text=True, errors="replace",
-                          cwd=tempfile.gettempdir())
+def call(drycut, place, *arguments):
+    # From a folder of its own, below which no scene lies: who resumes a run tells its scenario by the whole path, as
+    # `check` does.
+    done = subprocess.run([drycut, *map(str, arguments)], capture_output=True, text=True, errors="replace", cwd=place)
     if done.returncode not in (0, 1, 3):
         raise RuntimeError(f"status {done.returncode} of {' '.join(map(str, arguments))}: {done.stdout}{done.stderr}")
     return done
@@ -47,9 +47,9 @@ def check(drycut, scene, options):
         place = pathlib.Path(place)
         try:
             begun = ["run", file, "--set", f"record.format={options.format}", *run]
-            call(drycut, *begun, "--out", place / "alone")
+            call(drycut, place, *begun, "--out", place / "alone")
             wanted = content(place / "alone" / name)
-            whole = call(drycut, *begun, "--states", "37 ms", "--keep", "100000", "--out", place / "whole")
+            whole = call(drycut, place, *begun, "--states", "37 ms", "--keep", "100000", "--out", place / "whole")
             if content(place / "whole" / name) != wanted:
                 wrong.append(f"{scene}: to keep states changes the run")
             states = sorted((place / "whole" / name / "states").glob("*.state"))
@@ -63,7 +63,7 @@ def check(drycut, scene, options):
                 for later in states:
                     if later.name > state.name:
                         (again / name / "states" / later.name).unlink()
-                call(drycut, "run", "--resume", again / name, *run)
+                call(drycut, place, "run", "--resume", again / name, *run)
                 got = content(again / name)
                 other = sorted(key for key in wanted.keys() | got.keys() if wanted.get(key) != got.get(key))
                 if other:

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "plants/plant.hpp"
-#include "sim/loop/specimens.hpp"
+#include "sim/scenario/specimens.hpp"
 
 namespace drycut::sim::loop {
 namespace {
@@ -23,7 +23,7 @@ TEST(KnownEvents, AFileThatDoesNotSayHowBadAnEventIsIsReadAsItsPlantHasIt) {
 TEST(KnownEvents, OneNameIsAsBadEverywhere) {
   for (const auto& event : events_of_every_run()) EXPECT_EQ(severity_of(event.name), event.severity);
   for (const auto& type : plants::plant_types())
-    for (const auto& specimen : specimens_of(type))
+    for (const auto& specimen : scenario::specimens_of(type))
       for (const auto& kind : specimen->plant().event_types())
         EXPECT_EQ(severity_of(std::string(kind.name)), kind.severity) << type.name << "." << kind.name;
 }

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "base/state_archive.hpp"
-#include "base/text.hpp"
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/code.hpp"
 #include "devices/plcopen/st/references.hpp"

@@ -39,11 +39,6 @@ class RowCopy {
   std::vector<double> numbers_;
 };
 
-bool is_named(const std::string& wanted, const std::string& channel) {
-  if (!wanted.ends_with('*')) return wanted == channel;
-  return channel.starts_with(std::string_view(wanted).substr(0, wanted.size() - 1));
-}
-
 /// When the stretches of a run begin; the first at 0.
 std::vector<Time> stretches_of(const ComparedRun& run, const std::string& mark) {
   const auto& recording = run.recording;
@@ -92,6 +87,11 @@ record::Recording laid_over(const ComparedRun& first, const std::vector<Time>& f
 }
 
 }  // namespace
+
+bool is_named(const std::string& wanted, const std::string& channel) {
+  if (!wanted.ends_with('*')) return wanted == channel;
+  return channel.starts_with(std::string_view(wanted).substr(0, wanted.size() - 1));
+}
 
 void leave_out(std::vector<ComparedRun>& runs, const std::vector<std::string>& names, Problems& problems) {
   std::vector<std::string> known;

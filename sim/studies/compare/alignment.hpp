@@ -6,6 +6,9 @@
 
 namespace drycut::sim::studies {
 
+/// Whether `wanted` is the channel, or as "Axis.*" what it begins with.
+bool is_named(const std::string& wanted, const std::string& channel);
+
 /// Leaves channels out of all runs: "gbTour", or "Axis.*" for all that begin so. A name that no run has is a
 /// problem.
 void leave_out(std::vector<ComparedRun>& runs, const std::vector<std::string>& names, Problems& problems);

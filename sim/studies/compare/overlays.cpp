@@ -126,12 +126,6 @@ std::string part_of(const std::string& channel) {
   return dot == std::string::npos ? "controller" : channel.substr(0, dot);
 }
 
-std::string file_name(const std::string& name) {
-  std::string text;
-  for (const char c : name) text += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-  return text;
-}
-
 OverlayRequest& request_of(std::vector<OverlayRequest>& requests, const std::string& name,
                            std::string title) {
   const auto found = std::find_if(requests.begin(), requests.end(), [&](const OverlayRequest& request) {
@@ -160,7 +154,7 @@ const Tolerance* common_tolerance(const std::vector<ComparedRun>& runs, const re
 void add_event(std::vector<OverlayRequest>& requests, const Comparison& comparison,
                const record::RecordedEvent& event) {
   const auto name = event.source + "." + event.event;
-  auto& request = request_of(requests, "events_" + file_name(name),
+  auto& request = request_of(requests, "events_" + as_file_name(name),
                              fmt::format("Every {} of {}, side by side", event.event, event.source));
   request.behind_start = name;
   request.from = comparison.from;
@@ -181,6 +175,12 @@ void add_event(std::vector<OverlayRequest>& requests, const Comparison& comparis
 
 }  // namespace
 
+std::string as_file_name(const std::string& name) {
+  std::string text;
+  for (const char c : name) text += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return text;
+}
+
 std::vector<renders::Plot> overlay(const std::vector<ComparedRun>& runs,
                                    const std::vector<OverlayRequest>& requests) {
   std::vector<renders::Plot> plots;
@@ -199,7 +199,7 @@ std::vector<OverlayRequest> usual_overlays(const Comparison& comparison) {
   }
   for (const auto& row : comparison.channels) {
     const auto part = part_of(row.name);
-    auto& plot = request_of(requests, "overlay_" + file_name(part), "Channels of " + part).plot;
+    auto& plot = request_of(requests, "overlay_" + as_file_name(part), "Channels of " + part).plot;
     plot.panels.emplace_back().title = row.name;
     plot.panels.back().channels.push_back({row.name, {}});
   }

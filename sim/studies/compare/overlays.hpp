@@ -1,4 +1,5 @@
 #pragma once
+#include <string>
 #include <vector>
 
 #include "renders/plots.hpp"
@@ -16,6 +17,9 @@ struct OverlayRequest {
   std::string behind_start = {};    ///< "knife.cut", "" = not asked
   std::optional<double> from = {};  ///< [s] in place of the runs' own start-up
 };
+
+/// A name of channels as a part of a file's: "Axis_position".
+std::string as_file_name(const std::string& name);
 
 /// The plots with the curves of every run that has what they show, named by the run.
 std::vector<renders::Plot> overlay(const std::vector<ComparedRun>& runs,

@@ -8,11 +8,11 @@
 #include <map>
 #include <mutex>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "base/text.hpp"
-#include "sim/file.hpp"
-#include "sim/loop/controller_loader.hpp"
+#include "sim/loop/files_read.hpp"
 #include "sim/loop/fingerprint.hpp"
 #include "sim/record/json.hpp"
 #include "sim/studies/kept_lines.hpp"
@@ -88,8 +88,7 @@ std::string fingerprint(const FaultQuestion& question) {
 void read_files(const FaultQuestion& question) {
   Problems ignored;
   const auto scenario = scenario::read_scenario_text(question.text, question.file, question.set, ignored);
-  for (const auto& name : loop::controller_files(scenario))
-    read_file(scenario.file.parent_path() / name.text, ignored);
+  std::ignore = loop::read_files_of(scenario);
 }
 
 constexpr int most_parts = 5;  ///< of a fault's moments that are listed

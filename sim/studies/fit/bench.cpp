@@ -23,8 +23,12 @@ bool shows_at_standstill(const FitPath& path) {
          path.row.ends_with(".stribeck_speed");
 }
 
-void begin(scenario::Scenario& machine, const ReplaySeries& series) {
+void begin(scenario::Scenario& machine, const ReplaySeries& series, bool closed) {
   if (series.start) set_quantity(machine, {series.plant, "start"}, *series.start);
+  if (closed) {
+    for (auto& input : machine.inputs) input.recording.text = std::filesystem::absolute(series.file).string();
+    return;
+  }
   // No end stop is in the way of what moved.
   constexpr double far = 1e3;
   set_quantity(machine, {series.plant, "travel_min"}, -far);
@@ -42,8 +46,8 @@ FitBench::FitBench(const FitQuestion& question, const std::vector<ReplaySeries>&
   collect_unknowns();
   auto machine = take_machine();
   for (const auto& series : recordings) {
-    begin(*machine, series);
-    about_.push_back(measure_answer(*machine, series));
+    begin(*machine, series, question.closed);
+    about_.push_back(question.closed ? Plausible{} : measure_answer(*machine, series));
   }
   give_back(std::move(machine));
 }
@@ -77,10 +81,18 @@ void FitBench::collect_unknowns() {
     unknowns_.push_back({0, -longest, longest});
     load_delays_.push_back(one.load ? std::optional(unknowns_.size()) : std::nullopt);
     if (one.load) unknowns_.push_back({0, -longest, longest});
+    auto& shares = shares_.emplace_back();
+    for (std::size_t i = 0; i < one.inputs.size(); ++i) {
+      constexpr double most_share = 3;
+      shares.push_back(one.is_effort(i) ? std::optional(unknowns_.size()) : std::nullopt);
+      if (shares.back()) unknowns_.push_back({1, -most_share, most_share});
+    }
   }
 }
 
-void FitBench::fix(std::size_t number, double value) { unknowns_[number] = {value, value, value}; }
+FitUnknown FitBench::fix(std::size_t number, double value) {
+  return std::exchange(unknowns_[number], {value, value, value});
+}
 
 std::vector<double> FitBench::start() const {
   std::vector<double> start;
@@ -93,6 +105,7 @@ ReplayErrors FitBench::errors_of(const std::vector<double>& set, std::size_t rec
   errors.torque_offset = set[torque_offset()];
   errors.torque_delay = set[torque_delays_[recording]];
   if (const auto load = load_delays_[recording]) errors.load_delay = set[*load];
+  for (const auto& share : shares_[recording]) errors.shares.push_back(share ? set[*share] : 1);
   for (std::size_t i = 0; i < values(); ++i)
     if (question_.vary[i].row == torque_constant) errors.torque_scale = set[i] / unknowns_[i].start;
   return errors;
@@ -111,6 +124,10 @@ std::unique_ptr<scenario::Scenario> FitBench::take_machine() {
   auto machine = std::make_unique<scenario::Scenario>(
       scenario::read_scenario_text(question_.text, question_.file, question_.set, problems));
   if (!problems.empty()) throw std::runtime_error(problems.front().what);
+  if (question_.closed) {
+    strip_onlookers(*machine);
+    return machine;
+  }
   strip(*machine);
   if (!make_source_of_torque(*machine, question_.plant))
     throw std::runtime_error(fmt::format("{} has no servo", question_.plant));
@@ -127,10 +144,11 @@ std::optional<Replayed> FitBench::replay_one(const std::vector<double>& set, std
                                              double cutoff) {
   auto machine = take_machine();
   for (std::size_t i = 0; i < values(); ++i) set_quantity(*machine, question_.vary[i], set[i]);
-  begin(*machine, recordings_[recording]);
+  begin(*machine, recordings_[recording], question_.closed);
   std::optional<Replayed> found;
   if (is_sound(*machine))
-    found = studies::replay(*machine, recordings_[recording], {cutoff, about_[recording], standstill_},
+    found = studies::replay(*machine, recordings_[recording],
+                            {cutoff, about_[recording], standstill_, question_.closed},
                             errors_of(set, recording));
   give_back(std::move(machine));
   return found;

@@ -13,17 +13,8 @@
 
 namespace drycut::sim::studies {
 
-/// A machine and what is looked for in it.
-struct FitQuestion {
-  std::filesystem::path file;
-  std::string text;  ///< of the scenario
-  std::vector<scenario::Override> set;
-  std::string plant;          ///< whose motor was recorded
-  std::vector<FitPath> vary;  ///< its values that are looked for
-};
-
 /// Replays sets of values in machines of its own, on several threads. A set has the question's values [SI],
-/// then the offset of the torque, then the delays of each recording.
+/// then the offset of the torque, then delays and shares of each recording.
 class FitBench {
  public:
   /// Both outlive it. `standstill`: see ReplaySetup; it is so where what is looked for shows there. Throws
@@ -33,8 +24,9 @@ class FitBench {
   [[nodiscard]] bool standstill() const { return standstill_; }
 
   [[nodiscard]] const std::vector<FitUnknown>& unknowns() const { return unknowns_; }
-  /// Holds a number of the sets at a value.
-  void fix(std::size_t number, double value);
+  /// Holds a number of the sets at a value; returns what it was.
+  FitUnknown fix(std::size_t number, double value);
+  void release(std::size_t number, const FitUnknown& unknown) { unknowns_[number] = unknown; }
   /// The scenario's values, and no error of the recordings.
   [[nodiscard]] std::vector<double> start() const;
   /// How many numbers of a set are the question's.
@@ -44,6 +36,10 @@ class FitBench {
   [[nodiscard]] std::size_t torque_delay(std::size_t recording) const { return torque_delays_[recording]; }
   [[nodiscard]] std::optional<std::size_t> load_delay(std::size_t recording) const {
     return load_delays_[recording];
+  }
+  /// The share of an input of a recording that acts, where that is looked for: of a force or torque.
+  [[nodiscard]] std::optional<std::size_t> share(std::size_t recording, std::size_t input) const {
+    return shares_[recording][input];
   }
   [[nodiscard]] const FitQuestion& question() const { return question_; }
   [[nodiscard]] const std::vector<ReplaySeries>& recordings() const { return recordings_; }
@@ -70,6 +66,7 @@ class FitBench {
   std::vector<std::string> units_;
   std::vector<std::size_t> torque_delays_;
   std::vector<std::optional<std::size_t>> load_delays_;
+  std::vector<std::vector<std::optional<std::size_t>>> shares_;
   std::vector<Plausible> about_;  ///< of each recording
   std::mutex mutex_;
   std::vector<std::unique_ptr<scenario::Scenario>> free_;

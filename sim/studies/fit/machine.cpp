@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
+
+#include "sim/loop/simulation.hpp"
+#include "sim/studies/bode/loop.hpp"
 
 namespace drycut::sim::studies {
 
@@ -41,18 +45,23 @@ bool set_quantity(scenario::Scenario& scenario, const FitPath& path, double si) 
   return true;
 }
 
+void strip_onlookers(scenario::Scenario& scenario) {
+  scenario.record.channels.clear();
+  scenario.checks.clear();
+  scenario.pictures = {};
+  scenario.opcua = {};
+  scenario.faults = {};
+}
+
 void strip(scenario::Scenario& scenario) {
+  strip_onlookers(scenario);
   scenario.controller.reset();
   scenario.wiring.clear();
   scenario.filters.clear();
   scenario.panel = {};
   scenario.timeline.clear();
   scenario.disturbances.clear();
-  scenario.record.channels.clear();
-  scenario.checks.clear();
-  scenario.pictures = {};
-  scenario.opcua = {};
-  scenario.faults = {};
+  scenario.inputs.clear();
 }
 
 namespace {
@@ -103,10 +112,12 @@ void make_rigid(scenario::Scenario& scenario, const std::string& plant) {
   constexpr double softest = 1;
   // Of an oscillation of 0.6 rad a step, a twelfth of the step's stiffness is a twentieth of critical.
   const double damped = seconds(scenario.scene.step) / 6;
-  for (double k = stiffest; k > softest; k *= softer) {
+  double k = stiffest;
+  while (k > softest) {
     set_quantity(scenario, stiffness, k);
     set_quantity(scenario, {plant, "gear.damping"}, k * damped);
     if (is_sound(scenario)) return;
+    k *= softer;
   }
 }
 
@@ -118,6 +129,15 @@ bool is_sound(const scenario::Scenario& scenario) {
              objection.parameter.find("friction.") != std::string::npos;
     });
   });
+}
+
+std::unique_ptr<loop::Simulation> machine_of(const scenario::Scenario& scenario, bool closed) {
+  Problems problems;
+  auto simulation = std::make_unique<loop::Simulation>(scenario, problems);
+  if (!problems.empty()) throw std::runtime_error(problems.front().what);
+  simulation->keep_nothing();
+  if (!closed) disarm(*simulation);
+  return simulation;
 }
 
 }  // namespace drycut::sim::studies

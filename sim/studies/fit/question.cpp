@@ -80,6 +80,13 @@ void doubt_commanded(const recordings::RecordingFile& yaml, const std::string& p
   }
 }
 
+/// Nothing makes a closed loop follow the recording: where its motion is another one counts.
+void follow_motion(ReplaySeries& series) {
+  series.load = series.motion;
+  series.load->channel = series.channel;
+  series.load_kind = series.kind;
+}
+
 bool looks_for_springs(const FitQuestion& question) {
   return std::ranges::any_of(question.vary, [](const FitPath& path) {
     return path.row.starts_with("gear.") || path.row.starts_with("nut.");
@@ -96,9 +103,10 @@ std::vector<ReplaySeries> read_recordings(const std::vector<std::filesystem::pat
       doubt_commanded(yaml, plan.question.plant, plan.findings);
       auto recording = recordings::load(yaml, own, plan.findings);
       if (own.empty()) {
-        if (auto series = replay_series(recording, file, plan.question.plant, machine, own)) {
+        if (auto series = replay_series(recording, file, plan.question, machine, own)) {
           // Where the load is tells about what is between motor and load, and of nothing else.
           if (!looks_for_springs(plan.question)) series->load.reset();
+          if (plan.question.closed && !series->load) follow_motion(*series);
           all.push_back(std::move(*series));
         }
         if (are_sources) plan.sources.push_back({file, recording.file, recording.checksum, recording.rows});
@@ -111,31 +119,40 @@ std::vector<ReplaySeries> read_recordings(const std::vector<std::filesystem::pat
 
 }  // namespace
 
+std::optional<scenario::Scenario> read_question(FitPlan& plan, Problems& problems) {
+  auto& question = plan.question;
+  question.file = plan.request.scenario;
+  question.set = plan.request.set;
+  question.closed = plan.request.closed;
+  const auto text = read_file(question.file, problems);
+  if (!text) return {};
+  question.text = *text;
+  auto machine = scenario::read_scenario_text(question.text, question.file, question.set, problems);
+  if (!problems.empty()) return {};
+  read_vary(plan, machine, problems);
+  if (question.plant.empty()) return {};
+  if (question.closed) {
+    strip_onlookers(machine);
+    return machine;
+  }
+  strip(machine);
+  if (make_source_of_torque(machine, question.plant)) return machine;
+  problems.push_back(option_problem("fit.no-servo"_code, "--vary",
+                                    fmt::format("{} has no servo", question.plant),
+                                    "a plant with a servo, whose torque was recorded"));
+  return {};
+}
+
 FitPlan plan_fit(const FitRequest& request, Problems& problems) {
   FitPlan plan;
   plan.request = request;
-  auto& question = plan.question;
-  question.file = request.scenario;
-  question.set = request.set;
-  const auto text = read_file(request.scenario, problems);
-  if (!text) return plan;
-  question.text = *text;
-  auto machine = scenario::read_scenario_text(question.text, question.file, question.set, problems);
-  if (!problems.empty()) return plan;
-  read_vary(plan, machine, problems);
-  if (request.recordings.empty())
+  auto machine = read_question(plan, problems);
+  if (request.recordings.empty() && !plan.question.text.empty())
     problems.push_back(option_problem("fit.no-recording"_code, "--recording", "no recording is named",
-                                      "its YAML; drycut import writes one"));
-  if (question.plant.empty()) return plan;
-  strip(machine);
-  if (!make_source_of_torque(machine, question.plant)) {
-    problems.push_back(option_problem("fit.no-servo"_code, "--vary",
-                                      fmt::format("{} has no servo", question.plant),
-                                      "a plant with a servo, whose torque was recorded"));
-    return plan;
-  }
-  plan.recordings = read_recordings(request.recordings, plan, machine, true, problems);
-  plan.tests = read_recordings(request.tests, plan, machine, false, problems);
+                                      "its YAML; drycut import writes one, --plan proposes a move"));
+  if (!machine) return plan;
+  plan.recordings = read_recordings(request.recordings, plan, *machine, true, problems);
+  plan.tests = read_recordings(request.tests, plan, *machine, false, problems);
   return plan;
 }
 

@@ -18,6 +18,7 @@ struct FitRequest {
   std::vector<std::string> vary;                  ///< "plants.axis.mass"
   std::optional<double> limit;                    ///< of the torque that a cross test leaves unexplained [%]
   std::vector<scenario::Override> set;
+  bool closed = false;  ///< the scenario runs with its loops and inputs
   int jobs = 1;
 };
 
@@ -37,6 +38,10 @@ struct FitPlan {
   std::vector<FitSource> sources;  ///< of the recordings
   std::vector<Finding> findings;   ///< what is doubtful in the recordings
 };
+
+/// Reads the scenario, finds what is looked for in it, and makes it a source of torque; no value if there is
+/// something wrong.
+std::optional<scenario::Scenario> read_question(FitPlan& plan, Problems& problems);
 
 /// Reads scenario and recordings, and finds what is looked for in them. What is wrong goes to `problems`, all
 /// of it; the plan is not to be used then.

@@ -134,7 +134,7 @@ std::vector<renders::Plot> plots_of(const FitPlan& plan, const FitFound& found) 
                        const std::string& kind, const std::string& words) {
     for (std::size_t i = 0; i < std::min(all.size(), series.size()); ++i) {
       const auto name = fmt::format("{}_{}", kind, i + 1);
-      plots.push_back(over_time(name, fmt::format("{}: {}", series[i].name, words), all[i]));
+      plots.push_back(over_time(name, fmt::format("{}: {}", series[i].name(), words), all[i]));
       if (kind != "fit") continue;
       plots.push_back(over_speed(name + "_speed", all[i]));
       plots.push_back(over_position(name + "_position", all[i]));

@@ -62,6 +62,21 @@ std::vector<double> resampled(const recordings::Series& series, double from_s, d
   return at;
 }
 
+std::vector<double> straight(const recordings::Series& series, double from_s, double step_s,
+                             std::size_t count) {
+  std::vector<double> at(count, series.value.front());
+  if (series.time_s.size() == 1) return at;
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double t =
+        std::clamp(from_s + static_cast<double>(k) * step_s, series.time_s.front(), series.time_s.back());
+    while (i + 2 < series.time_s.size() && series.time_s[i + 1] < t) ++i;
+    const double share = (t - series.time_s[i]) / (series.time_s[i + 1] - series.time_s[i]);
+    at[k] = std::lerp(series.value[i], series.value[i + 1], share);
+  }
+  return at;
+}
+
 double sampling_of(const recordings::Series& series) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < series.time_s.size(); ++i)

@@ -10,6 +10,9 @@ namespace drycut::sim::studies {
 /// its ends.
 std::vector<double> resampled(const recordings::Series& series, double from_s, double step_s,
                               std::size_t count);
+/// The same by straight lines: for what jumps.
+std::vector<double> straight(const recordings::Series& series, double from_s, double step_s,
+                             std::size_t count);
 /// Usual time between two samples [s].
 double sampling_of(const recordings::Series& series);
 

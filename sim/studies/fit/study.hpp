@@ -72,6 +72,7 @@ struct FitFound {
   int format = 1;
   std::vector<FittedValue> parameters;
   FittedValue torque_offset;             ///< what the recorded torque has too much
+  std::vector<FittedValue> inputs;       ///< share of a recorded force or torque that acts, by its channel
   std::map<std::string, double> delays;  ///< of channels against the motion, positive: late [s]
   double relative_error = 0;             ///< torque that is left unexplained, over the recorded one, both rms
   std::optional<double> cross_error;     ///< the same of the recordings of the cross test, the largest
@@ -98,6 +99,7 @@ struct FitFound {
     archive("format", self.format);
     archive("parameters", self.parameters);
     archive("torque_offset", self.torque_offset);
+    archive("inputs", self.inputs);
     archive("delays", self.delays);
     archive("relative_error", self.relative_error);
     archive("cross_error", self.cross_error);

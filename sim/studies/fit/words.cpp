@@ -11,10 +11,6 @@
 
 namespace drycut::sim::studies {
 
-namespace {
-
-enum class Shows { in_acceleration, in_direction, in_speed, at_low_speed, in_bending, in_place, in_all };
-
 Shows shows(const FitPath& path) {
   const auto ends = [&](std::string_view end) { return path.row.ends_with(end); };
   if (ends("mass") || ends("inertia")) return Shows::in_acceleration;
@@ -26,6 +22,8 @@ Shows shows(const FitPath& path) {
   if (path.row.starts_with("unbalance") || path.row == "inclination") return Shows::in_place;
   return Shows::in_all;
 }
+
+namespace {
 
 const char* move_for(Shows what) {
   switch (what) {
@@ -55,6 +53,7 @@ std::string why_not_known(const FitPath& path, const std::vector<FitPath>& with,
   if (with.empty() && !with_offset)
     return fmt::format("hardly anything in the recording depends on it; record {}", move);
   std::vector<std::string> names;
+  names.reserve(with.size() + 1);
   for (const auto& other : with) names.push_back(other.row);
   if (with_offset) names.emplace_back("the offset of the torque");
   const bool one_way = std::ranges::all_of(recordings, &ReplaySeries::one_way);
@@ -99,14 +98,14 @@ std::vector<Finding> doubts_of(const std::vector<ReplaySeries>& recordings) {
             "fit.coarse"_code,
             fmt::format("{}: {} has {:.0f} steps from its least to its largest value; record it "
                         "with a finer resolution",
-                        one.name, series->channel, steps),
+                        one.name(), series->channel, steps),
             Finding::Role::warning);
       if (!series->clipped.empty())
         found.emplace_back(
             "fit.clipped"_code,
             fmt::format("{}: {} samples of {} are at the limit of what could be recorded; what "
                         "happened around them was left out",
-                        one.name, series->clipped.size(), series->channel),
+                        one.name(), series->clipped.size(), series->channel),
             Finding::Role::warning);
     }
     constexpr double almost = 0.14;
@@ -115,10 +114,10 @@ std::vector<Finding> doubts_of(const std::vector<ReplaySeries>& recordings) {
           "fit.slow"_code,
           fmt::format("{}: the torque changes as fast as it was sampled, every {:.3g} ms; record "
                       "at a higher rate, or move more gently",
-                      one.name, one.sampling * 1000),
+                      one.name(), one.sampling * 1000),
           Finding::Role::warning);
     for (const auto& channel : one.unused)
-      found.emplace_back("fit.unused-channel"_code, fmt::format("{}: {} is not used", one.name, channel));
+      found.emplace_back("fit.unused-channel"_code, fmt::format("{}: {} is not used", one.name(), channel));
   }
   return found;
 }

@@ -8,6 +8,10 @@
 
 namespace drycut::sim::studies {
 
+/// In what of a motion a value shows.
+enum class Shows { in_acceleration, in_direction, in_speed, at_low_speed, in_bending, in_place, in_all };
+Shows shows(const FitPath& path);
+
 /// Why a value is not known, and the move to record that would tell: `with` are those that it is joined with,
 /// and the offset of the torque. A path without a plant is that offset itself.
 std::string why_not_known(const FitPath& path, const std::vector<FitPath>& with, bool with_offset,

@@ -57,7 +57,7 @@ std::vector<std::string> known_paths(const scenario::Scenario& scenario) {
 bool begins_with_section(const TunedParameter& parameter, const scenario::Scenario& scenario,
                          Problems& problems) {
   constexpr std::array sections = {"variables", "scene",        "plants", "controller", "wiring", "filters",
-                                   "timeline",  "disturbances", "record", "drives",     "checks"};
+                                   "timeline",  "disturbances", "inputs", "record",     "drives", "checks"};
   const auto first = parameter.path.substr(0, parameter.path.find('.'));
   if (std::find(sections.begin(), sections.end(), first) != sections.end()) return true;
   problems.push_back({"study.unknown-name"_code, parameter.option, 1, 1,

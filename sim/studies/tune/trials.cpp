@@ -9,10 +9,10 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <tuple>
 
 #include "base/text.hpp"
-#include "sim/file.hpp"
-#include "sim/loop/controller_loader.hpp"
+#include "sim/loop/files_read.hpp"
 #include "sim/loop/fingerprint.hpp"
 #include "sim/studies/override_json.hpp"
 #include "sim/studies/recorded_csv.hpp"
@@ -90,8 +90,7 @@ void read_cases(const Study& study) {
   for (const auto& entry : study.cases) {
     Problems ignored;
     const auto scenario = scenario::read_scenario_text(entry.text, entry.file, study.set, ignored);
-    for (const auto& name : loop::controller_files(scenario))
-      read_file(scenario.file.parent_path() / name.text, ignored);
+    std::ignore = loop::read_files_of(scenario);
   }
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/text.hpp"
 #include "sim/interrupt.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/parallel.hpp"

@@ -181,7 +181,8 @@ struct Servo {
 };
 
 /// Friction of a guided body; the plant's is plants/motor_load.hpp. Sliding it resists with
-///   viscous v + sign(v) (coulomb + breakaway exp(-(v / stribeck)^2)), backwards times `backward`,
+///   viscous v + sign(v) (coulomb + breakaway exp(-(v / stribeck)^2)), backwards times `viscous_backward`,
+///   `backward`,
 /// plus what else resists a motion that way; sticking it holds the body against all that is below that.
 struct Dry {
   Friction data;
@@ -196,7 +197,8 @@ struct Dry {
                                     const DryResistance& more) const {
     if (way == 0) return 0;
     const double dry = way > 0 ? level(speed) + more.forward : -level(speed) * data.backward - more.backward;
-    return (effort - data.viscous * speed - dry) / inertia;
+    const double viscous = way > 0 ? data.viscous : data.viscous * data.viscous_backward;
+    return (effort - viscous * speed - dry) / inertia;
   }
   [[nodiscard]] double watch(double speed, double effort, const DryResistance& more) const {
     if (way != 0) return -way * speed;

@@ -114,6 +114,7 @@ LinearAxisDefinition axis_with_a_nut() {
   axis.data.nut_stiffness = 4e6;
   axis.data.nut_damping = 2e3;
   axis.data.guide_friction.backward = 0.6;
+  axis.data.guide_friction.viscous_backward = 1.4;
   axis.data.guide_coefficient = 0.1;
   return axis;
 }
@@ -137,6 +138,7 @@ TEST(Witness, LinearAxisWithANut) {
        {"no losses of the screw", [](ScrewLaw& l) { l.of_screw = {}; }},
        {"no losses of the gear", [](ScrewLaw& l) { l.efficiency = {}; }},
        {"the same friction both ways", [](ScrewLaw& l) { l.guide_friction.data.backward = 1; }},
+       {"the same viscous friction", [](ScrewLaw& l) { l.guide_friction.data.viscous_backward = 1; }},
        {"no friction by weight", [](ScrewLaw& l) { l.guide_friction.data.coulomb = 30; }}});
 }
 

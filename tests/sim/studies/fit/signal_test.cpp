@@ -36,10 +36,20 @@ TEST(FitSignal, ResamplingGoesThroughTheSamplesAndKeepsAParabola) {
   EXPECT_EQ(resampled(series, 2, 0.1, 1).front(), series.value.back());
 }
 
+TEST(FitSignal, StraightLinesJumpAndGoNoFurtherThanTheSamples) {
+  recordings::Series steps{"axis.force", "N", {0, 0.999, 1, 2}, {0, 0, 100, 100}};
+  const auto fine = straight(steps, -0.5, 0.25, 12);
+  EXPECT_EQ(fine, (std::vector<double>{0, 0, 0, 0, 0, 0, 100, 100, 100, 100, 100, 100}));
+  EXPECT_NEAR(straight(steps, 0.9995, 1, 1).front(), 50, 1e-9);
+  const recordings::Series one{"axis.force", "N", {1}, {7}};
+  EXPECT_EQ(straight(one, 0, 1, 3), (std::vector<double>{7, 7, 7}));
+}
+
 TEST(FitSignal, TheFilterHasHalfThePowerAtItsCutoffAndNoPhase) {
   constexpr double step = 1e-3;
   constexpr double cutoff = 20;
   std::vector<double> wave;
+  wave.reserve(2000);
   for (int i = 0; i < 2000; ++i) wave.push_back(std::sin(2 * std::numbers::pi * cutoff * i * step));
   const auto smooth = smoothed(wave, step, cutoff);
   double largest = 0;

@@ -72,19 +72,30 @@ inline std::vector<Leg> shaken() {
   return legs;
 }
 
+/// The reference that a move follows [V].
+inline double volts_at(const std::vector<Leg>& legs, double time) {
+  double from = 0;
+  for (const auto& leg : legs) {
+    if (time <= leg.until) return leg.from + (leg.to - leg.from) * (time - from) / (leg.until - from);
+    from = leg.until;
+  }
+  return legs.back().to;
+}
+
 /// What scenes/recordings/ holds: the axis as a drive's scope would export it, torque in % of 9.5 N m, a
 /// second move for a cross test, and one that goes forwards only.
 inline std::map<std::string, std::string> shipped_recordings() {
   constexpr double rated = 9.5;
   constexpr double percent = 100;
-  const auto text_of = [&](std::vector<Leg> legs, std::uint64_t seed) {
-    const auto recording = HiddenAxis(belt_axis(), std::move(legs)).recorded({}, seed);
+  const auto text_of = [&](const std::vector<Leg>& legs, std::uint64_t seed) {
+    const auto recording = HiddenAxis(belt_axis(), legs).recorded({}, seed);
     const auto& torque = recording.series[0];
     const auto& counts = recording.series[1];
-    std::string text = "Time;ActTorque;ActPosition\nms;%;inc\n";
+    std::string text = "Time;ActTorque;ActPosition;Reference\nms;%;inc;V\n";
     for (std::size_t i = 0; i < torque.value.size(); ++i)
-      text += fmt::format("{:.0f};{:.1f};{:.0f}\n", torque.time_s[i] * 1000,
-                          torque.value[i] / rated * percent, counts.value[i]);
+      text +=
+          fmt::format("{:.0f};{:.1f};{:.0f};{:.3f}\n", torque.time_s[i] * 1000,
+                      torque.value[i] / rated * percent, counts.value[i], volts_at(legs, torque.time_s[i]));
     return text;
   };
   std::vector<Leg> other;
@@ -97,7 +108,8 @@ inline std::map<std::string, std::string> shipped_recordings() {
     other.push_back({until, volts, volts});
     now = volts;
   }
-  return {{"belt_axis_move.csv", text_of(both_ways(), 11)}, {"belt_axis_one_way.csv", text_of(one_way(), 13)},
+  return {{"belt_axis_move.csv", text_of(both_ways(), 11)},
+          {"belt_axis_one_way.csv", text_of(one_way(), 13)},
           {"belt_axis_other_move.csv", text_of(other, 12)}};
 }
 

@@ -37,7 +37,7 @@ ReplaySeries series_of(const recordings::Recording& recording, const FitQuestion
   auto machine = scenario::read_scenario_text(question.text, question.file, question.set, problems);
   strip(machine);
   EXPECT_TRUE(make_source_of_torque(machine, question.plant));
-  const auto series = replay_series(recording, "hidden.yaml", question.plant, machine, problems);
+  const auto series = replay_series(recording, "hidden.yaml", question, machine, problems);
   EXPECT_TRUE(problems.empty());
   return *series;
 }
@@ -149,6 +149,54 @@ TEST(FitWitness, FrictionByDirectionWhereItIsAskedFor) {
   const auto found = fit(question, {series_of(recording, question)}, 2);
   expect_known(found, "carriage_friction.coulomb", 120, 0.03);
   expect_known(found, "carriage_friction.backward", 140, 0.03);
+}
+
+TEST(FitWitness, ViscousFrictionByDirectionAndTheLadderThatAsksForIt) {
+  auto data = belt_axis();
+  data.guide_friction.viscous_backward = 1.5;
+  const HiddenAxis axis(data, both_ways());
+  const auto recording = axis.recorded({}, 1);
+  auto question = asking(rigid);
+  const auto plain = fit(question, {series_of(recording, question)}, 2);
+  EXPECT_TRUE(std::ranges::any_of(plain.ladder, [](const FitRung& rung) {
+    return rung.is_worth_it() && rung.paths.front().ends_with(".viscous_backward");
+  }));
+  auto paths = rigid;
+  paths.emplace_back("carriage_friction.viscous_backward");
+  question = asking(paths);
+  const auto found = fit(question, {series_of(recording, question)}, 2);
+  expect_known(found, "mass", 37, 0.01);
+  expect_known(found, "carriage_friction.coulomb", 120, 0.03);
+  expect_known(found, "carriage_friction.viscous", 80, 0.02);
+  expect_known(found, "carriage_friction.viscous_backward", 150, 0.02);
+}
+
+// A recorded force that acted counts; one that is in the torque already, or acted nowhere, does not.
+TEST(FitWitness, ARecordedForceCountsByWhatOfItActs) {
+  auto legs = both_ways();
+  recordings::Series force{"axis.force", "N"};
+  for (std::size_t i = 0; i < legs.size(); ++i) legs[i].force = i % 4 == 1 ? -150 : 0;
+  double from = 0;
+  for (const auto& leg : legs) {
+    for (const double at : {from, leg.until - 1e-6}) {
+      force.time_s.push_back(at);
+      force.value.push_back(leg.force);
+    }
+    from = leg.until;
+  }
+  const auto question = asking(rigid);
+  for (const bool acts : {true, false}) {
+    SCOPED_TRACE(acts ? "it acted" : "it did not");
+    auto recording = HiddenAxis(belt_axis(), acts ? legs : both_ways()).recorded({}, 1);
+    recording.series.push_back(force);
+    const auto found = fit(question, {series_of(recording, question)}, 2);
+    expect_known(found, "mass", 37, 0.01);
+    expect_known(found, "carriage_friction.coulomb", 120, 0.03);
+    expect_known(found, "carriage_friction.viscous", 80, 0.02);
+    ASSERT_EQ(found.inputs.size(), 1U);
+    EXPECT_NEAR(found.inputs[0].value.value(), acts ? 1 : 0, 0.02);
+    EXPECT_EQ(std::ranges::find(found.codes, "fit.disturbance") != found.codes.end(), !acts);
+  }
 }
 
 TEST(FitWitness, TheLadderSaysWhatStictionWouldExplain) {

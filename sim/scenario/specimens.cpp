@@ -1,8 +1,8 @@
-#include "sim/loop/specimens.hpp"
+#include "sim/scenario/specimens.hpp"
 
 #include <algorithm>
 
-namespace drycut::sim::loop {
+namespace drycut::sim::scenario {
 
 Specimen::Specimen(const plants::PlantType& type, std::string drive) : drive_(std::move(drive)) {
   build(type, "it", drive_);
@@ -39,4 +39,4 @@ std::vector<std::unique_ptr<Specimen>> specimens_of(const plants::PlantType& typ
   return specimens;
 }
 
-}  // namespace drycut::sim::loop
+}  // namespace drycut::sim::scenario

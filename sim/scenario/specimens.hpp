@@ -8,7 +8,7 @@
 #include "plants/plant.hpp"
 #include "plants/world.hpp"
 
-namespace drycut::sim::loop {
+namespace drycut::sim::scenario {
 
 /// A plant with its defaults, built, to ask it what it offers; plants that it needs are built too.
 class Specimen {
@@ -32,4 +32,4 @@ class Specimen {
 /// One for every choice of the parameter `drive`, the default one first; one if there is no such choice.
 std::vector<std::unique_ptr<Specimen>> specimens_of(const plants::PlantType& type);
 
-}  // namespace drycut::sim::loop
+}  // namespace drycut::sim::scenario
