@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -16,6 +17,36 @@ namespace drycut {
 struct Place {
   int line = 0;
   int column = 0;
+};
+
+/// A file of a program.
+struct SourceFile {
+  std::string name;
+  std::string text;
+};
+
+/// The lines of all files of a program, counted on from each file to the next: one number says file and line.
+class SourceLines {
+ public:
+  SourceLines() = default;
+  explicit SourceLines(std::span<const SourceFile> files);
+
+  struct At {
+    std::size_t file = 0;
+    int line = 0;  ///< in that file, from 1
+  };
+  [[nodiscard]] At at(int line) const;
+  /// The number of a file's first line.
+  [[nodiscard]] int first(std::size_t file) const { return begins_.at(file); }
+  /// Of all files.
+  [[nodiscard]] int count() const { return end_ - 1; }
+  /// "line 5", or where that is another file than that of line `seen_from`, "line 5 of knife.st".
+  [[nodiscard]] std::string told(int line, int seen_from) const;
+
+ private:
+  std::vector<int> begins_;
+  std::vector<std::string> names_;
+  int end_ = 1;
 };
 
 /// The text in small letters, ASCII only: names and keywords of every controller are the same in any case.

@@ -114,7 +114,10 @@ UseFiles::UseFiles(FileSet& files) : before_(std::exchange(files_in_use, &files)
 UseFiles::~UseFiles() { files_in_use = before_; }
 
 bool file_exists(const fs::path& file) { return fetch(file, largest_input).state != FileSet::State::missing; }
-bool folder_exists(const fs::path& folder) { return fetch(folder, 0).state == FileSet::State::folder; }
+// A set keeps what it found: a file that is asked for here is read next.
+bool folder_exists(const fs::path& folder) {
+  return fetch(folder, largest_input).state == FileSet::State::folder;
+}
 
 std::vector<fs::path> files_in(const fs::path& folder, std::string_view extension) {
   auto files = files_in_use != nullptr ? files_in_use->files_in(folder) : from_folder(folder);

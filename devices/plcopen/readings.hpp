@@ -76,6 +76,28 @@ inline constexpr std::array readings = {
         "overrun",
         "IEC 61131-3 lets tasks interrupt each other or not"},
     ManualReading{
+        "ST",
+        "a WSTRING holds UTF-8 and counts its characters; functions of texts give 255 characters, or as "
+        "many as the longest text that is declared",
+        "IEC 61131-3 leaves the length to the implementer"},
+    ManualReading{
+        "ST",
+        "CV of CTU, CTD and CTUD is INT (0..32767) and goes into INT, UINT and WORD; PV takes all of them",
+        "IEC 61131-3 has INT, CODESYS WORD"},
+    ManualReading{
+        "ST",
+        "a reference knows what it is of: seen as another type it has the bytes, the lowest first; outside "
+        "of it, or as what holds no plain data, it stops the program",
+        "IEC 61131-3 has no other type behind a reference, CODESYS has addresses"},
+    ManualReading{
+        "ST",
+        "a REAL that overflows, a conversion that does not fit and a text that is cut off are told as the "
+        "event value_cut, once for each place of the program; an infinite REAL is recorded as the largest "
+        "number, one that is no number as 0",
+        "IEC 61131-3 calls them errors"},
+    ManualReading{"ST", "a block may assign its own inputs; it is told as a note",
+                  "IEC 61131-3 forbids it, CODESYS takes it"},
+    ManualReading{
         "ST", "a function that EN leaves out gives the initial value of its type, a block keeps its outputs",
         "IEC 61131-3 leaves it to the implementer"},
     ManualReading{

@@ -54,9 +54,7 @@ class Checker {
           take_doubts(devices::lx3vp::il::compile(*text, file.string(), problems_));
         return;
       case FileKind::structured_text:
-        if (const auto text = read_file(file, problems_))
-          devices::plcopen::st::compile(*text, file.string(), problems_);
-        return;
+        return take_structured_text(file);
       case FileKind::registers:
         if (const auto text = read_file(file, problems_))
           devices::lx3vp::read_register_values(*text, file.string(), ',', problems_);
@@ -76,6 +74,9 @@ class Checker {
     }
   }
 
+  /// When all files are known.
+  void finish() { check_structured_text(); }
+
   [[nodiscard]] const Problems& problems() const { return problems_; }
   /// What is no fault and worth knowing.
   [[nodiscard]] const std::vector<Finding>& notes() const { return notes_; }
@@ -83,6 +84,26 @@ class Checker {
   [[nodiscard]] const std::vector<Finding>& warnings() const { return warnings_; }
 
  private:
+  /// A file, or all of a folder.
+  void take_structured_text(const std::filesystem::path& file) {
+    const auto files = folder_exists(file) ? files_in(file, ".st") : std::vector{file};
+    for (const auto& one : files)
+      if (auto text = read_file(one, problems_)) structured_text_.push_back({one.string(), std::move(*text)});
+  }
+
+  /// They are one program, unless each of them is one.
+  void check_structured_text() {
+    namespace st = devices::plcopen::st;
+    if (structured_text_.empty()) return;
+    constexpr st::CompileOptions library{.library = true};
+    Problems together;
+    st::compile(structured_text_, library, together);
+    Problems alone;
+    for (const auto& [name, text] : structured_text_) st::compile(text, name, alone, library);
+    if (!together.empty() && !alone.empty())
+      problems_.insert(problems_.end(), together.begin(), together.end());
+  }
+
   void take_doubts(const devices::lx3vp::il::IlProgram& program) {
     for (auto& doubt : devices::lx3vp::il::doubts(program)) notes_.push_back(std::move(doubt));
   }
@@ -174,6 +195,7 @@ class Checker {
   Problems problems_;
   std::vector<scenario::Override> overrides_;
   std::optional<qmove::Configuration> configuration_;
+  std::vector<SourceFile> structured_text_;
   bool configuration_given_ = false;
 };
 
@@ -182,6 +204,7 @@ class Checker {
 int check_files(const CheckOptions& options) {
   Checker checker(options);
   for (const auto& file : options.files) checker.check(file);
+  checker.finish();
   auto problems = checker.problems();
   check_annotate(options.annotate, problems);
   print_problems(problems);
@@ -205,11 +228,12 @@ namespace {
 void check_options(CLI::App& check, int& status) {
   const auto chosen = std::make_shared<CheckOptions>();
   auto& options = *chosen;
-  auto* files =
-      check.add_option("files", options.files,
-                       "Scenarios and recordings (.yaml), configurations (.cnf), QCL modules (.mod) after "
-                       "their .cnf, instruction "
-                       "lists (.il), Structured Text (.st), cam tables (.csv, .tab) and registers (.csv)");
+  auto* files = check.add_option(
+      "files", options.files,
+      "Scenarios and recordings (.yaml), configurations (.cnf), QCL modules (.mod) after "
+      "their .cnf, instruction "
+      "lists (.il), Structured Text (.st, or a folder of it), cam tables (.csv, .tab) and registers "
+      "(.csv)");
   check.add_flag("--expand", options.expand, "Print scenarios with every default in force");
   add_set(check, options.set, "scenarios");
   add_annotate(check, options.annotate);

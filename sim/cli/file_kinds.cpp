@@ -79,7 +79,8 @@ const KindRow* row_of(FileKind kind) {
 FileKind kind_of_folder(const fs::path& folder) {
   std::error_code ignored;
   if (fs::exists(folder / live::session_file, ignored)) return FileKind::session_folder;
-  return fs::exists(folder / report::checks_file, ignored) ? FileKind::run_folder : FileKind::folder;
+  if (fs::exists(folder / report::checks_file, ignored)) return FileKind::run_folder;
+  return files_in(folder, ".st").empty() ? FileKind::folder : FileKind::structured_text;
 }
 
 FileKind kind_of_yaml(const fs::path& file, std::string_view text) {

@@ -52,7 +52,9 @@ struct Lx3vpSection final : scenario::ControllerSection {
 
 /// controller: plcopen: ...
 struct PlcopenSection final : scenario::ControllerSection {
-  scenario::Text program;             ///< path of the Structured Text, relative to the scenario
+  /// Files and folders of Structured Text, relative to the scenario: what stands there.
+  std::vector<scenario::Text> program;
+  std::vector<scenario::Text> program_files;  ///< the same, of a folder its *.st by name
   Time cycle = 2 * millisecond;       ///< of the axes
   Time task_cycle = 2 * millisecond;  ///< of the program, a whole multiple of it; `cycle` if not given
   Time statement_time = 0;            ///< what a statement takes
@@ -106,6 +108,7 @@ struct PlcopenSection final : scenario::ControllerSection {
                                             std::vector<Finding>* notes) const override;
 
  private:
+  void find_program_files(scenario::Findings& findings);
   void visit_modbus(scenario::Archive& archive);
   void fill_modbus(devices::plcopen::PlcopenController& controller, const scenario::Scenario& scenario,
                    Problems& problems) const;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "base/text.hpp"
 #include "devices/plcopen/controller/controller.hpp"
@@ -8,6 +9,7 @@
 #include "sim/controllers/kinds.hpp"
 #include "sim/controllers/plcopen_scales.hpp"
 #include "sim/controllers/program_files.hpp"
+#include "sim/file.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/format.hpp"
@@ -116,8 +118,8 @@ std::vector<plcopen::McCamTable> load_tables(const PlcopenSection& section,
 }
 
 /// What the program names must be there: axes and tables.
-void check_names(const plcopen::st::Program& program, const std::string& file,
-                 const plcopen::PlcopenConfiguration& configuration, Problems& problems) {
+void check_names(const plcopen::st::Program& program, const plcopen::PlcopenConfiguration& configuration,
+                 Problems& problems) {
   const auto check = [&](const std::vector<plcopen::st::Program::Name>& wanted,
                          const std::vector<std::string>& there, bool any_case, std::string_view what,
                          std::string_view section) {
@@ -127,11 +129,12 @@ void check_names(const plcopen::st::Program& program, const std::string& file,
       };
       if (std::any_of(there.begin(), there.end(), same)) continue;
       const auto near = nearest(name.name, there);
-      problems.push_back({"controller.unknown-name"_code, file, name.line, name.column,
-                          fmt::format("the scenario has no {} '{}'", what, name.name),
-                          near.empty() ? fmt::format("add it to controller.plcopen.{}", section)
-                                       : fmt::format("did you mean {}? Else add it to controller.plcopen.{}",
-                                                     near, section)});
+      problems.push_back(program.problem_at(
+          "controller.unknown-name"_code, name.line, name.column,
+          fmt::format("the scenario has no {} '{}'", what, name.name),
+          near.empty()
+              ? fmt::format("add it to controller.plcopen.{}", section)
+              : fmt::format("did you mean {}? Else add it to controller.plcopen.{}", near, section)));
     }
   };
   std::vector<std::string> axes;
@@ -144,24 +147,24 @@ void check_names(const plcopen::st::Program& program, const std::string& file,
 
 /// The scenario's tasks name programs that are there; several programs need tasks, the CONFIGURATION's own
 /// fit the axes' cycle.
-void check_tasks(const plcopen::st::Program& program, const std::string& file, const PlcopenSection& section,
+void check_tasks(const plcopen::st::Program& program, const PlcopenSection& section,
                  const scenario::Scenario& scenario, Problems& problems) {
   for (const auto& task : program.tasks())
     if (task.interval_ns % section.cycle != 0)
-      problems.push_back(
-          {"scenario.time-grid"_code, file, task.line, task.column,
-           fmt::format("the task {} runs every {}, not a whole multiple of the cycle {}", task.name,
-                       scenario::format_time(task.interval_ns), scenario::format_time(section.cycle)),
-           "change INTERVAL or controller.plcopen.cycle"});
+      problems.push_back(program.problem_at(
+          "scenario.time-grid"_code, task.line, task.column,
+          fmt::format("the task {} runs every {}, not a whole multiple of the cycle {}", task.name,
+                      scenario::format_time(task.interval_ns), scenario::format_time(section.cycle)),
+          "change INTERVAL or controller.plcopen.cycle"));
   if (section.tasks.empty()) {
     if (program.has_configuration() || program.instances().size() < 2) return;
     const auto& second = program.instances()[1];
-    problems.push_back(
-        {"controller.twice"_code, file, second.line, second.column,
-         fmt::format("a second PROGRAM, '{}', without a task", second.name),
-         fmt::format("CONFIGURATION ... TASK says when it runs, or the scenario: controller.plcopen.tasks: "
-                     "{{slow: {{cycle: 20 ms, programs: [{}]}}}}",
-                     second.name)});
+    problems.push_back(program.problem_at(
+        "controller.twice"_code, second.line, second.column,
+        fmt::format("a second PROGRAM, '{}', without a task", second.name),
+        fmt::format("CONFIGURATION ... TASK says when it runs, or the scenario: controller.plcopen.tasks: "
+                    "{{slow: {{cycle: 20 ms, programs: [{}]}}}}",
+                    second.name)));
     return;
   }
   if (program.has_configuration()) {
@@ -217,8 +220,8 @@ void visit(scenario::Archive& archive, PlcopenSection::Table& table) {
 }
 
 void PlcopenSection::visit(scenario::Archive& archive) {
-  archive.value({"program", "path of the Structured Text, relative to the scenario"},
-                scenario::path_form(program));
+  archive.value({"program", "Structured Text: a file, a folder for its *.st, or a list of both"},
+                scenario::paths_form(program));
   archive.require("program", "add program: programs/knife.st");
   archive.value({"cycle", "of the axes"}, scenario::form(cycle, scenario::Sign::positive));
   if (archive.reads()) task_cycle = cycle;
@@ -246,13 +249,37 @@ void PlcopenSection::visit(scenario::Archive& archive) {
   visit_compute_time(archive, *this);
   visit_memory(archive, *this);
   archive.judge([this](scenario::MapReader& reader) {
+    find_program_files(reader.findings());
     check_multiple(reader, "task_cycle", task_cycle, cycle);
     judge_axis_names(axes, reader.findings());
   });
 }
 
+/// Of a folder its *.st by name, not those below it.
+void PlcopenSection::find_program_files(scenario::Findings& findings) {
+  const std::filesystem::path scene(findings.sources().front());
+  program_files.clear();
+  for (const auto& entry : program) {
+    if (!folder_exists(scene.parent_path() / entry.text)) {
+      program_files.push_back(entry);
+      continue;
+    }
+    const auto found = files_in(scene.parent_path() / entry.text, ".st");
+    if (found.empty())
+      findings.add("file.missing"_code, entry.place, fmt::format("there is no *.st in {}", entry.text),
+                   "name a file, or the folder that has them");
+    for (const auto& file : found)
+      program_files.push_back(
+          {(std::filesystem::path(entry.text) / file.filename()).lexically_normal().string(), entry.place});
+  }
+  for (auto file = program_files.begin(); file != program_files.end(); ++file)
+    if (std::any_of(program_files.begin(), file, [&](const auto& other) { return other.text == file->text; }))
+      findings.add("controller.twice"_code, file->place, fmt::format("{} is named twice", file->text),
+                   "once is enough");
+}
+
 std::vector<scenario::Text> PlcopenSection::files() const {
-  std::vector<scenario::Text> files = {program};
+  std::vector<scenario::Text> files = program_files;
   for (const auto& table : tables) files.push_back(table.file);
   return files;
 }
@@ -268,9 +295,11 @@ std::vector<Finding> PlcopenSection::contradictions(const scenario::Scenario& sc
   for (const auto& axis : axes) configurations.push_back(axis.configuration);
   Problems told;  // by load()
   const auto cams = load_tables(*this, configurations, scenario, told);
-  const auto text = read_named(program, scenario, told);
-  if (!text || text->find("Scaling") != std::string::npos)
-    return found;  // the program makes another cam of it
+  for (const auto& file : program_files) {
+    const auto text = read_named(file, scenario, told);
+    if (!text || text->find("Scaling") != std::string::npos)
+      return found;  // the program makes another cam of it
+  }
   for (auto& note : contradicting_cams(*this, cams, scenario)) found.push_back(std::move(note));
   return found;
 }
@@ -279,7 +308,6 @@ std::unique_ptr<devices::Controller> PlcopenSection::load(const scenario::Scenar
                                                           Problems& problems,
                                                           std::vector<Finding>* notes) const {
   const auto before = problems.size();
-  const auto file = (scenario.file.parent_path() / program.text).string();
   plcopen::PlcopenConfiguration configuration;
   configuration.cycle_ns = cycle;
   configuration.task_ns = task_cycle;
@@ -292,18 +320,26 @@ std::unique_ptr<devices::Controller> PlcopenSection::load(const scenario::Scenar
   configuration.tables = load_tables(*this, configuration.axes, scenario, problems);
   const bool tables_sound = problems.size() == before;
   plcopen::st::Program compiled;
-  if (const auto text = read_program("plcopen.program", program, scenario, problems)) {
-    compiled = plcopen::st::compile(*text, file, problems);
+  std::vector<SourceFile> sources;
+  std::vector<std::string> names;
+  for (const auto& file : program_files) {
+    auto text = read_program("plcopen.program", file, scenario, problems);
+    if (!text) continue;
+    sources.push_back({(scenario.file.parent_path() / file.text).string(), std::move(*text)});
+    names.push_back(file.text);
+  }
+  if (!sources.empty() && sources.size() == program_files.size()) {
+    compiled = plcopen::st::compile(sources, {}, problems);
     // A table that could not be read is not missing.
-    if (tables_sound) check_names(compiled, file, configuration, problems);
-    if (problems.size() == before) check_tasks(compiled, file, *this, scenario, problems);
+    if (tables_sound) check_names(compiled, configuration, problems);
+    if (problems.size() == before) check_tasks(compiled, *this, scenario, problems);
   }
   if (problems.size() != before) return nullptr;
   if (notes != nullptr) {
     for (const auto& axis : axes) notes->insert(notes->end(), axis.notes.begin(), axis.notes.end());
     note_slow_phasing(compiled, *this, scenario, *notes);
   }
-  auto controller = std::make_unique<plcopen::PlcopenController>(std::move(compiled), program.text,
+  auto controller = std::make_unique<plcopen::PlcopenController>(std::move(compiled), std::move(names),
                                                                  std::move(configuration));
   fill_modbus(*controller, scenario, problems);
   if (problems.size() != before) return nullptr;

@@ -276,6 +276,8 @@ Form form(Text& value);
 /// A file, relative to the scenario's folder; in the file that names it, to that one's.
 Form path_form(Text& value);
 Form path_form(std::vector<Text>& values);
+/// One path, or several.
+Form paths_form(std::vector<Text>& values);
 /// on, off, true, false.
 Form form(bool& value);
 Form form(std::optional<bool>& value);

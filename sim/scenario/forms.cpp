@@ -203,6 +203,20 @@ Form path_form(std::vector<Text>& values) {
   return made;
 }
 
+Form paths_form(std::vector<Text>& values) {
+  auto made = path_form(values);
+  made.read = [&values, read = made.read](const YamlNode& node, const Form::Name& name, Findings& findings) {
+    if (node.kind != YamlNode::Kind::scalar) return read(node, name, findings);
+    values = {node.text};
+    values.front().text = findings.path_from(node.text);
+  };
+  made.write = [&values, write = made.write] {
+    return values.size() == 1 ? yaml_text(values.front().text) : write();
+  };
+  made.schema = [] { return fmt::format(R"({{"anyOf": [{}, {}]}})", any_text_schema, texts_schema); };
+  return made;
+}
+
 Form quoted_form(Text& value) { return bound(value, take_text, write_quoted, any_text_schema); }
 
 Form expression_form(Text& value) { return bound(value, take_expression, write_quoted, any_text_schema); }

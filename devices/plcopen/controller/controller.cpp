@@ -39,10 +39,10 @@ AxisKind kind_of(const AxisConfiguration& axis) { return axis.parameters.kind; }
 
 }  // namespace
 
-PlcopenController::PlcopenController(st::Program program, std::string file,
+PlcopenController::PlcopenController(st::Program program, std::vector<std::string> files,
                                      PlcopenConfiguration configuration)
     : program_(std::move(program)),
-      file_(std::move(file)),
+      files_(std::move(files)),
       configuration_(std::move(configuration)),
       kernel_(make_kernel(configuration_)),
       plugs_(configuration_.axes.size()),
@@ -373,11 +373,19 @@ void PlcopenController::tell_blocks() {
     block.seen = now;
     if (!block.commanded && block.command) block.commanded = runtime_.read(*block.command) != 0;
   }
+  for (const auto& loss : runtime_.take_losses())
+    events_.push_back(
+        {"program", "value_cut", fmt::format("{}: {}", told_place(loss.line, loss.column), loss.text)});
   const auto& fault = runtime_.fault();
   if (!fault || fault_told_) return;
   fault_told_ = true;
   events_.push_back(
-      {"program", "error", fmt::format("{}:{}:{}: {}", file_, fault->line, fault->column, fault->text)});
+      {"program", "error", fmt::format("{}: {}", told_place(fault->line, fault->column), fault->text)});
+}
+
+std::string PlcopenController::told_place(int line, int column) const {
+  const auto at = program_.lines().at(line);
+  return fmt::format("{}:{}:{}", files_.at(at.file), at.line, column);
 }
 
 void PlcopenController::AxisPlugs::visit(StateArchive& archive) {

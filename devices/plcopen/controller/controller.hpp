@@ -46,9 +46,12 @@ struct PlcopenConfiguration {
 /// again.
 class PlcopenController : public Controller {
  public:
-  /// `program` is free of problems and names no axis that `configuration` lacks; `file` names it in messages.
-  /// Begins powered on, at time 0.
-  PlcopenController(st::Program program, std::string file, PlcopenConfiguration configuration);
+  /// `program` is free of problems and names no axis that `configuration` lacks; `files` name its files in
+  /// messages. Begins powered on, at time 0.
+  PlcopenController(st::Program program, std::vector<std::string> files, PlcopenConfiguration configuration);
+  /// Of one file.
+  PlcopenController(st::Program program, std::string file, PlcopenConfiguration configuration)
+      : PlcopenController(std::move(program), std::vector{std::move(file)}, std::move(configuration)) {}
 
   Cards& cards() override { return cards_; }
   /// `Knife.encoder`, `IX0.0`, `%QX0.1`: see axis_terminal_table.
@@ -138,6 +141,8 @@ class PlcopenController : public Controller {
   void tell_overrun(const st::TaskRun& run);
   void give_outputs();
   void tell_axes();
+  /// "knife.st:5:3", of a line of all files.
+  [[nodiscard]] std::string told_place(int line, int column) const;
   void tell_blocks();
   [[nodiscard]] CamMoment cam_moment(int number) const;
   [[nodiscard]] std::shared_ptr<const devices::CamTable> cam_table(int number) const;
@@ -150,7 +155,7 @@ class PlcopenController : public Controller {
                  std::vector<std::pair<std::size_t, double>>& kept, Problems& problems) const;
 
   st::Program program_;
-  std::string file_;
+  std::vector<std::string> files_;
   PlcopenConfiguration configuration_;
   Cards cards_;
   MotionKernel kernel_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -126,13 +127,22 @@ class Namer {
   std::vector<std::string> prefixes_;  ///< of the unit's instances
 };
 
+std::optional<int> first_line_with(const ProgramText& text, const std::string& value) {
+  for (const auto& [line, names] : text.values)
+    if (std::find(names.begin(), names.end(), value) != names.end()) return line;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<ProgramText> PlcopenController::programs() {
   const st::Compiled& code = program_.compiled();
-  ProgramText told(file_, "st", code.text);
-  Namer(code, symbols_, told).run();
-  return {std::move(told)};
+  std::vector<ProgramText> all;
+  for (std::size_t i = 0; i < code.files.size(); ++i) {
+    ProgramText& told = all.emplace_back(files_.at(i), "st", code.files[i].text);
+    Namer(code, symbols_, told).run();
+  }
+  return all;
 }
 
 // A scan without statement_time takes no time: between two there is no place where it stands.
@@ -148,8 +158,18 @@ ProgramPositions PlcopenController::positions(std::int64_t time_ns) const {
     task.line = runtime_.line_at(time_ns - computing_->begun_ns);
     task.doing = "runs";
   }
+  if (task.line > 0) {
+    const auto at = program_.lines().at(task.line);
+    task.program = at.file;
+    task.line = at.line;
+  }
   told.tasks.push_back(std::move(task));
-  told.scanned.push_back(runtime_.scanned());
+  const std::string scanned = runtime_.scanned();
+  for (std::size_t i = 0; i < program_.files().size(); ++i) {
+    const auto first = static_cast<std::size_t>(program_.lines().first(i)) - 1;
+    const auto count = split_lines(program_.files()[i].text).size();
+    told.scanned.push_back(scanned.substr(std::min(first, scanned.size()), count));
+  }
   return told;
 }
 
@@ -158,27 +178,27 @@ std::vector<ProgramWait> PlcopenController::waits() {
   constexpr std::array needed{"MC_Power", "MC_Home", "MC_CamTableSelect", "MC_CamIn", "MC_GearIn"};
   std::vector<ProgramWait> waits;
   if (!powered_ || runtime_.fault()) return waits;
-  const auto program = programs().front();
+  const auto texts = programs();
   for (const ErrorPins& block : blocks_) {
     const auto type = runtime_.block_type(block.error);
     if (block.commanded || !block.command ||
         std::none_of(needed.begin(), needed.end(), [&](const char* name) { return type.starts_with(name); }))
       continue;
     const std::string& pin = runtime_.symbols()[*block.command].name;
-    for (const auto& [line, names] : program.values)
-      if (std::find(names.begin(), names.end(), pin) != names.end()) {
-        waits.push_back({program.name, line, 0});
+    for (const auto& text : texts)
+      if (const auto line = first_line_with(text, pin)) {
+        waits.push_back({text.name, *line, 0});
         break;
       }
   }
-  std::sort(waits.begin(), waits.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
+  std::stable_sort(waits.begin(), waits.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
   return waits;
 }
 
 std::vector<Controller::ProgramDoubt> PlcopenController::doubts() const {
   std::vector<ProgramDoubt> found;
   for (const auto& [code, line, column, text, value] : program_.compiled().doubts)
-    found.push_back({code, fmt::format("{}:{}:{}: {}", file_, line, column, text), value});
+    found.push_back({code, fmt::format("{}: {}", told_place(line, column), text), value});
   return found;
 }
 

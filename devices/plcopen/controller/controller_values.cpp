@@ -160,7 +160,7 @@ std::vector<std::string> PlcopenController::names() const {
 }
 
 std::string PlcopenController::retentive_state() const {
-  std::string text = fmt::format("; RETAIN variables of {}\n", file_);
+  std::string text = fmt::format("; RETAIN variables of {}\n", fmt::join(files_, ", "));
   const auto symbols = runtime_.symbols();
   for (std::size_t i = 0; i < symbols.size(); ++i)
     if (symbols[i].retain) text += fmt::format("{} = {}\n", symbols[i].name, runtime_.read(i));

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -42,9 +43,21 @@ int Expressions::assign(const TypedExpression& target, const TypedExpression& va
                                           : "it holds function blocks: assign its other members");
     return -1;
   }
-  const TypedExpression source = converted(value, type);
+  const bool interface = type.basic == Basic::reference && value.type->basic == Basic::block;
+  const TypedExpression source = converted(interface ? interface_value(value, type) : value, type);
   if (source.unknown() || target.node < 0) return -1;
+  if (target.own_input) note_own_input(target);
   return store(target, value_node(source));
+}
+
+/// As CODESYS takes it; told once an input.
+void Expressions::note_own_input(const TypedExpression& target) {
+  auto text = fmt::format("{} is an input of {} and is assigned here: what the caller gave is lost",
+                          target.name, unit_->name.text);
+  const auto same = [&](const Compiled::Doubt& doubt) { return doubt.text == text; };
+  if (std::none_of(code_->doubts.begin(), code_->doubts.end(), same))
+    code_->doubts.push_back(
+        {"program.input-assigned"_code, target.place.line, target.place.column, std::move(text), ""});
 }
 
 int Expressions::store(const TypedExpression& target, int value) {
@@ -52,7 +65,9 @@ int Expressions::store(const TypedExpression& target, int value) {
   if (target.bits)
     return add_node(StOp::store_bits, target.bits->of->basic, target.place, target.node, value,
                     target.bits->width, target.bits->shift);
-  if (is_elementary(type.basic) || type.basic == Basic::axis) {
+  if (is_single(type.basic)) {
+    if (target.reference >= 0)
+      return add_node(StOp::store_by, type.basic, target.place, target.reference, value);
     const Node address = node(target.node);
     if (address.op == StOp::address || address.op == StOp::address_own)
       return add_node(address.op == StOp::address ? StOp::store : StOp::store_own, type.basic, target.place,
@@ -60,8 +75,9 @@ int Expressions::store(const TypedExpression& target, int value) {
     return add_node(StOp::store_at, type.basic, target.place, target.node, value);
   }
   if (type.basic == Basic::string)
-    return add_node(StOp::copy_string, type.basic, target.place, target.node, value, -1,
-                    static_cast<std::int64_t>(type.length));
+    return add_node(StOp::copy_string, type.basic, target.place, target.node, value,
+                    type.wide ? static_cast<int>(type.length) : -1,
+                    static_cast<std::int64_t>(bytes_of_text(type)));
   return add_node(StOp::copy, type.basic, target.place, target.node, value, -1, type.cells);
 }
 
@@ -132,6 +148,15 @@ bool Expressions::names_function(const Tree& callee) {
 TypedExpression Expressions::call(const Tree& tree, const Type* wanted) {
   const Tree& callee = tree.parts[0];
   const StToken& name = *callee.token;
+  const bool statement = std::exchange(statement_, false);
+  if (const Method method = method_of(callee, ""); method.unit != nullptr) {
+    std::vector<Argument> given = arguments(tree);
+    const Enable enable = take_enable(given, method.unit->type);
+    if (method.unit->procedure && !statement)
+      give_up("st.use"_code, method.place, fmt::format("{} gives no value", method.unit->name.text),
+              "call it in a statement of its own");
+    return enabled(enable, method_call(method, given), wanted);
+  }
   if (!names_function(callee)) {
     const TypedExpression named = typed(callee);
     if (named.unknown()) return named;
@@ -142,9 +167,14 @@ TypedExpression Expressions::call(const Tree& tree, const Type* wanted) {
                   : "a variable hides a function of its name: choose another one");
   }
   std::vector<Argument> given = arguments(tree);
-  const Unit* const unit = find_unit(name.text);
+  Unit* const unit = find_unit(name.text);
+  // Standard functions are read where they are called.
+  if (unit != nullptr && unit->standard && unit->kind == Unit::Kind::function) declare(*unit);
   const bool function = unit != nullptr && unit->kind == Unit::Kind::function;
   const Enable enable = take_enable(given, function ? unit->type : nullptr);
+  if (function && unit->procedure && !statement)
+    give_up("st.use"_code, name.place, fmt::format("{} gives no value", unit->name.text),
+            "call it in a statement of its own");
   return enabled(enable, function_call(name, given, wanted), wanted);
 }
 
@@ -153,6 +183,7 @@ TypedExpression Expressions::function_call(const StToken& name, const std::vecto
   if (Unit* unit = find_unit(name.text); unit != nullptr && unit->kind == Unit::Kind::function)
     return user_call(*unit, name, given);
   const auto argument_of = [this](const Tree& tree, const Type* type) { return typed(tree, type); };
+  if (auto value = reference_call(name, given)) return std::move(*value);
   if (auto value = standard_call(*this, name, given, wanted, argument_of)) return std::move(*value);
   for (const Argument& argument : given) typed(*argument.tree);
   const bool block = find_block_type(name.text) != nullptr || find_unit(name.text) != nullptr;
@@ -206,7 +237,8 @@ int Expressions::in_out_store(const Type& type, const Variable& pin, const Typed
   if (value.unknown()) return -1;
   // A motion block takes its axes by value: they do not change.
   const bool by_value = type.motion != nullptr;
-  if (!value.address || value.bits || !same_type(*value.type, *pin.type)) {
+  if (!value.address || value.bits ||
+      !(same_type(*value.type, *pin.type) || extends(*value.type, *pin.type))) {
     complain("st.type"_code, value.place,
              value.address && !value.bits
                  ? fmt::format("{} is {}, not {}", in_quotes(value.name), value.type->name, pin.type->name)
@@ -232,21 +264,24 @@ int Expressions::output_store(const Type& owner, const Variable& pin, const Argu
              fmt::format("{} => variable", pin.name));
     return -1;
   }
-  return assign(target, variable_at(pin.type, place, owner.name + "." + pin.name, argument.name->place));
+  TypedExpression value = variable_at(pin.type, place, owner.name + "." + pin.name, argument.name->place);
+  if (argument.negated != nullptr) value = complement(*this, *argument.negated, std::move(value), nullptr);
+  return assign(target, value);
 }
 
 void Expressions::input_of(const TypedExpression& instance, const Argument& argument, BlockCall& call) {
   const Type& type = *instance.type;
-  if (argument.name == nullptr) {
-    const std::vector<std::string> inputs = pins_of(type, false);
+  const std::vector<const Variable*> inputs = inputs_of(type);
+  if (argument.name == nullptr && call.unnamed == inputs.size()) {
     complain("st.call"_code, argument.tree->token->place,
-             fmt::format("an argument of {} without a name", in_quotes(instance.name)),
-             inputs.empty() ? fmt::format("{} has no inputs", type.name)
-                            : fmt::format("name its input: {} := value", inputs.front()));
+             fmt::format("{} has {} input{}", type.name, inputs.size(), inputs.size() == 1 ? "" : "s"),
+             "leave the rest out");
     call.given.insert("?");
     return;
   }
-  const Variable* pin = pin_of(type, *argument.name, argument.output);
+  const Variable* pin =
+      argument.name == nullptr ? inputs[call.unnamed++] : pin_of(type, *argument.name, argument.output);
+  const Place told = argument.name == nullptr ? argument.tree->token->place : argument.name->place;
   if (pin == nullptr) {
     // It was meant for something: what is missing is not told as well.
     call.given.insert("?");
@@ -254,8 +289,8 @@ void Expressions::input_of(const TypedExpression& instance, const Argument& argu
     return;
   }
   if (!call.given.insert(pin->name).second) {
-    complain("st.declared-twice"_code, argument.name->place,
-             fmt::format("{} is given twice", in_quotes(pin->name)), "once a call");
+    complain("st.declared-twice"_code, told, fmt::format("{} is given twice", in_quotes(pin->name)),
+             "once a call");
     return;
   }
   const int place = address_plus(instance.node, pin->offset);
@@ -264,8 +299,7 @@ void Expressions::input_of(const TypedExpression& instance, const Argument& argu
   } else if (pin->section == VarClass::in_out) {
     call.before.push_back(in_out_store(type, *pin, typed(*argument.tree), place));
   } else {
-    const TypedExpression target =
-        variable_at(pin->type, place, instance.name + "." + pin->name, argument.name->place);
+    const TypedExpression target = variable_at(pin->type, place, instance.name + "." + pin->name, told);
     call.before.push_back(assign(target, typed(*argument.tree, pin->type)));
   }
 }
@@ -275,6 +309,17 @@ Expressions::BlockCall Expressions::block_arguments(const TypedExpression& insta
                                                     const std::vector<Argument>& given) {
   const Type& type = *instance.type;
   BlockCall call;
+  // All by their names, or all in their order.
+  const auto named = [](const Argument& one) { return one.name != nullptr && !one.output; };
+  const auto unnamed =
+      std::find_if(given.begin(), given.end(), [](const Argument& one) { return one.name == nullptr; });
+  if (unnamed != given.end() && std::any_of(given.begin(), given.end(), named)) {
+    const std::vector<std::string> inputs = pins_of(type, false);
+    complain("st.call"_code, unnamed->tree->token->place,
+             fmt::format("an argument of {} without a name", in_quotes(instance.name)),
+             fmt::format("name its input: {} := value", inputs.empty() ? "input" : inputs.front()));
+    return call;
+  }
   for (const Argument& argument : given) input_of(instance, argument, call);
   std::vector<std::string> missing;
   for (const Variable& member : type.members)
@@ -326,13 +371,14 @@ std::vector<int> Expressions::input_triple(const Type& function, const Variable&
   }
   const TypedExpression value = converted(given, *pin.type);
   if (value.unknown()) return {};
-  const int cells = is_elementary(pin.type->basic)     ? 1
-                    : pin.type->basic == Basic::string ? 2 + static_cast<int>(pin.type->length)
+  const int cells = is_single(pin.type->basic)         ? 1
+                    : pin.type->basic == Basic::string ? 2 + static_cast<int>(bytes_of_text(*pin.type))
                                                        : -pin.type->cells;
   return {value_node(value), at, cells};
 }
 
-TypedExpression Expressions::user_call(Unit& unit, const StToken& name, const std::vector<Argument>& given) {
+TypedExpression Expressions::user_call(Unit& unit, const StToken& name, const std::vector<Argument>& given,
+                                       const Method* method) {
   const TypedExpression unknown = unknown_at(name.place);
   const bool known = unit.state == Unit::State::done && unit.type != nullptr && unit.pou >= 0;
   if (!known || unit.type->broken) {
@@ -381,12 +427,17 @@ TypedExpression Expressions::user_call(Unit& unit, const StToken& name, const st
     return unknown;
   list.push_back(static_cast<int>(after.size()));
   list.insert(list.end(), after.begin(), after.end());
+  if (method != nullptr) {
+    const int next = static_cast<int>(method_numbers_.size());
+    const int number = method->fixed ? -1 : method_numbers_.emplace(unit.key, next).first->second;
+    list.insert(list.begin(), {method->instance, number});
+  }
   const int first = add_list(list);
   // A text or structure outlives the next call of the function.
-  const bool whole = !is_elementary(unit.result->basic);
+  const bool whole = !is_single(unit.result->basic);
   const int kept = whole ? scratch(*unit.result, name.place) : -1;
-  result.node = add_node(StOp::call_function, unit.result->basic, name.place, first, kept, unit.pou,
-                         whole ? unit.result->cells : 0);
+  result.node = add_node(method != nullptr ? StOp::call_method : StOp::call_function, unit.result->basic,
+                         name.place, first, kept, unit.pou, whole ? unit.result->cells : 0);
   return result;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "devices/plcopen/st/program.hpp"
@@ -27,6 +29,11 @@ enum class StOp : std::uint8_t {
   /// -n: n cells from the address that the node is, 2 + n: a STRING of n characters), how many outputs, and
   /// their statements. b: where a result of imm cells is copied to, an address that is the value then; or -1.
   call_function,
+  /// The same of a method: in front of the list are the instance and the method's number, by which the kind
+  /// of
+  /// the instance has it; -1: POU c whatever the instance is.
+  call_method,
+  instance,  ///< where that is which the interface a stands for
   /// EN, list from a on: the condition, the value if it holds, the value if it does not, what stores ENO in
   /// either case (-1: nothing).
   enabled,
@@ -36,7 +43,13 @@ enum class StOp : std::uint8_t {
   address_own,   ///< imm in the block's own instance
   address_pool,  ///< imm among literals and scratch; an `address` once compiled
   follow,        ///< imm behind the address that the cell at address a holds: VAR_IN_OUT
+  dereference,   ///< imm behind what the reference a is of, which must be of the type of Referent c
   element,       ///< imm behind element b of the array at address a; c its Span
+
+  // Values by references.
+  make_reference,  ///< to the address a, Referent c
+  load_by,         ///< the value of type `basic` that the reference a is at
+  store_by,        ///< value b, a statement
 
   // Of the values of a and b, without effects; `basic` is the result's type.
   add,
@@ -169,6 +182,13 @@ struct Span {
   int cells = 0;
 };
 
+/// What references are of: see references.hpp.
+struct Referent {
+  const Type* type = nullptr;
+  Basic basic = Basic::unknown;  ///< of all its values, if they are of one elementary type or characters
+  int cells = 0;
+};
+
 /// One label of a CASE.
 struct Choice {
   Subrange range;
@@ -203,6 +223,9 @@ struct Compiled {
   std::vector<int> lists;
   std::vector<Span> spans;
   std::vector<Choice> choices;
+  std::map<std::pair<Cell, int>, int> methods;  ///< POUs by the kind of an instance and the method's number
+  std::vector<Referent> referents;
+  std::vector<Basic> kinds;  ///< of each cell of plain data, if there are references; else `unknown`
   std::vector<Pou> pous;
   /// A PROGRAM with variables of its own.
   struct Instance {
@@ -225,6 +248,9 @@ struct Compiled {
   std::vector<Motion> motions;
   std::vector<StSymbol> symbols;
   std::vector<SymbolPlace> places;
+  std::size_t longest_bytes = 255;  ///< of such a text
+  std::size_t longest_text =
+      255;  ///< characters that functions of STRING give: of the longest that is declared
 
   /// What is no fault and hardly meant.
   struct Doubt {
@@ -237,7 +263,8 @@ struct Compiled {
   std::vector<Doubt> doubts;
 
   // For whoever watches it.
-  std::string text;
+  std::vector<SourceFile> files;
+  SourceLines lines;
   std::size_t user_nodes = 0;  ///< so many are of the text, those behind them of standard blocks
   /// A PROGRAM or a block that runs, and what stands before the names of its variables: "", "Main.".
   struct Scope {
@@ -268,6 +295,12 @@ std::optional<NoResult> no_result(StOp op, Basic basic, Cell a, Cell b);
 /// LEFT, RIGHT, MID, CONCAT, INSERT, DELETE and REPLACE of one or more texts; `numbers` are L and P as far as
 /// the function has them.
 std::string edited(TextOp op, std::span<const std::string_view> texts, std::span<const Cell> numbers);
+/// Of a WSTRING those of its UTF-8, else bytes.
+std::size_t characters(std::string_view text, bool wide);
+/// The first so many characters of a WSTRING.
+std::string_view first_characters(std::string_view text, std::size_t count);
+/// What `edited` counts in bytes where the program counts in characters.
+std::vector<Cell> in_bytes(TextOp op, std::string_view text, std::span<const Cell> numbers);
 /// Where `wanted` begins in `text`, from 1; 0 if nowhere.
 Cell found(std::string_view text, std::string_view wanted);
 /// '5', '-1.5', 'TRUE', 'T#1s500ms', 'D#1996-08-15': X_TO_STRING.

@@ -26,17 +26,34 @@ class Expressions : public Values {
   TypedExpression expression(const Type* wanted = nullptr) { return typed(tree(), wanted); }
   TypedExpression typed(const Tree& tree, const Type* wanted = nullptr);
   std::optional<TypedExpression> variable(const StToken& name);
+  const Variable* find_global(std::string_view name);
   [[nodiscard]] Unit* find_unit(std::string_view name) const;
   /// Reads the declarations of a unit that may be needed before its turn.
   virtual void declare(Unit& unit) = 0;
 
   // calls.cpp
   int assign(const TypedExpression& target, const TypedExpression& value);
+  // methods.cpp
+  /// A method, and the instance that it is called of.
+  struct Method {
+    Unit* unit = nullptr;  ///< nullptr: it is none
+    int instance = -1;
+    bool fixed = false;  ///< SUPER: the one that is named, whatever the instance is
+    Place place = {};
+  };
+  Method method_of(const Tree& callee, std::string_view mark);
+  [[nodiscard]] static Unit* find_method(Unit* unit, const std::string& key);
+  /// Whether an instance of `from` may stand for one of `to`: it EXTENDS it.
+  [[nodiscard]] bool extends(const Type& from, const Type& to) const;
+  std::optional<int> set_property(const Tree& target);
+  std::optional<int> super_call(const Tree& callee);
+
   /// Notes a table's file that the text names.
   void cam_file(const StToken& text);
   int sequence_node(std::vector<int> statements, Place place);
   /// The statements that give an instance's inputs and take its outputs.
   struct BlockCall {
+    std::size_t unnamed = 0;      ///< so many arguments had no name
     std::set<std::string> given;  ///< pins; "?" if something was given that is none
     std::vector<int> before;
     std::vector<int> after;
@@ -52,11 +69,22 @@ class Expressions : public Values {
   Type* globals_ = nullptr;                                    ///< its variables are where the memory begins
   std::unordered_map<std::string, const Type*> enumerations_;  ///< by name in lower case
   std::multimap<std::string, std::pair<const Type*, std::int64_t>> enum_values_;
+  std::unordered_map<std::string, Unit*> global_sections_;  ///< VAR_GLOBAL by what it declares
   const Type* cam_ref_ = nullptr;
-  std::set<std::string> told_;  ///< names that are not known, told once a POU
+  std::set<std::string> told_;                           ///< names that are not known, told once a POU
+  std::set<std::string> method_names_;                   ///< keys of all methods
+  std::unordered_map<std::string, int> method_numbers_;  ///< of those that are called, by their keys
   int open_units_ = 0;
+  int memory_ = 0;          ///< cells before the pool, once everything has its place
+  bool statement_ = false;  ///< what is called is a statement, not a value
 
  private:
+  // methods.cpp
+  [[nodiscard]] Unit* block_unit() const;
+  TypedExpression this_instance(Place place);
+  TypedExpression method_call(const Method& method, const std::vector<Argument>& given);
+  TypedExpression interface_value(const TypedExpression& instance, const Type& interface);
+
   // expressions.cpp
   TypedExpression literal(const StToken& token);
   TypedExpression typed_literal(const Tree& tree);
@@ -68,6 +96,9 @@ class Expressions : public Values {
   TypedExpression no_member(const TypedExpression& owner, const StToken& name);
   TypedExpression bits_of_number(const Tree& tree, const TypedExpression& owner);
   TypedExpression element_of(const Tree& tree);
+  TypedExpression dereferenced(const Tree& tree);
+  std::optional<TypedExpression> reference_call(const StToken& name, const std::vector<Argument>& given);
+  int referent(const Type& type);
   TypedExpression element_at(TypedExpression owner, const TypedExpression& index);
   [[nodiscard]] std::vector<std::string> known_names() const;
 
@@ -78,13 +109,15 @@ class Expressions : public Values {
     const Tree* result = nullptr;
   };
   int store(const TypedExpression& target, int value);
+  void note_own_input(const TypedExpression& target);
   Enable take_enable(std::vector<Argument>& given, const Type* callee);
   int enable_condition(const Enable& enable, Place place);
   int enable_store(const Enable& enable, bool on);
   TypedExpression enabled(const Enable& enable, TypedExpression value, const Type* wanted);
   TypedExpression call(const Tree& tree, const Type* wanted);
   TypedExpression function_call(const StToken& name, const std::vector<Argument>& given, const Type* wanted);
-  TypedExpression user_call(Unit& unit, const StToken& name, const std::vector<Argument>& given);
+  TypedExpression user_call(Unit& unit, const StToken& name, const std::vector<Argument>& given,
+                            const Method* method = nullptr);
   std::vector<int> input_triple(const Type& function, const Variable& pin, const Argument& argument,
                                 int frame, int& depth);
   bool all_connected(const Unit& unit, const StToken& name, const std::vector<Argument>& given,
@@ -131,6 +164,10 @@ class Declarations : public Expressions {
   };
   void declare_pou(Unit& unit);
   void declare_function_result(Unit& unit, Type& type);
+  // methods.cpp
+  void declare_base(Unit& unit, Type& type);
+  void declare_interface(Unit& unit);
+  void declare_property(Unit& unit, Type& type);
   bool variable_section(Unit& unit, Type& owner);
   std::optional<VarSection> section_header();
   void declare_variables(Unit& unit, Type& owner, const VarSection& section);
@@ -139,6 +176,8 @@ class Declarations : public Expressions {
                     const Location& location, std::span<const Cell> initial);
   bool check_section(const Unit& unit, const VarSection& section, const StToken& name, const Type& type,
                      const Location& location);
+  std::optional<bool> edge(const Unit& unit, const VarSection& section, const Type& type);
+  static void add_edge(Unit& unit, Type& owner, const StToken& name, bool rising);
   void external(const StToken& name, const Type* type);
   Location location();
   bool check_memory(const StToken& name, const Type& type, const MemoryPlace& place);
@@ -148,12 +187,15 @@ class Declarations : public Expressions {
   // type_declarations.cpp
   void declare_type(Unit& unit);
   void declare_structure(Type& type);
+  void initial_of(Type& type);
+  [[nodiscard]] bool at_based_enumeration() const;
   void declare_enumeration(Type& type);
   const Type* parse_type();
   const Type* array_type();
   const Type* string_type();
   const Type* subrange(const Type& base);
   const Type* named_type();
+  const Type* reference_type();
   const Type* cam_ref();
   const Type* motion_type(const BlockType& block);
   /// Gives up what grows beyond all bounds.
@@ -175,6 +217,7 @@ class Declarations : public Expressions {
     std::string name;
   };
   std::vector<Occupied> occupied_;  ///< addresses that variables AT %M take
+  int in_members_ = 0;              ///< of initial values
   std::int64_t type_cells_ = 0;     ///< of all initial values
 };
 
@@ -203,6 +246,7 @@ class Statements : public Declarations {
   int call_statement(const Tree& call);
   int if_statement();
   int case_statement();
+  void find_edges(const Unit& unit, std::vector<int>& all);
   std::int64_t case_label(const Type& selector);
   std::vector<Subrange> case_labels(const Type& selector, Labels& labels);
   [[nodiscard]] bool at_label() const;
@@ -219,22 +263,39 @@ class Statements : public Declarations {
   int loops_ = 0;
 };
 
-/// Reads a file: its units, then all declarations, then all bodies. It stands on layers, each of which knows
-/// those below it only: Reader (tokens and problems), Parser (trees), Values (constants, conversions, nodes),
-/// Expressions (names and calls), Declarations, Statements.
+/// Reads the files of a program: their units, then all declarations, then all bodies. It stands on layers,
+/// each of which knows those below it only: Reader (tokens and problems), Parser (trees), Values (constants,
+/// conversions, nodes), Expressions (names and calls), Declarations, Statements.
 class Compiler : public Statements {
  public:
-  Compiler(std::string_view text, const std::string& file, Problems& problems);
+  /// One file at least; they are needed until it has run.
+  Compiler(std::span<const SourceFile> files, const CompileOptions& options, Problems& problems);
   std::shared_ptr<const Compiled> run();
 
  private:
   // units.cpp: the parts of the file.
   void find_units(bool standard);
+  // find_methods.cpp
+  void read_modifiers(Unit& unit);
+  void read_header(Unit& unit);
+  std::size_t end_of_method(std::size_t first, std::size_t unit_end);
+  void find_methods(Unit& unit);
+  void find_method_text(Unit& owner, std::size_t first, std::size_t end);
+  void find_property(Unit& owner, std::size_t first, std::size_t end);
+  void add_method(Unit& owner, Unit method, std::string_view mark);
+  void find_bases();
+  // check_methods.cpp
+  void check_methods();
+  void check_lacks(Unit& unit, const Unit& of, Place place);
+  void check_override(const Unit& method, const Unit& base);
+  void fill_method_table();
+  void compile_bodies();
   void find_types();
   std::size_t find_type(std::size_t first);
   void add_globals();
   void add_unit(Unit unit);
   std::size_t end_of_unit(std::size_t opening, std::string_view closing);
+  void place_in_files();
   void check_programs();
   void check_calls();
   void check_depth();
@@ -270,6 +331,8 @@ class Compiler : public Statements {
   void place_located();
   void place_in_memory();
   void finish();
+  void find_kinds();
+  void mark_kinds(const Type& type, int cell);
   void walk(const Type& type, int cell, const std::string& prefix, bool retain, bool shown);
   void walk_value(const Type& type, int cell, const std::string& name, bool retain, bool shown,
                   bool writable);
@@ -280,12 +343,12 @@ class Compiler : public Statements {
     StToken name;
     std::size_t connections = 0;  ///< where the '(' is, or 0
   };
+  CompileOptions options_;
   std::vector<Connections> connections_;
   std::size_t configuration_first_ = 0;
   std::size_t configuration_end_ = 0;
   std::size_t user_tokens_ = 0;  ///< where the file begins, behind the standard blocks
   Unit outside_;                 ///< sees VAR_GLOBAL only: the CONFIGURATION
-  int memory_ = 0;               ///< cells before the pool
 };
 
 }  // namespace drycut::devices::plcopen::st

@@ -136,7 +136,7 @@ void Compiler::declare_task() {
   for (const Program::Task& other : code_->tasks)
     if (name.word(other.name))
       complain("st.declared-twice"_code, name.place, in_quotes(name.text) + " is declared twice",
-               fmt::format("the first one is in line {}", other.line));
+               "the first one is in " + line_of({other.line, 1}, name.place));
   code_->tasks.push_back(std::move(task));
   code_->singles.push_back(single);
 }

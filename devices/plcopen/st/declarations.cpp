@@ -83,7 +83,7 @@ void name_standard_pins(Type& type) {
                                      {"CTUD", "reset", "r"},
                                      {"CTUD", "load", "ld"}}};
   for (const Pin& pin : pins)
-    if (type.standard && type.name == pin.block)
+    if (type.standard && (type.name == pin.block || type.name.starts_with(std::string(pin.block) + "_")))
       type.index.emplace(pin.standard, type.index.at(std::string(pin.name)));
 }
 
@@ -113,43 +113,59 @@ void Declarations::declare_pou(Unit& unit) {
     }
     return;
   }
+  if (unit.kind == Unit::Kind::interface) return declare_interface(unit);
   Type& type = new_type(Basic::block, std::string(unit.name.text), true);
   type.standard = unit.standard;
   unit.type = &type;
   unit.pou = static_cast<int>(code_->pous.size());
   type.pou = unit.pou;
   code_->pous.emplace_back();
-  if (unit.kind == Unit::Kind::function) declare_function_result(unit, type);
+  if (unit.framed())
+    declare_function_result(unit, type);
+  else
+    declare_base(unit, type);
   while (variable_section(unit, type)) {
   }
   fill_empty(type);
   name_standard_pins(type);
   Pou& own = pou(unit);
   own.type = &type;
-  if (unit.kind == Unit::Kind::function) own.resets.push_back({0, type.cells - 1});
+  if (unit.framed()) own.resets.push_back({0, type.cells - 1});
   for (const Variable& member : type.members)
-    if (unit.kind != Unit::Kind::function && member.section == VarClass::temp)
+    if (!unit.framed() && member.section == VarClass::temp)
       own.resets.push_back({member.offset, member.offset + member.type->cells - 1});
   unit.body = at_;
+  if (!unit.framed() || memory_ == 0) return;
+  own.frame = memory_;
+  memory_ += type.cells;
 }
 
 void Declarations::declare_function_result(Unit& unit, Type& type) {
   Variable result{
       .name = std::string(unit.name.text), .type = type_of(Basic::unknown), .place = unit.name.place};
-  try {
-    expect(":", fmt::format("and a type are the result: FUNCTION {} : LREAL", unit.name.text));
-    const Place place = peek().place;
-    result.type = parse_type();
+  if (unit.property_type > 0) return declare_property(unit, type);
+  unit.procedure = !peek().is(":") && elementary_type(peek().text) == nullptr;
+  if (unit.procedure) {
+    // A cell that no name of the text means.
     accept(";");
-    if (result.type->holds_block || result.type->holds_axis) {
-      complain("st.declaration"_code, place, fmt::format("a FUNCTION does not return {}", result.type->name),
-               "it keeps its state: connect it as VAR_IN_OUT");
-      result.type = type_of(Basic::unknown);
-    }
-  } catch (const GiveUp&) {
-    while (at_ < stop_ && !upper(peek().text).starts_with("VAR") && !take().is(";")) {
-    }
+    result.name = "'result";
+    result.type = type_of(Basic::boolean);
   }
+  if (!unit.procedure) try {
+      expect(":", fmt::format("and a type are the result: FUNCTION {} : LREAL", unit.name.text));
+      const Place place = peek().place;
+      result.type = parse_type();
+      accept(";");
+      if (result.type->holds_block || result.type->holds_axis) {
+        complain("st.declaration"_code, place,
+                 fmt::format("a FUNCTION does not return {}", result.type->name),
+                 "it keeps its state: connect it as VAR_IN_OUT");
+        result.type = type_of(Basic::unknown);
+      }
+    } catch (const GiveUp&) {
+      while (at_ < stop_ && !upper(peek().text).starts_with("VAR") && !take().is(";")) {
+      }
+    }
   unit.result = base_of(result.type);
   append(type, std::move(result), unit.result->initial);
 }
@@ -215,6 +231,7 @@ void Declarations::declare_named(Unit& unit, Type& owner, const VarSection& sect
   if (accept_word("AT")) place = location();
   expect(":", "stands between a variable's name and its type");
   const Type* type = parse_type();
+  const std::optional<bool> rising = edge(unit, section, *type);
   if (section.external) {
     expect(";", "ends a declaration");
     for (const StToken& name : names) external(name, type);
@@ -238,6 +255,28 @@ void Declarations::declare_named(Unit& unit, Type& owner, const VarSection& sect
     place = {};
   }
   for (const StToken& name : names) add_variable(unit, owner, section, name, type, place, initial);
+  if (rising)
+    for (const StToken& name : names) add_edge(unit, owner, name, *rising);
+}
+
+/// BOOL R_EDGE, true, or F_EDGE, false: the body sees the edge of the input.
+std::optional<bool> Declarations::edge(const Unit& unit, const VarSection& section, const Type& type) {
+  const StToken word = peek();
+  if (!word.word("R_EDGE") && !word.word("F_EDGE")) return std::nullopt;
+  take();
+  const bool keeps = unit.kind == Unit::Kind::program || unit.kind == Unit::Kind::function_block;
+  if (section.section != VarClass::input || !keeps || type.basic != Basic::boolean)
+    give_up("st.declaration"_code, word.place, fmt::format("{} stands behind no input", upper(word.text)),
+            "it follows a BOOL in VAR_INPUT of a FUNCTION_BLOCK or PROGRAM");
+  return word.word("R_EDGE");
+}
+
+void Declarations::add_edge(Unit& unit, Type& owner, const StToken& name, bool rising) {
+  const Type* boolean = type_of(Basic::boolean);
+  for (const std::string_view what : {edge_mark, last_mark})
+    append(owner, {.name = fmt::format("{}{}", name.text, what), .type = boolean, .place = name.place},
+           boolean->initial);
+  unit.edges.push_back({name, rising});
 }
 
 bool Declarations::check_section(const Unit& unit, const VarSection& section, const StToken& name,
@@ -251,12 +290,16 @@ bool Declarations::check_section(const Unit& unit, const VarSection& section, co
     return refuse("st.declaration"_code,
                   fmt::format("the AXIS_REF {} in {} has no axis", in_quotes(name.text), in),
                   "an axis of the configuration is named in VAR_EXTERNAL, a caller's in VAR_IN_OUT");
-  const bool keeps = section.section == VarClass::in_out ||
-                     (section.section == VarClass::local && unit.kind != Unit::Kind::function);
+  const bool own = section.section == VarClass::local || section.section == VarClass::output;
+  const bool keeps = section.section == VarClass::in_out || (own && !unit.framed());
   if (type.holds_block && (!keeps || section.constant))
     return refuse("st.declaration"_code,
                   fmt::format("the function block {} cannot be in {} here", in_quotes(name.text), in),
                   "it keeps its state: declare it in VAR of a PROGRAM or FUNCTION_BLOCK, or in VAR_GLOBAL");
+  if (const Unit* block = type.basic == Basic::block ? find_unit(type.name) : nullptr;
+      block != nullptr && block->abstract && section.section != VarClass::in_out)
+    return refuse("st.declaration"_code, fmt::format("{} is ABSTRACT and has no instances", type.name),
+                  "declare one of a block that EXTENDS it");
   if (!located.terminal && !located.memory) return true;
   if (located.terminal && type.basic != Basic::boolean)
     return refuse("st.place"_code,
@@ -358,10 +401,11 @@ void Declarations::add_variable(Unit& unit, Type& owner, const VarSection& secti
 bool Declarations::name_is_free(const Unit& unit, const Type& owner, const StToken& name) {
   const Variable* other = find_member(owner, name.text);
   if (other == nullptr) return true;
-  const bool result = unit.kind == Unit::Kind::function && same_word(unit.name.text, name.text);
-  complain("st.declared-twice"_code, name.place,
-           in_quotes(name.text) + (result ? " is the function's result" : " is declared twice"),
-           result ? "choose another name" : fmt::format("the first one is in line {}", other->place.line));
+  if (unit.framed() && same_word(unit.name.text, name.text))
+    complain("st.declared-twice"_code, name.place, in_quotes(name.text) + " is the function's result",
+             "choose another name");
+  else
+    tell_twice(name, other->name, other->place);
   return false;
 }
 

@@ -109,7 +109,8 @@ void Compiler::find_doubts() {
     if (!unit->standard && unit->pou >= 0 && unit->type != nullptr && !unit->type->broken && unit->body > 0)
       bodies.push_back(unit.get());
   for (const Unit* unit : bodies) {
-    if (unit->kind == Unit::Kind::function) continue;
+    // Methods set them, too.
+    if (unit->framed() || unit->tells_kind()) continue;
     for (const Variable& variable : unit->type->members)
       doubt_variable(variable, *unit->type, use_of(variable, *unit));
   }

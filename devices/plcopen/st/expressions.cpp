@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/lexer.hpp"
+#include "devices/plcopen/st/references.hpp"
 #include "devices/plcopen/st/values.hpp"
 
 // What the tree of an expression means: its literals, its names and what may follow them, .member and
@@ -49,6 +50,8 @@ TypedExpression Expressions::typed(const Tree& tree, const Type* wanted) {
       return member_of(tree);
     case Tree::Kind::element:
       return element_of(tree);
+    case Tree::Kind::dereference:
+      return dereferenced(tree);
     case Tree::Kind::call:
       return call(tree, wanted);
     case Tree::Kind::sign:
@@ -76,7 +79,8 @@ TypedExpression Expressions::typed(const Tree& tree, const Type* wanted) {
 TypedExpression Expressions::literal(const StToken& token) {
   if (token.kind == StToken::Kind::number)
     return constant(type_of(token.basic), token.value, token.place, is_number(token.basic));
-  TypedExpression text{type_of(Basic::string), token.place, literal_string(token.string, token.place)};
+  TypedExpression text{elementary_type(token.wide ? "WSTRING" : "STRING"), token.place,
+                       literal_string(token.string, token.place)};
   text.string = token.string;
   return text;
 }
@@ -100,21 +104,35 @@ std::vector<std::string> Expressions::known_names() const {
   return names;
 }
 
+/// A constant may be needed before its section has been read.
+const Variable* Expressions::find_global(std::string_view name) {
+  if (const Variable* found = find_member(*globals_, name)) return found;
+  const auto section = global_sections_.find(lower(name));
+  if (section == global_sections_.end() || section->second->state != Unit::State::untouched) return nullptr;
+  declare(*section->second);
+  return find_member(*globals_, name);
+}
+
 std::optional<TypedExpression> Expressions::variable(const StToken& name) {
   const Variable* found = unit_->type == nullptr ? nullptr : find_member(*unit_->type, name.text);
+  if (found != nullptr && !unit_->edges.empty())
+    if (const auto* edge = find_member(*unit_->type, fmt::format("{}{}", name.text, edge_mark))) found = edge;
+  // A method sees the variables of its block behind its own.
+  const bool of_unit = found != nullptr;
+  if (found == nullptr && unit_->owner != nullptr && unit_->owner->type != nullptr)
+    found = find_member(*unit_->owner->type, name.text);
   const bool own = found != nullptr && unit_->type != globals_;
-  if (found == nullptr) found = find_member(*globals_, name.text);
+  if (found == nullptr) found = find_global(name.text);
   if (found == nullptr) return std::nullopt;
   const Basic basic = found->type->basic;
-  const bool function = unit_->kind == Unit::Kind::function;
+  const bool function = unit_->framed() && of_unit;
   const int frame = own && function ? pou(*unit_).frame : 0;
   int node = leaf_node(own && !function ? StOp::address_own : StOp::address, basic, name.place,
                        frame + found->offset);
   if (found->section == VarClass::in_out) node = add_node(StOp::follow, basic, name.place, node);
   TypedExpression result = variable_of(*found, node, found->name, name.place);
   // A FUNCTION's inputs are its own; a block's are kept for the next call.
-  if (own && found->section == VarClass::input && !function)
-    result.locked = fmt::format("is an input of {}", in_quotes(unit_->name.text));
+  result.own_input = own && found->section == VarClass::input && !function;
   return result;
 }
 
@@ -122,8 +140,13 @@ TypedExpression Expressions::name_expression(const StToken& name, const Type* wa
   if (name.word("TRUE") || name.word("FALSE"))
     return constant(type_of(Basic::boolean), name.word("TRUE") ? 1 : 0, name.place);
   if (std::optional<TypedExpression> found = variable(name)) return *found;
+  if (name.word("THIS") && block_unit() != nullptr) return this_instance(name.place);
+  const Tree getter{Tree::Kind::name, &name, false, {}, {}, {}};
+  if (const Method method = method_of(getter, get_mark); method.unit != nullptr)
+    return method_call(method, {});
   if (std::optional<TypedExpression> found = enum_value(name, wanted)) return *found;
   if (std::optional<TypedExpression> found = predefined(name)) return *found;
+  if (name.word("NULL")) return constant(null_reference(), 0, name.place);
   // Told once a POU; what hangs on it is passed over.
   if (told_.insert(lower(name.text)).second) {
     const bool type = find_unit(name.text) != nullptr || elementary_type(name.text) != nullptr ||
@@ -237,12 +260,13 @@ TypedExpression Expressions::member_of(const Tree& tree) {
   const StToken& name = *tree.token;
   if (before.kind == Tree::Kind::name && !variable(*before.token))
     if (const Type* type = enumeration(before.token->text)) return qualified_enum(*type, name);
+  if (const Method method = method_of(tree, get_mark); method.unit != nullptr) return method_call(method, {});
   const TypedExpression owner = typed(before);
   if (owner.unknown()) return owner;
   if (name.kind != StToken::Kind::name) return bits_of_number(tree, owner);
   const Type& type = *owner.type;
   const Variable* member = find_member(type, name.text);
-  const bool inside = member != nullptr && type.basic == Basic::block &&
+  const bool inside = member != nullptr && type.basic == Basic::block && owner.name != "THIS" &&
                       (member->section == VarClass::local || member->section == VarClass::temp);
   const bool connected =
       member != nullptr && type.basic == Basic::block && member->section == VarClass::in_out;
@@ -260,6 +284,7 @@ TypedExpression Expressions::member_of(const Tree& tree) {
                                        owner.name + "." + member->name, owner.place);
   result.depth = owner.depth;
   if (result.locked.empty()) result.locked = owner.locked;
+  result.own_input = owner.own_input;
   if (type.basic == Basic::block && member->section == VarClass::output)
     result.locked = fmt::format("is an output of {}", type.name);
   result.cam_file = &type == cam_ref_ && member == type.members.data();
@@ -318,6 +343,15 @@ TypedExpression Expressions::element_at(TypedExpression owner, const TypedExpres
   if (!is_integer(index.type->basic) || outside) {
     owner.type = type_of(Basic::unknown);
     return owner;
+  }
+  if (owner.reference >= 0) {
+    const Type* lint = type_of(Basic::lint);
+    const auto number = [&](std::int64_t value) { return constant(lint, value, place); };
+    const TypedExpression from_first = apply_op(StOp::subtract, lint, place, index, number(type.low));
+    const TypedExpression bytes =
+        apply_op(StOp::multiply, lint, place, from_first, number(bytes_of(*type.element)));
+    const TypedExpression begin{owner.type, place, owner.reference, owner.depth};
+    owner.reference = value_node(apply_op(StOp::add, null_reference(), place, begin, bytes));
   }
   if (index.constant) {
     owner.node = address_plus(owner.node, (index.value - type.low) * type.element->cells);

@@ -142,6 +142,10 @@ struct StandardCall {
     if (std::all_of(given.begin(), given.end(), is_text)) return given;
     auto common = to_common(given);
     if (!common || !common->front().untyped || is_real(common->front().type->basic)) return common;
+    if (wanted != nullptr && is_integer(wanted->basic)) {
+      for (TypedExpression& value : *common) value = values.literal_as(std::move(value), *base_of(wanted));
+      return common;
+    }
     // Literals have the smallest type that holds them all.
     for (const Basic basic : {Basic::int_, Basic::dint, Basic::lint}) {
       const Subrange range = range_of(basic);
@@ -180,9 +184,9 @@ struct StandardCall {
   }
 
   /// The type of values of one type; of texts, which are of different lengths, the longest.
-  static const Type* chosen_type(const Inputs& given) {
+  [[nodiscard]] const Type* chosen_type(const Inputs& given) const {
     const Type* type = base_of(given.front().type);
-    return type->basic == Basic::string ? longest_string() : type;
+    return type->basic == Basic::string ? values.longest_string(type->wide) : type;
   }
 
   TypedExpression select() {
@@ -233,21 +237,24 @@ struct StandardCall {
         return refused(inputs[i], "it takes a STRING: X_TO_STRING(...) makes one");
       if (i >= texts && !is_integer(basic(i)))
         return refused(inputs[i], "lengths and places are whole numbers, from 1");
+      if (i < texts && inputs[i].type->wide != inputs[0].type->wide)
+        return refused(inputs[i], "texts are all STRING or all WSTRING: STRING_TO_WSTRING(...) converts");
     }
     return text_value(function.text, type_of(Basic::int_));
   }
 
   /// A node of TextOp `op`; texts get a place of their own for each call in the text.
-  TypedExpression text_value(TextOp op, const Type* number) {
+  TypedExpression text_value(TextOp op, const Type* number, bool wide_result = false) {
     const bool text = op < TextOp::length;
-    const Type* type = text ? longest_string() : number;
+    const bool wide = wide_result || inputs[0].type->wide;
+    const Type* type = text ? values.longest_string(wide) : number;
     std::vector<int> nodes;
     if (text) nodes.push_back(values.scratch(*type, place()));
     for (const int node : nodes_of(inputs)) nodes.push_back(node);
     const Basic of = op == TextOp::from_value ? basic(0) : type->basic;
     const int list = values.add_list(nodes);
     return {type, place(),
-            values.add_node(StOp::text, of, place(), list, static_cast<int>(nodes.size()), -1,
+            values.add_node(StOp::text, of, place(), list, static_cast<int>(nodes.size()), wide ? 1 : -1,
                             static_cast<std::int64_t>(op)),
             depth_over(inputs)};
   }
@@ -264,7 +271,10 @@ struct StandardCall {
 
   TypedExpression truncated() {
     if (!is_real(basic(0))) return refused(inputs[0], "it takes REAL and LREAL");
-    TypedExpression result = values.apply_op(function.op, type_of(function.to), place(), inputs[0]);
+    // TRUNC gives what the context wants.
+    const bool open = function.to == Basic::dint && wanted != nullptr && is_integer(wanted->basic);
+    TypedExpression result =
+        values.apply_op(function.op, open ? base_of(wanted) : type_of(function.to), place(), inputs[0]);
     result.untyped = false;
     return result;
   }
@@ -275,7 +285,8 @@ struct StandardCall {
   }
 
   /// X_TO_Y.
-  TypedExpression converted(Basic to) {
+  TypedExpression converted(const Type& target) {
+    const Basic to = target.basic;
     TypedExpression& value = inputs[0];
     const Basic from = basic(0);
     const bool text = from == Basic::string;
@@ -289,7 +300,15 @@ struct StandardCall {
       return refused(value, "it takes numbers, BOOL, TIME and STRING");
     if (value.untyped && (from == Basic::lint || from == Basic::ulint || from == Basic::lreal))
       value.untyped = false;
-    if (to == Basic::string) return text ? value : text_value(TextOp::from_value, nullptr);
+    if (to == Basic::string && text && value.type->wide != target.wide) {
+      // The same bytes, counted otherwise.
+      TypedExpression other = value;
+      other.type = values.longest_string(target.wide);
+      other.string.reset();
+      other.address = false;
+      return other;
+    }
+    if (to == Basic::string) return text ? value : text_value(TextOp::from_value, nullptr, target.wide);
     if (text) return text_value(TextOp::to_value, type_of(to));
     TypedExpression result = values.cast(value, to, place());
     // A conversion is a value, nothing to assign to.
@@ -433,7 +452,7 @@ std::vector<const Tree*> in_order(Values& values, const StToken& name, const std
 }
 
 /// "REAL_TO_INT" or "TO_INT"; the first is unknown in the second.
-std::optional<std::pair<Basic, Basic>> conversion(std::string_view name) {
+std::optional<std::pair<const Type*, const Type*>> conversion(std::string_view name) {
   const std::string text = upper(name);
   const std::size_t at = text.starts_with("TO_") ? 0 : text.find("_TO_");
   if (at == std::string::npos) return std::nullopt;
@@ -443,7 +462,7 @@ std::optional<std::pair<Basic, Basic>> conversion(std::string_view name) {
   const Type* from = at == 0 ? type_of(Basic::unknown) : elementary_type(text.substr(0, at));
   const Type* to = elementary_type(text.substr(at == 0 ? 3 : at + 4));
   if (!convertible(to) || (at != 0 && !convertible(from))) return std::nullopt;
-  return std::pair{from->basic, to->basic};
+  return std::pair{from, to};
 }
 
 }  // namespace
@@ -466,10 +485,11 @@ std::optional<TypedExpression> standard_call(Values& values, const StToken& name
   if (!types) return std::nullopt;
   const auto [from, to] = *types;
   constexpr StandardFunction one_input{"", &Call::same};
-  TypedExpression value = typed(*in_order(values, name, given, one_input).front(), nullptr);
-  if (!value.unknown() && from != Basic::unknown) value = values.converted(std::move(value), *type_of(from));
+  const Type* const inner = is_integer(from->basic) ? from : nullptr;  // BYTE of BYTE_TO_INT(TRUNC(x))
+  TypedExpression value = typed(*in_order(values, name, given, one_input).front(), inner);
+  if (!value.unknown() && from->basic != Basic::unknown) value = values.converted(std::move(value), *from);
   if (value.unknown()) return value;
-  return Call{values, one_input, name, {std::move(value)}, nullptr}.converted(to);
+  return Call{values, one_input, name, {std::move(value)}, nullptr}.converted(*to);
 }
 
 }  // namespace drycut::devices::plcopen::st

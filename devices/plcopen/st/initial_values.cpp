@@ -28,6 +28,14 @@ void Declarations::initial_into(const Type& type, std::span<Cell> cells) {
               "its axis comes from the configuration");
     case Basic::unknown:
       throw GiveUp{};
+    case Basic::reference: {
+      const TypedExpression value = expression(&type);
+      if (!value.constant || value.value != 0)
+        give_up("st.initial-value"_code, value.place, "a reference begins with NULL",
+                "assign it by a statement: p := REF(x);");
+      cells[0] = 0;
+      return;
+    }
     case Basic::string:
       break;
     default:
@@ -38,9 +46,12 @@ void Declarations::initial_into(const Type& type, std::span<Cell> cells) {
   if (text.kind != StToken::Kind::string)
     give_up("st.initial-value"_code, text.place, "a STRING begins with a text, not " + in_quotes(text.text),
             "'text'");
-  if (text.string.size() > type.length)
+  if (text.wide != type.wide)
+    give_up("st.initial-value"_code, text.place, fmt::format("{} is no {}", in_quotes(text.text), type.name),
+            type.wide ? "a WSTRING is written \"text\"" : "a STRING is written 'text'");
+  if (const auto size = characters(text.string, type.wide); size > type.length)
     give_up("st.out-of-range"_code, text.place,
-            fmt::format("{} characters do not fit in {}", text.string.size(), type.name),
+            fmt::format("{} characters do not fit in {}", size, type.name),
             fmt::format("{} at most", type.length));
   std::fill(cells.begin(), cells.end(), 0);
   std::memcpy(cells.data(), text.string.data(), text.string.size());
@@ -48,8 +59,15 @@ void Declarations::initial_into(const Type& type, std::span<Cell> cells) {
 
 void Declarations::initial_array(const Type& type, std::span<Cell> cells) {
   const Place opening = peek().place;
-  expect("[", fmt::format("opens the values of an {}", type.name));
-  const auto size = static_cast<std::size_t>(type.element->cells);
+  // Values without brackets are as older programs have them; a member's would run into the next member.
+  const bool bare = !peek().is("[") && in_members_ == 0;
+  if (!bare) expect("[", fmt::format("opens the values of an {}", type.name));
+  const Nested inner(in_members_);
+  // A flat list has the values of all dimensions, the last one the fastest.
+  const bool nested = peek().is("[") || (peek().whole() && peek(1).is("(") && peek(2).is("["));
+  const Type* element = type.element;
+  while (!nested && element->basic == Basic::array) element = element->element;
+  const auto size = static_cast<std::size_t>(element->cells);
   const std::size_t count = cells.size() / size;
   std::size_t given = 0;
   const auto too_many = [&](Place place) {
@@ -65,7 +83,7 @@ void Declarations::initial_array(const Type& type, std::span<Cell> cells) {
       take();
       const std::size_t first = given;
       if (times < 1 || static_cast<std::uint64_t>(times) > count - given) too_many(place);
-      initial_into(*type.element, cells.subspan(first * size, size));
+      initial_into(*element, cells.subspan(first * size, size));
       expect(")", "ends a repeated value");
       for (given = first + 1; given < first + static_cast<std::size_t>(times); ++given)
         std::copy_n(cells.begin() + static_cast<std::ptrdiff_t>(first * size), size,
@@ -73,12 +91,17 @@ void Declarations::initial_array(const Type& type, std::span<Cell> cells) {
       continue;
     }
     if (given == count) too_many(place);
-    initial_into(*type.element, cells.subspan(given++ * size, size));
+    initial_into(*element, cells.subspan(given++ * size, size));
   } while (accept(","));
-  expect("]", fmt::format("closes the values opened in line {}", opening.line));
+  // One value alone is hardly meant for the first element.
+  if (bare && given == 1 && count > 1)
+    give_up("st.syntax"_code, opening, fmt::format("one value for an {}", type.name),
+            fmt::format("[{}(value)] gives it to all elements", count));
+  if (!bare) expect("]", "closes the values opened in " + line_of(opening));
 }
 
 void Declarations::initial_members(const Type& type, std::span<Cell> cells) {
+  const Nested members(in_members_);
   expect("(", fmt::format("opens the values of a {}", type.name));
   do {
     const StToken name = expect_name("the name of a member");

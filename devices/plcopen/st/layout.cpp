@@ -54,10 +54,10 @@ void Compiler::place_memory() {
     return at;
   };
   for (const auto& unit : units_)
-    if (unit->pou >= 0 && unit->kind == Unit::Kind::function) pou(*unit).frame = place(*unit->type);
+    if (unit->pou >= 0 && unit->framed()) pou(*unit).frame = place(*unit->type);
   for (std::size_t i = 0; i < code_->instances.size(); ++i)
     code_->instances[i].cell = place(*connections_[i].unit->type);
-  memory_ = next;
+  memory_ = std::max(next, 1);
 }
 
 /// Variables at terminals are in VAR_GLOBAL or in a program, which may be one that does not run.
@@ -115,10 +115,11 @@ void Compiler::finish() {
   };
   fill(*globals_, 0);
   for (const auto& unit : units_)
-    if (unit->pou >= 0 && unit->kind == Unit::Kind::function) fill(*unit->type, pou(*unit).frame);
+    if (unit->pou >= 0 && unit->framed()) fill(*unit->type, pou(*unit).frame);
   for (std::size_t i = 0; i < code.instances.size(); ++i)
     fill(*connections_[i].unit->type, code.instances[i].cell);
   code.image.insert(code.image.end(), pool_.begin(), pool_.end());
+  if (!code.referents.empty()) find_kinds();
 
   for (std::size_t i = 0; i < code.instances.size(); ++i) {
     // One program's variables need no name before them.
@@ -127,6 +128,26 @@ void Compiler::finish() {
     walk(*connections_[i].unit->type, code.instances[i].cell, prefix, false, true);
   }
   walk(*globals_, 0, "", false, true);
+}
+
+/// Which cells are plain data, so that a reference may see them as something else.
+void Compiler::find_kinds() {
+  code_->kinds.assign(code_->image.size(), Basic::unknown);
+  mark_kinds(*globals_, 0);
+  for (const auto& unit : units_)
+    if (unit->pou >= 0 && unit->framed()) mark_kinds(*unit->type, pou(*unit).frame);
+  for (std::size_t i = 0; i < code_->instances.size(); ++i)
+    mark_kinds(*connections_[i].unit->type, code_->instances[i].cell);
+}
+
+void Compiler::mark_kinds(const Type& type, int cell) {
+  for (const Variable& member : type.members)
+    if (member.section != VarClass::in_out && member.name != kind_name)
+      mark_kinds(*member.type, cell + member.offset);
+  if (type.basic == Basic::array)
+    for (int at = 0; at < type.cells; at += type.element->cells) mark_kinds(*type.element, cell + at);
+  if (is_elementary(type.basic) || type.basic == Basic::string)
+    std::fill_n(code_->kinds.begin() + cell, type.cells, type.basic);
 }
 
 void Compiler::walk(const Type& type, int cell, const std::string& prefix, bool retain, bool shown) {
@@ -139,7 +160,8 @@ void Compiler::walk(const Type& type, int cell, const std::string& prefix, bool 
     if (member.retain && !retain) code_->retain.push_back({at, at + member.type->cells - 1});
     const bool output = type.basic == Basic::block && member.section == VarClass::output;
     const bool hidden = member.section == VarClass::temp || member.section == VarClass::in_out ||
-                        (type.standard && member.section == VarClass::local);
+                        (type.standard && member.section == VarClass::local) ||
+                        member.name.find('\'') != std::string::npos;
     walk_value(*member.type, at, name, kept, shown && !hidden,
                !member.constant && !output && !member.reads_terminal);
   }

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "devices/plcopen/st/pragmas.hpp"
+
 namespace drycut::devices::plcopen::st {
 namespace {
 
@@ -21,8 +23,8 @@ std::string without_underscores(std::string_view text) {
 
 class StLexer : public Lexer<StToken> {
  public:
-  StLexer(std::string_view text, const std::string& file, Problems& problems)
-      : Lexer(without_byte_order_mark(text), file, problems), pragmas_(file, problems) {}
+  StLexer(std::string_view text, const std::string& file, Problems& problems, int line)
+      : Lexer(without_byte_order_mark(text), file, problems, line), pragmas_(file, problems) {}
 
   std::vector<StToken> run() {
     while (skip_blank(), !at_end()) next();
@@ -55,7 +57,7 @@ class StLexer : public Lexer<StToken> {
         return;
       else
         // Texts may hold what looks like a comment or a pragma.
-        advance(c == '\'' ? string_length().first : 1);
+        advance(c == '\'' || c == '"' ? string_length().first : 1);
     }
   }
 
@@ -90,7 +92,7 @@ class StLexer : public Lexer<StToken> {
       word();
     else if (is_digit(c))
       number();
-    else if (c == '\'')
+    else if (c == '\'' || c == '"')
       string();
     else if (c == '%')
       add(Kind::address, length([](char x) { return in_name(x) || x == '.' || x == '%'; }));
@@ -107,10 +109,10 @@ class StLexer : public Lexer<StToken> {
     constexpr std::array<std::string_view, 7> pairs{":=", "=>", "**", "<=", ">=", "<>", ".."};
     if (std::any_of(pairs.begin(), pairs.end(), [&](std::string_view pair) { return starts(pair); }))
       add(Kind::sign, 2);
-    else if (std::string_view("()[],;:.+-*/<>=&#").find(peek()) != std::string_view::npos)
+    else if (std::string_view("()[],;:.+-*/<>=&#^").find(peek()) != std::string_view::npos)
       add(Kind::sign, 1);
     else
-      stranger(peek() == '"' ? "a string stands between single quotes" : "comments are (* ... *) or // ...");
+      stranger("comments are (* ... *) or // ...");
   }
 
   void word() {
@@ -180,8 +182,12 @@ class StLexer : public Lexer<StToken> {
   // T#1s500ms, D#1996-08-15, TOD#15:36:55.36, DT#1996-08-15-15:36:55.
   void clock(Basic basic, std::size_t prefix) {
     const bool time = basic == Basic::time;
-    const auto belongs = [&](char x) { return in_name(x) || x == '.' || x == '-' || (x == ':' && !time); };
-    StToken& token = literal(basic, length(belongs, prefix));
+    // T#5s-e is a difference: only dates have a '-' within them.
+    int dashes = basic == Basic::date ? 2 : basic == Basic::dt ? 3 : 0;
+    const auto belongs = [&](char x) {
+      return in_name(x) || x == '.' || (x == '-' && dashes-- > 0) || (x == ':' && !time);
+    };
+    StToken& token = literal(basic, length(belongs, peek(prefix) == '-' ? prefix + 1 : prefix));
     const std::string text = without_underscores(token.text.substr(prefix));
     if (time)
       read_time(token, text);
@@ -274,9 +280,12 @@ class StLexer : public Lexer<StToken> {
   /// With its quotes, and whether it has both.
   [[nodiscard]] std::pair<std::size_t, bool> string_length() const {
     std::size_t size = 1;
-    while (at_ + size < text_.size() && peek(size) != '\'' && peek(size) != '\n')
-      size += peek(size) == '$' && peek(size + 1) != '\n' ? 2 : 1;
-    const bool closed = peek(size) == '\'';
+    const char quote = peek();
+    // 'it''s': a quote that is written twice.
+    const auto doubled = [&] { return peek(size) == quote && peek(size + 1) == quote; };
+    while (at_ + size < text_.size() && (peek(size) != quote || doubled()) && peek(size) != '\n')
+      size += doubled() || (peek(size) == '$' && peek(size + 1) != '\n') ? 2 : 1;
+    const bool closed = peek(size) == quote;
     return {std::min(size + (closed ? 1 : 0), text_.size() - at_), closed};
   }
 
@@ -286,18 +295,21 @@ class StLexer : public Lexer<StToken> {
     const std::size_t size = whole - 1;
     StToken& token = add(Kind::string, whole);
     if (!closed) {
-      complain("st.syntax"_code, token, "a string is not closed on its line", "end it with '");
+      complain("st.syntax"_code, token, "a string is not closed on its line",
+               fmt::format("end it with {}", token.text.front()));
       return;
     }
+    token.wide = token.text.front() == '"';
     unescape(token, token.text.substr(1, size - 1), begin);
   }
 
   void unescape(StToken& token, std::string_view text, Place begin) {
-    constexpr std::string_view names = "$'LlNnPpRrTt";
-    constexpr std::string_view values = "$'\n\n\n\n\f\f\r\r\t\t";
+    constexpr std::string_view names = "$'\"LlNnPpRrTt";
+    constexpr std::string_view values = "$'\"\n\n\n\n\f\f\r\r\t\t";
     for (std::size_t i = 0; i < text.size(); ++i) {
       if (text[i] != '$') {
         token.string += text[i];
+        if (text[i] == token.text.front()) ++i;  // the second one
         continue;
       }
       const char c = i + 1 < text.size() ? text[i + 1] : '\0';
@@ -324,8 +336,9 @@ class StLexer : public Lexer<StToken> {
 
 }  // namespace
 
-std::vector<StToken> tokens_of(std::string_view text, const std::string& file, Problems& problems) {
-  return StLexer(text, file, problems).run();
+std::vector<StToken> tokens_of(std::string_view text, const std::string& file, Problems& problems,
+                               int first_line) {
+  return StLexer(text, file, problems, first_line).run();
 }
 
 }  // namespace drycut::devices::plcopen::st

@@ -1,59 +1,15 @@
 #pragma once
 #include <array>
 #include <functional>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/scanner.hpp"
+#include "devices/plcopen/st/keywords.hpp"
 #include "devices/plcopen/st/types.hpp"
 
 namespace drycut::devices::plcopen::st {
-
-/// Words of the language, any case: no name may be one of them.
-bool is_keyword(std::string_view word);
-/// END_IF, ELSE, UNTIL and the like: where a statement that was given up must end.
-bool closes_block(std::string_view word);
-/// Which of them a word is that is none, as ENDIF and ELSEIF; "" if it is like none.
-std::string_view meant_closer(std::string_view word);
-/// PROGRAM, FUNCTION, TYPE and the like.
-bool opens_unit(std::string_view word);
-/// The standard blocks TON, TOF, TP, R_TRIG, F_TRIG, SR, RS, CTU, CTD, CTUD, as Structured Text with the pins
-/// of CODESYS and TwinCAT.
-std::string_view standard_blocks();
-
-/// The pragmas of CODESYS that decide what is compiled: {define N}, {define N 'text'}, {undefine N}, {IF
-/// ...}, {ELSIF ...}, {ELSE}, {END_IF}, {error 'text'}. Conditions are defined(N), hasvalue(N, 'text'), NOT,
-/// AND, OR and parentheses; what asks for more is refused. Other pragmas are passed over.
-class Pragmas : private Complaints {
- public:
-  using Complaints::Complaints;
-
-  /// `text` is what stands between { and }, `place` where the { is.
-  void read(std::string_view text, Place place);
-  /// Whether the text that follows is compiled.
-  [[nodiscard]] bool active() const { return branches_.empty() || branches_.back().active; }
-  /// At the end of the file.
-  void finish();
-
- private:
-  struct Branch {
-    Place opened;
-    bool outer = true;   ///< what surrounds it is compiled
-    bool taken = false;  ///< one of its parts has been
-    bool active = false;
-    bool otherwise = false;  ///< {ELSE} has been
-  };
-  struct Condition;
-
-  void next_part(std::string_view word, bool holds, Place place);
-  void define(const std::vector<std::string>& words, Place place);
-  bool condition(const std::vector<std::string>& words, std::string_view text, Place place);
-
-  std::map<std::string, std::string> defined_;  ///< by name in lower case
-  std::vector<Branch> branches_;
-};
 
 /// A word, literal or sign of a Structured Text file. Signs are
 /// ( ) [ ] , ; : . + - * / < > = & # := => ** <= >= <> .. and times and dates are numbers too.
@@ -61,6 +17,7 @@ struct StToken : drycut::Token {
   Basic basic = Basic::unknown;  ///< of a number: LINT, above it ULINT, LREAL, TIME, TOD, DATE or DT
   Cell value = 0;
   std::string string;  ///< without quotes and escapes
+  bool wide = false;   ///< "text": of WSTRING
 
   [[nodiscard]] bool whole() const { return kind == Kind::number && is_integer(basic); }
 };
@@ -74,8 +31,9 @@ inline constexpr std::array<TimeUnit, 5> time_units{
     {{"d", 86'400'000}, {"h", 3'600'000}, {"m", 60'000}, {"s", 1000}, {"ms", 1}}};
 
 /// The tokens of a file, comments, pragmas `{...}` and what they switch off left out, ended by one of
-/// Kind::end.
-std::vector<StToken> tokens_of(std::string_view text, const std::string& file, Problems& problems);
+/// Kind::end; the first line has the number `first_line`.
+std::vector<StToken> tokens_of(std::string_view text, const std::string& file, Problems& problems,
+                               int first_line = 1);
 
 /// Thrown when a statement or a declaration is given up; its problem has been told.
 struct GiveUp {};
@@ -116,6 +74,16 @@ class Reader : public TokenReader<StToken> {
   /// The remedy for a word that is not known; a file full of them is not searched for each.
   std::string suggested(std::string_view word, const std::function<std::vector<std::string>()>& known,
                         const std::string& otherwise) const;
+  /// "line 5", of another file than that of `seen_from` "line 5 of knife.st".
+  [[nodiscard]] std::string line_of(Place place, Place seen_from) const {
+    return lines_.told(place.line, seen_from.line);
+  }
+  [[nodiscard]] std::string line_of(Place place) const { return line_of(place, place); }
+
+  /// A name that is declared in two files is told in both.
+  void tell_twice(const StToken& name, std::string_view first, Place other);
+
+  SourceLines lines_;
 };
 
 /// The names of what has a `name`, for messages.

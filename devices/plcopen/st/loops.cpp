@@ -92,7 +92,7 @@ int Statements::repeat_statement() {
       test = value_node(value);
   } else if (peek().word("END_REPEAT")) {
     complain("st.syntax"_code, peek().place, "UNTIL is missing before 'END_REPEAT'",
-             fmt::format("REPEAT of line {} ends with UNTIL condition END_REPEAT", opened.place.line));
+             fmt::format("REPEAT of {} ends with UNTIL condition END_REPEAT", line_of(opened.place)));
   }
   close(opened, "END_REPEAT");
   return add_node(StOp::repeat, Basic::unknown, opened.place, body, test);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "base/state_archive.hpp"
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/code.hpp"
+#include "devices/plcopen/st/references.hpp"
 
 namespace drycut::devices::plcopen::st {
 
@@ -22,6 +24,9 @@ void Machine::start(bool all) {
   memory_ = std::move(fresh);
   for (std::size_t i = 0; i < code_.external_cells.size(); ++i)
     at(code_.external_cells[i]) = kernel_.find_axis(code_.externals[i].name).number;
+  active_.clear();
+  losses_.clear();
+  told_.clear();
   motions_.clear();
   for (const Compiled::Motion& place : code_.motions) {
     Motion motion;
@@ -71,11 +76,82 @@ std::int64_t Machine::element(const Node& n) {
   return value(n.a) + (index - span.low) * span.cells + n.imm;
 }
 
+std::int64_t Machine::dereference(const Node& n) {
+  const Reference reference = reference_of(value(n.a));
+  if (reference.referent < 0) throw StError(n, "the reference is NULL; test it before: p <> NULL");
+  const Referent& wanted = code_.referents[static_cast<std::size_t>(n.c)];
+  const bool known = reference.referent < static_cast<std::int64_t>(code_.referents.size());
+  if (!known || reference.bytes != 0 ||
+      !same_type(*code_.referents[static_cast<std::size_t>(reference.referent)].type, *wanted.type))
+    throw StError(n, fmt::format("the reference is of no {}; REF(variable of that type)", wanted.type->name));
+  return reference.place + n.imm;
+}
+
+std::pair<const Referent*, Cell*> Machine::seen_by(const Node& n, Cell reference, std::int64_t& bytes) {
+  const Reference at = reference_of(reference);
+  if (at.referent < 0) throw StError(n, "the reference is NULL; test it before: p <> NULL");
+  const auto outside = [&] {
+    return StError(n, "the reference is outside of what it is of; see how many bytes it was moved by");
+  };
+  if (at.referent >= static_cast<std::int64_t>(code_.referents.size())) throw outside();
+  const Referent& of = code_.referents[static_cast<std::size_t>(at.referent)];
+  const int size = bytes_of(of.basic);
+  const std::int64_t last = at.bytes + bytes_of(n.basic) - 1;
+  const std::int64_t all =
+      of.basic == Basic::string ? std::int64_t{of.cells} * 8 - 1 : std::int64_t{of.cells} * size;
+  const std::int64_t per_cell = of.basic == Basic::string ? 8 : size;
+  if (last >= all) throw outside();
+  // Numbers may have been made references: only cells of plain data are touched.
+  for (const std::int64_t byte : {at.bytes, last}) {
+    const auto cell = static_cast<std::size_t>(at.place + byte / per_cell);
+    if (cell >= code_.kinds.size() || code_.kinds[cell] != of.basic) throw outside();
+  }
+  bytes = at.bytes;
+  return {&of, &memory_[static_cast<std::size_t>(at.place)]};
+}
+
 Cell Machine::operation(const Node& n) {
   const Cell a = value(n.a);
   const Cell b = n.b >= 0 ? value(n.b) : 0;
   if (const auto none = no_result(n.op, n.basic, a, b)) throw StError(n, none->what + "; " + none->remedy);
-  return apply(n.op, n.basic, a, b);
+  const Cell result = apply(n.op, n.basic, a, b);
+  // Real numbers overflow, conversions leave their type; whole numbers wrap.
+  if (is_real(n.basic) ? !std::isfinite(real_of(result))
+                       : n.op == StOp::to_whole || n.op == StOp::truncate || n.op == StOp::wrap)
+    look_at(n, a, result);
+  return result;
+}
+
+void Machine::look_at(const Node& n, Cell before, Cell result) {
+  const std::string& type = type_of(n.basic)->name;
+  if (is_real(n.basic)) {
+    if (std::isnan(real_of(result)))
+      tell_loss(n, "the result is no number; test the values before");
+    else
+      tell_loss(n, fmt::format("a {} overflows; it goes to {}", type,
+                               n.basic == Basic::real ? "3.4e38" : "1.8e308"));
+    return;
+  }
+  // BYTE to LWORD and the parts of numbers take the lower bits by intention.
+  const bool number = is_integer(n.basic) && n.basic <= Basic::ulint;
+  if (n.op == StOp::wrap) {
+    if (number && result != before)
+      tell_loss(n, fmt::format("{} does not fit in {}, which makes {} of it", before, type, result));
+    return;
+  }
+  constexpr double two_to_64 = 18446744073709551616.0;
+  const double value = n.op == StOp::truncate ? std::trunc(real_of(before)) : std::nearbyint(real_of(before));
+  const Subrange range = range_of(n.basic);
+  const double high = is_wide(n.basic) ? two_to_64 : static_cast<double>(range.high);
+  if (value >= static_cast<double>(range.low) && (is_wide(n.basic) ? value < high : value <= high)) return;
+  tell_loss(n, fmt::format("{} does not fit in {}, which makes {} of it", real_of(before), type,
+                           is_wide(n.basic) ? fmt::format("{}", static_cast<std::uint64_t>(result))
+                                            : fmt::format("{}", result)));
+}
+
+void Machine::tell_loss(const Node& n, std::string text) {
+  if (told_.insert(static_cast<int>(&n - code_.nodes.data())).second)
+    losses_.push_back({n.line, n.column, std::move(text)});
 }
 
 Cell Machine::multiplex(const Node& n) {
@@ -85,7 +161,27 @@ Cell Machine::multiplex(const Node& n) {
   return value(code_.lists[static_cast<std::size_t>(n.b + which)]);
 }
 
-Cell Machine::call_function(const Node& n) {
+Cell Machine::call_function(const Node& n) { return call_framed(n, code_.lists.data() + n.a, n.c, own_); }
+
+Cell Machine::call_method(const Node& n) {
+  const int* const list = code_.lists.data() + n.a;
+  const std::int64_t instance = value(list[0]);
+  int number = n.c;
+  if (list[1] >= 0)
+    if (const auto actual = code_.methods.find({at(instance), list[1]}); actual != code_.methods.end())
+      number = actual->second;
+  active_.resize(code_.pous.size());
+  const auto pou = static_cast<std::size_t>(number);
+  if (active_[pou]) throw StError(n, fmt::format("{} calls itself; use a loop", code_.pous[pou].type->name));
+  active_[pou] = true;
+  const Cell result = call_framed(n, list + 2, number, instance);
+  active_[pou] = false;
+  return result;
+}
+
+/// The arguments are for POU n.c. Where another one runs that overrides it, that has the same pins at the
+/// same places.
+Cell Machine::call_framed(const Node& n, const int* list, int number, std::int64_t own) {
   struct Input {
     Cell value = 0;
     int place = 0;
@@ -94,15 +190,17 @@ Cell Machine::call_function(const Node& n) {
   constexpr std::size_t few = 8;
   std::array<Input, few> fewer;
   std::vector<Input> more;
-  const int* list = code_.lists.data() + n.a;
   const auto inputs = static_cast<std::size_t>(*list++);
   if (inputs > few) more.resize(inputs);
   Input* const given = inputs > few ? more.data() : fewer.data();
   // An input may call the same function: all are computed before the frame is used.
   for (std::size_t i = 0; i < inputs; ++i, list += 3) given[i] = {value(list[0]), list[1], list[2]};
-  const Pou& pou = code_.pous[static_cast<std::size_t>(n.c)];
+  const Pou& pou = code_.pous[static_cast<std::size_t>(number)];
+  const Pou& named = code_.pous[static_cast<std::size_t>(n.c)];
+  const int shift = pou.frame - named.frame;
   spend(n, pou.type->cells / 8);
   reset(pou, pou.frame);
+  for (std::size_t i = 0; shift != 0 && i < inputs; ++i) given[i].place += shift;
   for (std::size_t i = 0; i < inputs; ++i) {
     if (given[i].cells == 1)
       at(given[i].place) = given[i].value;
@@ -112,8 +210,12 @@ Cell Machine::call_function(const Node& n) {
       std::copy_n(memory_.begin() + given[i].value, -given[i].cells, memory_.begin() + given[i].place);
   }
   const std::int64_t caller = own_;
+  own_ = own;
   execute(pou.body);
   own_ = caller;
+  if (shift != 0)
+    std::copy_n(memory_.begin() + pou.frame, std::min(pou.type->cells, named.type->cells),
+                memory_.begin() + named.frame);
   const std::int64_t from = pou.frame + pou.result;
   Cell result = at(from);
   if (n.b >= 0) {
@@ -150,8 +252,8 @@ Cell Machine::passes(const Node& n) {
 }
 
 Cell Machine::compare(const Node& n) {
-  const std::string_view a = text(value(n.a), longest_string_length);
-  const std::string_view b = text(value(n.b), longest_string_length);
+  const std::string_view a = text(value(n.a), longest_bytes());
+  const std::string_view b = text(value(n.b), longest_bytes());
   charge(static_cast<std::int64_t>(std::min(a.size(), b.size()) / 8));
   const int order = a.compare(b);
   return order < 0 ? -1 : order > 0 ? 1 : 0;
@@ -163,7 +265,7 @@ Cell Machine::text_value(const Node& n) {
   const int* const end = list + n.b;
   const Cell target = op < TextOp::length ? value(*list++) : 0;
   if (op == TextOp::from_value) {
-    put_string(text_of(n.basic, value(*list)), target, longest_string_length);
+    put_string(text_of(n.basic, value(*list)), target, longest_bytes());
     return target;
   }
   const std::size_t texts = texts_of(op, static_cast<std::size_t>(end - list));
@@ -176,16 +278,23 @@ Cell Machine::text_value(const Node& n) {
     if (i >= texts) {
       numbers.push_back(given);
     } else {
-      parts.push_back(text(given, longest_string_length));
+      parts.push_back(text(given, longest_bytes()));
       size += parts.back().size();
     }
   }
   // FIND looks at each place.
   charge(static_cast<std::int64_t>(op == TextOp::find ? 8 + size : 8 + size / 8));
-  if (op == TextOp::length) return static_cast<Cell>(parts[0].size());
-  if (op == TextOp::find) return found(parts[0], parts[1]);
+  const bool wide = n.c > 0;
+  if (op == TextOp::length) return static_cast<Cell>(characters(parts[0], wide));
+  if (op == TextOp::find) {
+    const Cell at = found(parts[0], parts[1]);
+    return at == 0 || !wide
+               ? at
+               : static_cast<Cell>(characters(parts[0].substr(0, static_cast<std::size_t>(at)), true));
+  }
+  if (wide) numbers = in_bytes(op, parts[0], numbers);
   if (op == TextOp::to_value) return value_of(n.basic, parts[0]);
-  put_string(edited(op, parts, numbers), target, longest_string_length);
+  put_string(edited(op, parts, numbers), target, longest_bytes());
   return target;
 }
 
@@ -209,6 +318,22 @@ Cell Machine::value(int number) {
       return at(value(n.a)) + n.imm;
     case StOp::element:
       return element(n);
+    case StOp::call_method:
+      return call_method(n);
+    case StOp::instance: {
+      const Cell place = value(n.a);
+      if (place == 0) throw StError(n, "the interface stands for nothing; assign an instance to it before");
+      return place - 1;
+    }
+    case StOp::dereference:
+      return dereference(n);
+    case StOp::make_reference:
+      return cell_of_reference(n.c, value(n.a));
+    case StOp::load_by: {
+      std::int64_t bytes = 0;
+      const auto [of, cells] = seen_by(n, value(n.a), bytes);
+      return seen_as(n.basic, bytes, of->basic, cells);
+    }
     case StOp::call_function:
       return call_function(n);
     case StOp::and_then:
@@ -276,6 +401,13 @@ Machine::Flow Machine::execute(int number) {
       at(value(n.a)) = stored;
       return Flow::next;
     }
+    case StOp::store_by: {
+      const Cell stored = value(n.b);
+      std::int64_t bytes = 0;
+      const auto [of, cells] = seen_by(n, value(n.a), bytes);
+      put_as(n.basic, stored, bytes, of->basic, cells);
+      return Flow::next;
+    }
     case StOp::store_bits:
       store_bits(n);
       return Flow::next;
@@ -286,7 +418,17 @@ Machine::Flow Machine::execute(int number) {
       return Flow::next;
     }
     case StOp::copy_string:
-      copy_string(value(n.b), value(n.a), static_cast<std::size_t>(n.imm));
+      if (const std::string_view whole = whole_text(value(n.b));
+          n.c < 0 ? whole.size() > static_cast<std::size_t>(n.imm)
+                  : characters(whole, true) > static_cast<std::size_t>(n.c))
+        tell_loss(n, fmt::format("a text of {} characters is cut off at {}", characters(whole, n.c >= 0),
+                                 n.c < 0 ? n.imm : n.c));
+      if (n.c >= 0)
+        put_string(first_characters(text(value(n.b), static_cast<std::size_t>(n.imm)),
+                                    static_cast<std::size_t>(n.c)),
+                   value(n.a), static_cast<std::size_t>(n.imm));
+      else
+        copy_string(value(n.b), value(n.a), static_cast<std::size_t>(n.imm));
       return Flow::next;
     case StOp::evaluate:
       value(n.a);
@@ -451,7 +593,9 @@ void Machine::Motion::visit(StateArchive& archive) {
 }
 
 void Machine::visit(StateArchive& archive) {
-  STATE(archive, memory_);
+  std::vector<int> told(told_.begin(), told_.end());
+  archive("memory, told", memory_, told);
+  told_ = {told.begin(), told.end()};
   if (memory_.size() != code_.image.size()) throw BadState("the memory of another program");
   for (std::size_t i = 0; i < motions_.size(); ++i)
     archive.named(fmt::format("{}_{}", motions_[i].type->name, i), motions_[i]);

@@ -1,7 +1,9 @@
 #pragma once
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "devices/plcopen/st/code.hpp"
@@ -49,6 +51,15 @@ class Machine {
   [[nodiscard]] const FunctionBlock* motion_at(int place) const;
   void set_cell(int place, Cell value) { memory_[static_cast<std::size_t>(place)] = value; }
 
+  /// A value that did not fit where it was put; told once for each place of the text.
+  struct Loss {
+    int line = 0;
+    int column = 0;
+    std::string text;
+  };
+  /// Those since it was asked last.
+  std::vector<Loss> take_losses() { return std::exchange(losses_, {}); }
+
   /// Between two runs.
   void visit(StateArchive& archive);
 
@@ -67,8 +78,17 @@ class Machine {
   Cell value(int number);
   Cell operation(const Node& node);
   Cell multiplex(const Node& node);
+  /// Tells what was lost in an operation, if anything was.
+  void look_at(const Node& node, Cell before, Cell result);
+  void tell_loss(const Node& node, std::string text);
+  [[nodiscard]] std::string_view whole_text(std::int64_t place) const { return text(place, longest_bytes()); }
   std::int64_t element(const Node& node);
+  std::int64_t dereference(const Node& node);
+  /// The first of the cells that a value of `node` by a reference lies in, and how many bytes behind.
+  std::pair<const Referent*, Cell*> seen_by(const Node& node, Cell reference, std::int64_t& bytes);
   Cell call_function(const Node& node);
+  Cell call_method(const Node& node);
+  Cell call_framed(const Node& node, const int* list, int number, std::int64_t own);
   Cell enabled(const Node& node);
   Cell in_range(const Node& node);
   Cell passes(const Node& node);
@@ -76,6 +96,8 @@ class Machine {
   Cell compare(const Node& node);
   /// Gives a POU's variables at `frame` that do not outlast a call their initial values.
   void reset(const Pou& pou, std::int64_t frame);
+  /// Of what functions of texts give; a WSTRING has up to four a character.
+  [[nodiscard]] std::size_t longest_bytes() const { return code_.longest_bytes; }
   [[nodiscard]] std::string_view text(std::int64_t place, std::size_t most) const;
 
   void note(int number, char mark);
@@ -102,7 +124,10 @@ class Machine {
   MotionKernel& kernel_;
   std::vector<Cell> memory_;
   std::vector<Motion> motions_;
-  std::int64_t own_ = 0;  ///< where the instance begins whose block runs
+  std::vector<Loss> losses_;
+  std::set<int> told_;        ///< nodes whose loss has been told
+  std::vector<bool> active_;  ///< methods that run
+  std::int64_t own_ = 0;      ///< where the instance begins whose block runs
   std::int64_t time_ms_ = 0;
   std::int64_t work_ = 0;  ///< that is left in this scan
   std::int64_t statements_ = 0;

@@ -125,6 +125,7 @@ struct Operation {
   TypedExpression arithmetic() {
     const bool modulo = sign.kind == Kind::modulo;
     if (is_clock(a.type->basic) || is_clock(b.type->basic)) return time_arithmetic();
+    if (a.type->basic == Basic::reference) return reference_arithmetic();
     const Type* type =
         is_number(a.type->basic) && is_number(b.type->basic) ? common_type(a, b, wanted) : nullptr;
     if (type == nullptr || (modulo && is_real(type->basic)))
@@ -170,6 +171,16 @@ struct Operation {
     return apply(StOp::modulo, a.type, apply(sign.op, time, later, way), number(day));
   }
 
+  /// In bytes: further on or back, and how far it is from one to the other.
+  TypedExpression reference_arithmetic() {
+    const Type* lint = type_of(Basic::lint);
+    const bool plain = sign.op == StOp::add || sign.op == StOp::subtract;
+    if (plain && is_integer(b.type->basic))
+      return apply(sign.op, a.type, a, values.cast(b, Basic::lint, b.place));
+    if (sign.op == StOp::subtract && b.type->basic == Basic::reference) return apply(sign.op, lint, a, b);
+    return mismatch("bytes are added to a reference and taken from it");
+  }
+
   TypedExpression logic() {
     const auto takes = [](const TypedExpression& e) {
       return e.type->basic == Basic::boolean || is_integer(e.type->basic);
@@ -185,15 +196,16 @@ struct Operation {
 
   TypedExpression comparison() {
     const Type* boolean = type_of(Basic::boolean);
-    if (a.type->basic == Basic::string && b.type->basic == Basic::string) {
+    if (a.type->basic == Basic::string && b.type->basic == Basic::string && a.type->wide == b.type->wide) {
       const Type* whole = type_of(Basic::int_);
       const TypedExpression order{
           whole, told.place, values.add_node(StOp::compare_strings, Basic::int_, told.place, a.node, b.node),
           std::max(a.depth, b.depth) + 1};
       return apply(sign.op, boolean, order, constant(whole, 0, told.place));
     }
-    const Type* type = common_type(a, b, nullptr);
-    if (type == nullptr || !is_elementary(type->basic)) return mismatch("compare two of one type");
+    const bool references = a.type->basic == Basic::reference || b.type->basic == Basic::reference;
+    const Type* type = references ? null_reference() : common_type(a, b, nullptr);
+    if (type == nullptr || !is_single(type->basic)) return mismatch("compare two of one type");
     a = values.converted(std::move(a), *type);
     b = values.converted(std::move(b), *type);
     if (is_wide(type->basic)) {

@@ -38,7 +38,8 @@ bool is_operator_function(const StToken& token) {
 std::vector<Argument> arguments(const Tree& call) {
   std::vector<Argument> result;
   for (std::size_t i = 1; i < call.parts.size(); ++i)
-    result.push_back({call.names[i - 1].token, call.names[i - 1].output, &call.parts[i]});
+    result.push_back(
+        {call.names[i - 1].token, call.names[i - 1].output, call.names[i - 1].negated, &call.parts[i]});
   return result;
 }
 
@@ -109,7 +110,7 @@ Tree Parser::primary_tree() {
     give_up("st.syntax"_code, token.place,
             fmt::format("an expression is missing before {}", in_quotes(token.text)), "a value stands here");
   Tree inner = over(Tree::Kind::parenthesised, token, tree());
-  expect(")", fmt::format("closes the parenthesis of line {}", token.place.line));
+  expect(")", "closes the parenthesis of " + line_of(token.place));
   return inner;
 }
 
@@ -138,6 +139,8 @@ Tree Parser::name_tree() {
       result = element_tree(std::move(result));
     else if (peek().is("("))
       result = call_tree(std::move(result));
+    else if (peek().is("^"))
+      result = over(Tree::Kind::dereference, take(), std::move(result));
     else
       break;
   }
@@ -170,6 +173,8 @@ Tree Parser::call_tree(Tree callee) {
   if (accept(")")) return call;
   do {
     Tree::ArgumentName argument;
+    if (peek().word("NOT") && peek(1).kind == StToken::Kind::name && peek(2).is("=>"))
+      argument.negated = &take();
     if (peek().kind == StToken::Kind::name && (peek(1).is(":=") || peek(1).is("=>"))) {
       argument.token = &take();
       argument.output = take().is("=>");
@@ -179,7 +184,7 @@ Tree Parser::call_tree(Tree callee) {
     call.parts.push_back(tree());
     call.names.push_back(argument);
   } while (accept(","));
-  expect(")", fmt::format("closes the arguments opened in line {}", opening.place.line));
+  expect(")", "closes the arguments opened in " + line_of(opening.place));
   return call;
 }
 

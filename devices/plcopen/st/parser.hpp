@@ -14,6 +14,7 @@ struct Tree {
     name,           ///< token
     member,         ///< parts[0] . token, which is an integer or address for bits
     element,        ///< parts[0] [ the other parts ]
+    dereference,    ///< parts[0] ^
     call,           ///< parts[0] ( the other parts ), each with its ArgumentName
     sign,           ///< token, which is +, - or NOT, of parts[0]
     chain,          ///< parts[0], then tokens[i] and parts[i + 1], signs of one precedence, from the left
@@ -23,6 +24,7 @@ struct Tree {
   struct ArgumentName {
     const StToken* token = nullptr;  ///< nullptr if there is none
     bool output = false;
+    const StToken* negated = nullptr;  ///< NOT q => x
   };
 
   Kind kind = Kind::literal;
@@ -37,6 +39,7 @@ struct Tree {
 struct Argument {
   const StToken* name = nullptr;  ///< nullptr if there is none
   bool output = false;
+  const StToken* negated = nullptr;
   const Tree* tree = nullptr;
 };
 std::vector<Argument> arguments(const Tree& call);

@@ -1,4 +1,4 @@
-#include "devices/plcopen/st/lexer.hpp"
+#include "devices/plcopen/st/pragmas.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
 #include "devices/plcopen/st/program.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "devices/plcopen/pins.hpp"
 #include "devices/plcopen/st/compiler.hpp"
@@ -22,8 +23,22 @@ bool Program::has_motion_block(std::string_view name) const {
                      [&](const Compiled::Motion& motion) { return motion.type->motion->name == name; });
 }
 
-Program compile(std::string_view text, const std::string& file, Problems& problems) {
-  return Program(Compiler(text, file, problems).run());
+const std::vector<SourceFile>& Program::files() const { return compiled_->files; }
+const SourceLines& Program::lines() const { return compiled_->lines; }
+
+Problem Program::problem_at(Code code, int line, int column, std::string what, std::string remedy) const {
+  const auto at = lines().at(line);
+  return {code, files().at(at.file).name, at.line, column, std::move(what), std::move(remedy)};
+}
+
+Program compile(std::span<const SourceFile> files, const CompileOptions& options, Problems& problems) {
+  return Program(Compiler(files, options, problems).run());
+}
+
+Program compile(std::string_view text, const std::string& file, Problems& problems,
+                const CompileOptions& options) {
+  const SourceFile one{file, std::string(text)};
+  return compile(std::span(&one, 1), options, problems);
 }
 
 }  // namespace drycut::devices::plcopen::st

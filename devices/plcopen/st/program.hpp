@@ -1,10 +1,13 @@
 #pragma once
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/problem.hpp"
+#include "base/text.hpp"
 #include "devices/cards.hpp"
 #include "devices/plcopen/modbus_map.hpp"
 
@@ -13,7 +16,8 @@ namespace drycut::devices::plcopen::st {
 
 struct Compiled;
 
-/// A compiled file: PROGRAMs with their types, functions and function blocks. Cheap to copy.
+/// A compiled program: PROGRAMs with their types, functions and function blocks. Cheap to copy. A line is
+/// counted over all of its files, see SourceLines.
 class Program {
  public:
   /// A name in the text and where it stands.
@@ -73,14 +77,26 @@ class Program {
   [[nodiscard]] bool has_configuration() const;
   /// True if it has an instance of this motion block ("MC_CamIn").
   [[nodiscard]] bool has_motion_block(std::string_view name) const;
+  [[nodiscard]] const std::vector<SourceFile>& files() const;
+  [[nodiscard]] const SourceLines& lines() const;
+  /// A problem at a line of all files.
+  [[nodiscard]] Problem problem_at(Code code, int line, int column, std::string what,
+                                   std::string remedy) const;
   [[nodiscard]] const Compiled& compiled() const { return *compiled_; }
 
  private:
   std::shared_ptr<const Compiled> compiled_;
 };
 
-/// Compiles one file. All its faults go to `problems` in the order of the text; the result may be run only if
-/// there is none.
-Program compile(std::string_view text, const std::string& file, Problems& problems);
+struct CompileOptions {
+  bool library = false;  ///< it may have no PROGRAM: then there is nothing to run
+};
+
+/// Compiles the files of a program, one at least, whose order is of no account. All its faults go to
+/// `problems` in the order of the files and of their texts; the result may be run only if there is none.
+Program compile(std::span<const SourceFile> files, const CompileOptions& options, Problems& problems);
+/// The same of one file.
+Program compile(std::string_view text, const std::string& file, Problems& problems,
+                const CompileOptions& options = {});
 
 }  // namespace drycut::devices::plcopen::st

@@ -84,6 +84,14 @@ void Reader::skip_past(std::string_view word) {
   }
 }
 
+void Reader::tell_twice(const StToken& name, std::string_view first, Place other) {
+  complain("st.declared-twice"_code, name.place, in_quotes(name.text) + " is declared twice",
+           "the first one is in " + line_of(other, name.place));
+  if (lines_.at(other.line).file != lines_.at(name.place.line).file)
+    complain("st.declared-twice"_code, other, in_quotes(first) + " is declared twice",
+             "the other one is in " + line_of(name.place, other));
+}
+
 void Reader::skip_statement() {
   while (at_ < stop_) {
     if (at_word(closes_block)) return;

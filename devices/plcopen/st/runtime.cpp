@@ -91,7 +91,7 @@ struct Runtime::State {
   void trace(std::size_t number) {
     traces.resize(program.compiled().instances.size());
     std::string& lines = traces[number].lines;
-    if (lines.empty()) lines.assign(split_lines(program.compiled().text).size(), ' ');
+    if (lines.empty()) lines.assign(static_cast<std::size_t>(program.lines().count()), ' ');
     std::fill(lines.begin(), lines.end(), ' ');
     traces[number].order = statement_ns > 0 ? &order : nullptr;
     machine.trace(&traces[number]);
@@ -160,7 +160,11 @@ std::span<const StSymbol> Runtime::symbols() const { return state_->program.comp
 double Runtime::read(std::size_t symbol) const {
   const SymbolPlace& place = state_->program.compiled().places.at(symbol);
   const Cell cell = state_->machine.cell(place.cell);
-  if (is_real(place.basic)) return real_of(cell);
+  if (is_real(place.basic)) {
+    const double most = static_cast<double>(place.basic == Basic::real ? std::numeric_limits<float>::max()
+                                                                       : std::numeric_limits<double>::max());
+    return std::isnan(real_of(cell)) ? 0 : std::clamp(real_of(cell), -most, most);
+  }
   if (is_wide(place.basic)) return static_cast<double>(static_cast<std::uint64_t>(cell));
   return is_clock(place.basic) ? static_cast<double>(cell) / per_second(place.basic)
                                : static_cast<double>(cell);
@@ -220,6 +224,12 @@ bool Runtime::located(std::size_t i) const {
 }
 void Runtime::set_located(std::size_t i, bool level) {
   state_->machine.set_cell(state_->program.compiled().located_cells.at(i), level ? 1 : 0);
+}
+std::vector<RuntimeFault> Runtime::take_losses() {
+  std::vector<RuntimeFault> losses;
+  for (auto& [line, column, text] : state_->machine.take_losses())
+    losses.push_back({line, column, std::move(text)});
+  return losses;
 }
 const std::optional<RuntimeFault>& Runtime::fault() const { return state_->fault; }
 

@@ -76,8 +76,8 @@ class Runtime {
   [[nodiscard]] std::int64_t next_ns() const;
 
   [[nodiscard]] std::span<const StSymbol> symbols() const;
-  /// BOOL as 0 and 1, TIME in s, TOD in s since midnight, DATE and DT in s since 1970, an enumeration as its
-  /// number.
+  /// A REAL that has overflowed as the largest there is, one that is no number as 0, BOOL as 0 and 1, TIME in
+  /// s, TOD in s since midnight, DATE and DT in s since 1970, an enumeration as its number.
   [[nodiscard]] double read(std::size_t symbol) const;
   /// The motion block whose pin the symbol is; nullptr if it is none.
   [[nodiscard]] const FunctionBlock* block(std::size_t symbol) const;
@@ -95,6 +95,8 @@ class Runtime {
   /// Where statements take time: the line of the statement that has its time `into_ns` after the beginning of
   /// the task that run_next() ran last; 0 if it was not watched.
   [[nodiscard]] int line_at(std::int64_t into_ns) const;
+  /// Values that did not fit where they were put, since it was asked last; each place of the text once.
+  std::vector<RuntimeFault> take_losses();
   /// Set: the program stands until the next cold start.
   [[nodiscard]] const std::optional<RuntimeFault>& fault() const;
 

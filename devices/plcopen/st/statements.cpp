@@ -14,6 +14,7 @@ void Statements::compile_body(Unit& unit) {
   unit_ = &unit;
   told_.clear();
   std::vector<int> all;
+  find_edges(unit, all);
   while (at_ < stop_) {
     all.push_back(statements({}));
     if (at_ >= stop_) break;
@@ -24,6 +25,28 @@ void Statements::compile_body(Unit& unit) {
     skip_statement();
   }
   pou(unit).body = sequence_node(std::move(all), unit.name.place);
+}
+
+/// What the body sees of its inputs with R_EDGE and F_EDGE.
+void Statements::find_edges(const Unit& unit, std::vector<int>& all) {
+  const Type* boolean = type_of(Basic::boolean);
+  for (const auto& [input, rising] : unit.edges) {
+    const Place place = input.place;
+    const auto cell = [&](std::string_view mark) {
+      const Variable* member = find_member(*unit.type, fmt::format("{}{}", input.text, mark));
+      return variable_at(boolean, leaf_node(StOp::address_own, Basic::boolean, place, member->offset),
+                         std::string(input.text), place);
+    };
+    const auto inverted = [&](const TypedExpression& value) {
+      return apply_op(StOp::bit_not, boolean, place, value);
+    };
+    const TypedExpression now = cell("");
+    const TypedExpression last = cell(last_mark);
+    const TypedExpression edge =
+        apply_op(StOp::bit_and, boolean, place, rising ? now : inverted(now), rising ? inverted(last) : last);
+    all.push_back(assign(cell(edge_mark), edge));
+    all.push_back(assign(last, now));
+  }
 }
 
 int Statements::statements(std::initializer_list<std::string_view> closing) {
@@ -101,6 +124,8 @@ int Statements::assignment_or_call() {
                      : "a statement is an assignment, a call, IF, CASE, FOR, WHILE or REPEAT");
   }
   const Tree left = name_tree();
+  if (peek().is(":="))
+    if (const auto setting = set_property(left)) return *setting;
   if (!peek().is(":=")) {
     if (left.kind == Tree::Kind::call) return call_statement(left);
     const TypedExpression target = typed(left);
@@ -122,7 +147,12 @@ int Statements::assignment_or_call() {
 int Statements::call_statement(const Tree& call) {
   const Tree& callee = call.parts[0];
   const StToken& name = *callee.token;
-  if (names_function(callee)) {
+  if (const auto body = super_call(callee)) {
+    expect(";", "ends a call");
+    return *body;
+  }
+  if (names_function(callee) || method_of(callee, "").unit != nullptr) {
+    statement_ = true;
     const TypedExpression value = typed(call);
     expect(";", "ends a call");
     // For what it does: what it gives, nobody wants.
@@ -160,7 +190,7 @@ int Statements::condition(std::string_view closing) {
     }
     if (peek().is(":=") && (value.unknown() || value.type->basic == Basic::boolean))
       give_up("st.syntax"_code, peek().place, "':=' assigns", "'=' compares");
-    expect_word(closing, fmt::format("stands behind the condition of line {}", place.line));
+    expect_word(closing, "stands behind the condition of " + line_of(place));
   } catch (const GiveUp&) {
     skip_to([&] {
       const bool next_line = peek().kind == StToken::Kind::name && peek().place.line != place.line;
@@ -181,7 +211,7 @@ void Statements::close(const StToken& opened, std::string_view closing) {
   complain("st.syntax"_code, peek().place,
            fmt::format("{} is missing before {}", closing,
                        peek().kind == StToken::Kind::end ? "the end of the file" : in_quotes(peek().text)),
-           fmt::format("it closes the {} of line {}", upper(opened.text), opened.place.line));
+           fmt::format("it closes the {} of {}", upper(opened.text), line_of(opened.place)));
 }
 
 int Statements::if_statement() {
@@ -220,7 +250,7 @@ std::vector<Subrange> Statements::case_labels(const Type& selector, Labels& labe
       if (other.first >= range.low)
         give_up("st.declared-twice"_code, place,
                 fmt::format("the label {} is there already", std::max(range.low, low)),
-                fmt::format("the first one is in line {}", other.second.line));
+                "the first one is in " + line_of(other.second));
     }
     labels.emplace(range.low, std::pair{range.high, place});
     ranges.push_back(range);
@@ -241,7 +271,7 @@ int Statements::case_statement() {
     else if (!value.unknown())
       type = value.untyped ? type_of(Basic::lint) : base_of(value.type);
     if (!value.unknown()) selector = value_node(value);
-    expect_word("OF", fmt::format("stands behind the selector of the CASE of line {}", opened.place.line));
+    expect_word("OF", "stands behind the selector of the CASE of " + line_of(opened.place));
   } catch (const GiveUp&) {
     skip_to([&] { return peek().word("OF") || peek().is(";") || at_word(closes_block); });
     accept_word("OF");

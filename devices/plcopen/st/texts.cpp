@@ -76,6 +76,33 @@ std::string edited(TextOp op, std::span<const std::string_view> texts, std::span
   }
 }
 
+std::size_t characters(std::string_view text, bool wide) {
+  if (!wide) return text.size();
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+std::string_view first_characters(std::string_view text, std::size_t count) {
+  std::size_t at = 0;
+  for (; at < text.size(); ++at)
+    if ((static_cast<unsigned char>(text[at]) & 0xC0U) != 0x80U && count-- == 0) break;
+  return text.substr(0, at);
+}
+
+std::vector<Cell> in_bytes(TextOp op, std::string_view text, std::span<const Cell> numbers) {
+  const std::size_t all = characters(text, true);
+  const auto bytes = [&](Cell count) {
+    return static_cast<Cell>(first_characters(text, within(count, all)).size());
+  };
+  if (numbers.empty()) return {};
+  const Cell count = numbers[0];
+  if (op == TextOp::left || op == TextOp::insert) return {bytes(count)};
+  if (op == TextOp::right)
+    return {static_cast<Cell>(text.size()) - bytes(static_cast<Cell>(all - within(count, all)))};
+  const Cell begin = static_cast<Cell>(within(numbers[1] - 1, all));
+  return {bytes(begin + static_cast<Cell>(within(count, all))) - bytes(begin), bytes(begin) + 1};
+}
+
 Cell found(std::string_view text, std::string_view wanted) {
   const std::size_t at = wanted.empty() ? std::string_view::npos : text.find(wanted);
   return at == std::string_view::npos ? 0 : static_cast<Cell>(at) + 1;

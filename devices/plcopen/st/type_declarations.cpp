@@ -68,21 +68,39 @@ void Declarations::declare_type(Unit& unit) {
       Type& type = new_type(Basic::structure, std::string(unit.name.text), true);
       unit.type = &type;
       declare_structure(type);
-    } else if (peek().is("(")) {
+      initial_of(type);
+    } else if (peek().is("(") || at_based_enumeration()) {
       Type& type = new_type(Basic::enumeration, std::string(unit.name.text));
       unit.type = &type;
       declare_enumeration(type);
+      initial_of(type);
     } else {
       unit.type = parse_type();
+      if (peek().is(":=")) {
+        code_->types.push_back(std::make_unique<Type>(*unit.type));
+        initial_of(*code_->types.back());
+        unit.type = code_->types.back().get();
+      }
     }
-    if (at_ < stop_) {
-      const bool initial = peek().is(":=");
+    if (at_ < stop_)
       give_up("st.syntax"_code, peek().place, in_quotes(peek().text) + " is not expected behind a type",
-              initial ? "give the initial value where a variable is declared" : "a type ends with ';'");
-    }
+              "a type ends with ';'");
   } catch (const GiveUp&) {
     if (unit.type == nullptr) unit.type = type_of(Basic::unknown);
   }
+}
+
+/// What variables of the type begin with.
+void Declarations::initial_of(Type& type) {
+  if (accept(":=")) type.initial = initial_value(type);
+}
+
+/// INT (a := 0, b): not a range, INT (0..9).
+bool Declarations::at_based_enumeration() const {
+  const Type* base = elementary_type(peek().text);
+  const StToken& behind = peek(3);
+  return base != nullptr && is_integer(base->basic) && peek(1).is("(") &&
+         peek(2).kind == StToken::Kind::name && (behind.is(",") || behind.is(":=") || behind.is(")"));
 }
 
 void Declarations::declare_structure(Type& type) {
@@ -98,7 +116,10 @@ void Declarations::declare_structure(Type& type) {
   fill_empty(type);
 }
 
+/// INT (a, b) or (a, b) INT; without a type it is INT.
 void Declarations::declare_enumeration(Type& type) {
+  const StToken before = peek();
+  const Type* base = at_based_enumeration() ? elementary_type(take().text) : nullptr;
   expect("(", "begins an enumeration");
   std::int64_t next = 0;
   std::set<std::string> names;
@@ -115,6 +136,18 @@ void Declarations::declare_enumeration(Type& type) {
     type.values.push_back({std::string(name.text), next++});
   } while (accept(","));
   expect(")", "ends an enumeration");
+  if (base == nullptr && peek().kind == StToken::Kind::name && elementary_type(peek().text) != nullptr) {
+    const StToken behind = take();
+    base = elementary_type(behind.text);
+    if (!is_integer(base->basic))
+      give_up("st.type"_code, behind.place, fmt::format("an enumeration of {}", base->name),
+              "its values are whole numbers: (a, b) INT");
+  }
+  for (const EnumValue& value : type.values)
+    if (base != nullptr && (value.value < range_of(*base).low || value.value > range_of(*base).high))
+      give_up("st.out-of-range"_code, before.place,
+              fmt::format("{} is {}, which is no {}", in_quotes(value.name), value.value, base->name),
+              fmt::format("{} to {}", range_of(*base).low, range_of(*base).high));
   type.initial.assign(1, type.values.front().value);
   enumerations_.emplace(lower(type.name), &type);
 }
@@ -129,8 +162,9 @@ const Type* Declarations::parse_type() {
     const Nested nested(nesting_);
     return array_type();
   }
-  if (peek().word("STRING")) return string_type();
-  if (peek().is("(")) {
+  if (peek().word("STRING") || peek().word("WSTRING")) return string_type();
+  if (peek().word("REF_TO") || (peek().word("POINTER") && peek(1).word("TO"))) return reference_type();
+  if (peek().is("(") || at_based_enumeration()) {
     Type& type = new_type(Basic::enumeration, "enumeration");
     declare_enumeration(type);
     return &type;
@@ -188,18 +222,22 @@ const Type* Declarations::array_type() {
 }
 
 const Type* Declarations::string_type() {
-  take();
+  const bool wide = take().word("WSTRING");
+  const std::string name = wide ? "WSTRING" : "STRING";
   const bool round = peek().is("(");
-  if (!round && !peek().is("[")) return elementary_type("STRING");
+  if (!round && !peek().is("[")) return elementary_type(name);
   take();
   const Place place = peek().place;
   const std::int64_t length = constant_integer("the length");
   expect(round ? ")" : "]", "closes the length");
-  if (length < 1 || length > 255)
-    give_up("st.out-of-range"_code, place, fmt::format("a STRING of {} characters", length), "1 to 255");
-  Type& type = new_type(Basic::string, fmt::format("STRING[{}]", length));
+  if (length < 1 || length > static_cast<std::int64_t>(most_string_length))
+    give_up("st.out-of-range"_code, place, fmt::format("a {} of {} characters", name, length),
+            fmt::format("1 to {}", most_string_length));
+  code_->longest_text = std::max(code_->longest_text, static_cast<std::size_t>(length));
+  Type& type = new_type(Basic::string, fmt::format("{}[{}]", name, length));
+  type.wide = wide;
   type.length = static_cast<std::size_t>(length);
-  type.cells = string_cells(type.length);
+  type.cells = string_cells(bytes_of_text(type));
   type.initial.assign(static_cast<std::size_t>(type.cells), 0);
   return &type;
 }
@@ -210,7 +248,8 @@ const Type* Declarations::named_type() {
     return peek().is("(") ? subrange(*type) : type;
   }
   if (Unit* unit = find_unit(name.text)) {
-    const bool type = unit->kind == Unit::Kind::type || unit->kind == Unit::Kind::function_block;
+    const bool type = unit->kind == Unit::Kind::type || unit->kind == Unit::Kind::function_block ||
+                      unit->kind == Unit::Kind::interface;
     if (!type)
       give_up("st.use"_code, name.place, in_quotes(name.text) + " is no type",
               "a PROGRAM or FUNCTION has no variables of its kind");

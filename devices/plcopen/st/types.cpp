@@ -43,6 +43,12 @@ std::vector<Type> make_elementary() {
     type.initial.assign(static_cast<std::size_t>(type.cells), initial);
     types.push_back(std::move(type));
   }
+  Type wide = types[static_cast<std::size_t>(Basic::string)];
+  wide.name = "WSTRING";
+  wide.wide = true;
+  wide.cells = string_cells(bytes_of_text(wide));
+  wide.initial.assign(static_cast<std::size_t>(wide.cells), 0);
+  types.push_back(std::move(wide));
   return types;
 }
 
@@ -65,6 +71,9 @@ bool is_number(Basic basic) { return is_integer(basic) || is_real(basic); }
 bool is_clock(Basic basic) { return basic >= Basic::time && basic <= Basic::dt; }
 bool is_whole(Basic basic) {
   return is_integer(basic) || basic == Basic::boolean || is_clock(basic) || basic == Basic::enumeration;
+}
+bool is_single(Basic basic) {
+  return is_elementary(basic) || basic == Basic::axis || basic == Basic::reference;
 }
 bool is_elementary(Basic basic) { return is_whole(basic) || is_real(basic); }
 
@@ -116,7 +125,9 @@ bool same_type(const Type& a, const Type& b) {
   if (&a == &b) return true;
   if (a.basic != b.basic) return false;
   if (a.basic == Basic::array) return a.low == b.low && a.high == b.high && same_type(*a.element, *b.element);
-  if (a.basic == Basic::string) return a.length == b.length;
+  if (a.basic == Basic::reference)
+    return a.element != nullptr && b.element != nullptr && same_type(*a.element, *b.element);
+  if (a.basic == Basic::string) return a.length == b.length && a.wide == b.wide;
   return a.basic != Basic::enumeration && a.basic != Basic::structure && a.basic != Basic::block;
 }
 
@@ -132,17 +143,7 @@ const Type* type_of(Basic basic) { return &elementary().at(static_cast<std::size
 
 const Type* base_of(const Type* type) { return type->subrange ? type_of(type->basic) : type; }
 
-const Type* longest_string() {
-  static const Type type = [] {
-    Type longest = *type_of(Basic::string);
-    longest.name = "STRING[255]";
-    longest.length = longest_string_length;
-    longest.cells = string_cells(longest.length);
-    longest.initial.assign(static_cast<std::size_t>(longest.cells), 0);
-    return longest;
-  }();
-  return &type;
-}
+std::size_t bytes_of_text(const Type& type) { return type.wide ? 4 * type.length : type.length; }
 
 int string_cells(std::size_t length) { return static_cast<int>(length / sizeof(Cell)) + 1; }
 

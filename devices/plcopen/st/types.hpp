@@ -46,6 +46,7 @@ enum class Basic : std::uint8_t {
   structure,
   array,
   block,
+  reference,  ///< REF_TO: see references.cpp; without an element it is NULL
 };
 
 /// Smallest and largest value of a type of whole numbers, BOOL and times included; of ULINT and LWORD what is
@@ -84,9 +85,10 @@ struct Type {
   int cells = 1;
   std::vector<Cell> initial;  ///< `cells` of them
 
-  std::size_t length = 0;  ///< of a STRING
-  const Type* element = nullptr;
-  std::int64_t low = 0;  ///< bounds of an array, or of a subrange INT (0..9)
+  std::size_t length = 0;         ///< of a STRING: bytes, of a WSTRING: characters
+  bool wide = false;              ///< WSTRING: Basic::string in UTF-8, counted by its characters
+  const Type* element = nullptr;  ///< of an array; what a reference is of
+  std::int64_t low = 0;           ///< bounds of an array, or of a subrange INT (0..9)
   std::int64_t high = 0;
   bool subrange = false;
   int depth = 1;             ///< of arrays and structures within each other
@@ -109,6 +111,7 @@ bool is_number(Basic basic);
 bool is_clock(Basic basic);  ///< TIME, TOD, DATE, DT
 bool is_whole(Basic basic);  ///< what is kept as a whole number: integers, BOOL, times, dates, enumerations
 bool is_elementary(Basic basic);
+bool is_single(Basic basic);  ///< of one cell, which is its value
 /// Of a type that is_whole.
 Subrange range_of(Basic basic);
 Subrange range_of(const Type& type);
@@ -128,12 +131,12 @@ const Type* elementary_type(std::string_view name);
 const Type* type_of(Basic basic);
 /// What values of the type are computed in: INT of INT (0..9).
 const Type* base_of(const Type* type);
-/// What string functions give.
-const Type* longest_string();
+/// Most bytes of a text of the type.
+std::size_t bytes_of_text(const Type& type);
 /// Of a STRING of so many characters.
 int string_cells(std::size_t length);
 inline constexpr std::size_t default_string_length = 80;
-inline constexpr std::size_t longest_string_length = 255;
+inline constexpr std::size_t most_string_length = 32767;
 const std::vector<std::string>& elementary_names();
 /// What a pin holds, if it is of one cell and no AXIS_REF.
 std::optional<Cell> cell_of_pin(const PinValue& pin);

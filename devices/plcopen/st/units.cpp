@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,15 +11,21 @@
 // The parts of a file: where they begin and end, and the order in which they are read.
 namespace drycut::devices::plcopen::st {
 
-Compiler::Compiler(std::string_view text, const std::string& file, Problems& problems)
-    : Statements(file, problems) {
-  tokens_ = tokens_of(standard_blocks(), file, problems);
+Compiler::Compiler(std::span<const SourceFile> files, const CompileOptions& options, Problems& problems)
+    : Statements(files.front().name, problems), options_(options) {
+  lines_ = SourceLines(files);
+  tokens_ = tokens_of(standard_blocks(), file_, problems);
   tokens_.pop_back();
   user_tokens_ = tokens_.size();
-  for (StToken& token : tokens_of(text, file, problems)) tokens_.push_back(std::move(token));
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (i > 0) tokens_.pop_back();  // the end of the one before
+    for (StToken& token : tokens_of(files[i].text, file_, problems, lines_.first(i)))
+      tokens_.push_back(std::move(token));
+  }
   // The first POU stands for what has none.
   code_->pous.emplace_back();
-  code_->text = text;
+  code_->files.assign(files.begin(), files.end());
+  code_->lines = lines_;
 }
 
 std::shared_ptr<const Compiled> Compiler::run() {
@@ -26,29 +34,42 @@ std::shared_ptr<const Compiled> Compiler::run() {
   outside_.type = globals_;
   find_units(false);
   find_units(true);
+  find_bases();
   // Types may have constants as bounds.
   for (const auto& unit : units_)
     if (unit->kind == Unit::Kind::globals && tokens_[unit->first + 1].word("CONSTANT")) declare(*unit);
-  for (const Unit::Kind kind : {Unit::Kind::type, Unit::Kind::globals, Unit::Kind::function_block,
-                                Unit::Kind::function, Unit::Kind::program})
+  for (const Unit::Kind kind :
+       {Unit::Kind::type, Unit::Kind::globals, Unit::Kind::function_block, Unit::Kind::function,
+        Unit::Kind::program, Unit::Kind::interface, Unit::Kind::method})
     for (const auto& unit : units_)
       if (unit->kind == kind && !unit->standard) declare(*unit);
+  check_methods();
   check_programs();
   read_configuration();
   place_memory();
-  for (const auto& unit : units_) {
-    if (unit->pou < 0 || unit->state != Unit::State::done) continue;
-    compile_body(*unit);
-    // The standard blocks come last.
-    if (!unit->standard) code_->user_nodes = code_->nodes.size();
-  }
+  compile_bodies();
   connect_instances();
   unit_ = nullptr;
+  fill_method_table();
   check_calls();
   if (told() == 0) find_doubts();
   finish();
   sort();
+  place_in_files();
   return code_;
+}
+
+/// The standard blocks and functions come last; one may need another one.
+void Compiler::compile_bodies() {
+  std::set<int> compiled;
+  for (bool more = true; std::exchange(more, false);) {
+    for (const auto& unit : units_) {
+      if (unit->pou < 0 || unit->state != Unit::State::done || !compiled.insert(unit->pou).second) continue;
+      compile_body(*unit);
+      more = true;
+      if (!unit->standard) code_->user_nodes = code_->nodes.size();
+    }
+  }
 }
 
 void Compiler::find_units(bool standard) {
@@ -63,22 +84,29 @@ void Compiler::find_units(bool standard) {
       find_configuration();
     } else if (opening.word("VAR_GLOBAL")) {
       add_globals();
-    } else if (opening.word("PROGRAM") || opening.word("FUNCTION") || opening.word("FUNCTION_BLOCK")) {
+    } else if (opening.word("PROGRAM") || opening.word("FUNCTION") || opening.word("FUNCTION_BLOCK") ||
+               opening.word("INTERFACE")) {
       Unit unit;
       unit.standard = standard;
       unit.kind = opening.word("PROGRAM")    ? Unit::Kind::program
+                  : opening.word("INTERFACE") ? Unit::Kind::interface
                   : opening.word("FUNCTION") ? Unit::Kind::function
                                              : Unit::Kind::function_block;
       take();
+      read_modifiers(unit);
       try {
         unit.name = expect_name(fmt::format("the name of the {}", upper(opening.text)));
       } catch (const GiveUp&) {
         end_of_unit(first, "END_" + upper(opening.text));
         continue;
       }
+      if (unit.kind != Unit::Kind::function) read_header(unit);
       unit.first = at_;
       unit.end = end_of_unit(first, "END_" + upper(opening.text));
+      const bool methods = unit.kind != Unit::Kind::function;
+      const std::size_t before = units_.size();
       add_unit(std::move(unit));
+      if (methods && units_.size() > before) find_methods(*units_.back());
     } else {
       if (opening.kind != StToken::Kind::bad && !opening.is(";"))
         complain("st.declaration"_code, opening.place,
@@ -97,7 +125,13 @@ void Compiler::add_globals() {
   unit.name = peek();
   unit.first = at_;
   unit.end = end_of_unit(at_, "END_VAR");
+  const std::size_t first = unit.first;
+  const std::size_t end = unit.end;
   add_unit(std::move(unit));
+  for (std::size_t i = first; i < end; ++i)
+    if (tokens_[i].kind == StToken::Kind::name &&
+        (tokens_[i + 1].is(":") || tokens_[i + 1].is(",") || tokens_[i + 1].word("AT")))
+      global_sections_.emplace(lower(tokens_[i].text), units_.back().get());
 }
 
 std::size_t Compiler::end_of_unit(std::size_t opening, std::string_view closing) {
@@ -106,8 +140,8 @@ std::size_t Compiler::end_of_unit(std::size_t opening, std::string_view closing)
   if (at_ < stop_ && peek().word(closing)) return at_++;
   const StToken& begin = tokens_[opening];
   complain("st.syntax"_code, begin.place, fmt::format("{} has no {}", upper(begin.text), closing),
-           at_ < stop_ ? fmt::format("write {} before the {} of line {}", closing, upper(peek().text),
-                                     peek().place.line)
+           at_ < stop_ ? fmt::format("write {} before the {} of {}", closing, upper(peek().text),
+                                     line_of(peek().place, begin.place))
                        : fmt::format("write {} at the end", closing));
   return at_;
 }
@@ -146,7 +180,10 @@ std::size_t Compiler::find_type(std::size_t first) {
   std::size_t i = first;
   for (; i < stop_; ++i) {
     if (tokens_[i].word("STRUCT")) structure = true;
-    if (structure && tokens_[i].word("END_STRUCT")) return i + 1;
+    if (structure && tokens_[i].word("END_STRUCT")) {
+      if (i + 1 >= stop_ || !tokens_[i + 1].is(":=")) return i + 1;
+      structure = false;
+    }
     if (tokens_[i].is(";") && !structure) return i;
   }
   return i;
@@ -156,9 +193,7 @@ void Compiler::add_unit(Unit unit) {
   if (unit.kind != Unit::Kind::globals) {
     if (const Unit* other = find_unit(unit.name.text)) {
       // A user's own TON stands instead of the standard one.
-      if (!unit.standard)
-        complain("st.declared-twice"_code, unit.name.place, in_quotes(unit.name.text) + " is declared twice",
-                 fmt::format("the first one is in line {}", other->name.place.line));
+      if (!unit.standard) tell_twice(unit.name, other->name.text, other->name.place);
       return;
     }
     if (!unit.standard && (elementary_type(unit.name.text) != nullptr || find_block_type(unit.name.text) ||
@@ -173,7 +208,17 @@ void Compiler::add_unit(Unit unit) {
     unit_index_.emplace(lower(units_.back()->name.text), units_.back().get());
 }
 
+/// Until here a line's number said its file too.
+void Compiler::place_in_files() {
+  for (std::size_t i = problems_.size() - told(); i < problems_.size(); ++i) {
+    const auto [file, line] = lines_.at(problems_[i].line);
+    problems_[i].file = code_->files.at(file).name;
+    problems_[i].line = line;
+  }
+}
+
 void Compiler::check_programs() {
+  if (options_.library) return;
   const auto is_program = [](const auto& unit) { return unit->kind == Unit::Kind::program; };
   // A PROGRAM that is there but could not be read has been told.
   if (std::none_of(units_.begin(), units_.end(), is_program) && told() == 0)

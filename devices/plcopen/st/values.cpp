@@ -15,9 +15,6 @@ namespace {
 /// Calls of the machine within each other for one statement in another.
 constexpr int levels_of_a_statement = 3;
 
-/// What a node's value is itself; of other types it is the address.
-bool is_scalar(Basic basic) { return is_elementary(basic) || basic == Basic::axis; }
-
 }  // namespace
 
 TypedExpression constant(const Type* type, Cell value, Place place, bool untyped) {
@@ -68,7 +65,10 @@ int Values::value_node(const TypedExpression& expression) {
   if (expression.bits) return bits_node(expression);
   const Basic basic = expression.type->basic;
   if (expression.constant) return leaf_node(StOp::constant, basic, expression.place, expression.value);
-  if (!expression.address || !is_scalar(basic)) return expression.node;
+  // What a node's value is itself; of other types it is the address.
+  if (!expression.address || !is_single(basic)) return expression.node;
+  if (expression.reference >= 0)
+    return add_node(StOp::load_by, basic, expression.place, expression.reference);
   if (expression.node < 0) return -1;
   const Node address = node(expression.node);
   if (address.op == StOp::address) return leaf_node(StOp::load, basic, expression.place, address.imm);
@@ -90,6 +90,7 @@ TypedExpression Values::as_value(TypedExpression expression) {
   expression.type = base_of(expression.type);
   expression.bits.reset();
   expression.address = false;
+  expression.reference = -1;
   return expression;
 }
 
@@ -118,6 +119,21 @@ int Values::literal_string(const std::string& text, Place place) {
 
 int Values::scratch(const Type& type, Place place) {
   return leaf_node(StOp::address_pool, type.basic, place, in_pool(static_cast<std::size_t>(type.cells)));
+}
+
+const Type* Values::longest_string(bool wide) {
+  const std::size_t length = code_->longest_text;
+  const Type*& known = wide ? longest_wide_ : longest_string_;
+  if (known != nullptr && known->length == length) return known;
+  Type longest = *type_of(Basic::string);
+  longest.name = fmt::format("{}[{}]", wide ? "WSTRING" : "STRING", length);
+  longest.length = length;
+  longest.wide = wide;
+  longest.cells = string_cells(bytes_of_text(longest));
+  longest.initial.assign(static_cast<std::size_t>(longest.cells), 0);
+  code_->longest_bytes = std::max(code_->longest_bytes, bytes_of_text(longest));
+  code_->types.push_back(std::make_unique<Type>(std::move(longest)));
+  return known = code_->types.back().get();
 }
 
 std::string whole_text(const TypedExpression& value) {
@@ -193,15 +209,32 @@ TypedExpression Values::converted(TypedExpression expression, const Type& to) {
     expression.untyped = false;
     return expression;
   }
+  if (from.basic == Basic::reference || to.basic == Basic::reference)
+    return reference_converted(std::move(expression), to);
   if (expression.untyped || (expression.constant && to.subrange && from.basic == to.basic))
     return literal_as(std::move(expression), to);
+  // INT (0..9) goes wherever all its values do.
+  if (from.subrange && !to.subrange && is_integer(to.basic) && from.low >= range_of(to).low &&
+      from.high <= range_of(to).high) {
+    TypedExpression whole = as_value(std::move(expression));
+    whole.type = type_of(to.basic);
+    return whole;
+  }
   if (to.subrange) return in_subrange(converted(std::move(expression), *base_of(&to)), to);
   // A text that is too long is cut off, as on the machine; a literal is refused.
   if (from.basic == Basic::string && to.basic == Basic::string) {
-    if (expression.string && expression.string->size() > to.length)
-      complain("st.out-of-range"_code, expression.place,
-               fmt::format("{} characters do not fit in {}", expression.string->size(), to.name),
-               fmt::format("{} at most", to.length));
+    if (from.wide != to.wide)
+      return refuse("st.type"_code, expression.place,
+                    fmt::format("a value of type {} does not go into {}", from.name, to.name),
+                    expression.string
+                        ? (to.wide ? "a WSTRING is written \"text\"" : "a STRING is written 'text'")
+                    : to.wide ? "STRING_TO_WSTRING(...) converts"
+                              : "WSTRING_TO_STRING(...) converts");
+    if (expression.string && characters(*expression.string, to.wide) > to.length)
+      complain(
+          "st.out-of-range"_code, expression.place,
+          fmt::format("{} characters do not fit in {}", characters(*expression.string, to.wide), to.name),
+          fmt::format("{} at most", to.length));
     return expression;
   }
   if (widens(from.basic, to.basic) && to.basic != Basic::enumeration)

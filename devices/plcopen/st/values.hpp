@@ -15,22 +15,57 @@ namespace drycut::devices::plcopen::st {
 
 /// A part of the file that has a name: a POU, one type of a TYPE section, or a VAR_GLOBAL section.
 struct Unit {
-  enum class Kind : std::uint8_t { program, function_block, function, type, globals };
+  enum class Kind : std::uint8_t { program, function_block, function, type, globals, method, interface };
   enum class State : std::uint8_t { untouched, open, done };
   Kind kind = Kind::program;
   State state = State::untouched;
   StToken name;
-  std::size_t first = 0;  ///< token where the declarations begin
-  std::size_t body = 0;   ///< where the statements begin, once declared
-  std::size_t end = 0;    ///< the END_ keyword
-  bool standard = false;  ///< TON and its like
+  std::size_t first = 0;                           ///< token where the declarations begin
+  std::size_t body = 0;                            ///< where the statements begin, once declared
+  std::size_t end = 0;                             ///< the END_ keyword
+  bool standard = false;                           ///< TON and its like
+  Unit* owner = nullptr;                           ///< of a method: whose it is
+  std::string key;                                 ///< of a method: among the owner's
+  std::unordered_map<std::string, Unit*> methods;  ///< by name in lower case; "speed'get", "speed'set"
+  StToken base_name;                               ///< EXTENDS
+  Unit* base = nullptr;                            ///< the same, once it is known
+  std::vector<StToken> interfaces;                 ///< IMPLEMENTS
+  bool extended = false;                           ///< something EXTENDS it
+  bool abstract = false;
+  bool final = false;
+  bool closed = false;            ///< PRIVATE or PROTECTED
+  std::size_t property_type = 0;  ///< of a GET or SET: where the type begins and ends
+  std::size_t property_end = 0;
+  bool procedure = false;  ///< a FUNCTION without a result
   const Type* type = nullptr;
   const Type* result = nullptr;  ///< of a FUNCTION
   int pou = -1;
-  std::set<int> calls;  ///< POUs that its body calls
+  struct Edge {
+    StToken input;
+    bool rising = true;
+  };
+  std::vector<Edge> edges;  ///< of inputs with R_EDGE or F_EDGE
+  std::set<int> calls;      ///< POUs that its body calls
+  /// Its variables have one place, whoever calls it.
+  [[nodiscard]] bool framed() const { return kind == Kind::function || kind == Kind::method; }
+  /// Its instances tell their kind, so that the right method is called.
+  [[nodiscard]] bool tells_kind() const {
+    return extended || !methods.empty() || !interfaces.empty() || base != nullptr;
+  }
   int levels = 1;  ///< how deep the machine calls itself for its body; with those that it calls at the end
   int levels_below = 0;  ///< of what it calls
 };
+
+/// Behind the name of an input with R_EDGE or F_EDGE: its edge, and its value in the scan before. No name of
+/// a text has a quote.
+inline constexpr std::string_view edge_mark = "'edge";
+inline constexpr std::string_view last_mark = "'last";
+
+/// Behind the name of a PROPERTY: what reads and what writes it. In front of an instance's variables: its
+/// kind.
+inline constexpr std::string_view get_mark = "'get";
+inline constexpr std::string_view set_mark = "'set";
+inline constexpr std::string_view kind_name = "'kind";
 
 /// A part of a whole number: w.3.
 struct Bits {
@@ -56,13 +91,17 @@ struct TypedExpression {
   int depth = 1;                      ///< of the tree
   std::string name;                   ///< of a variable, for messages
   std::string locked;                 ///< why it is not to be assigned
+  bool own_input = false;             ///< of the block whose body is read
   std::optional<std::string> string;  ///< a literal
   bool cam_file = false;              ///< MC_CAM_REF.File
+  int reference = -1;                 ///< it is seen by the reference that this node computes
   std::optional<Bits> bits;           ///< it is a part of the variable at `node`
 
   [[nodiscard]] bool unknown() const { return type->basic == Basic::unknown; }
 };
 
+/// Of NULL, and of what is counted with references.
+const Type* null_reference();
 inline TypedExpression unknown_at(Place place) { return {type_of(Basic::unknown), place}; }
 TypedExpression constant(const Type* type, Cell value, Place place, bool untyped = false);
 /// A constant whole number as the text has it, a ULINT above 9223372036854775807 too.
@@ -109,6 +148,8 @@ class Values : public Parser {
   int literal_string(const std::string& text, Place place);
   /// The address of cells for a value on its way.
   int scratch(const Type& type, Place place);
+  /// What functions of STRING give.
+  const Type* longest_string(bool wide);
 
  protected:
   [[nodiscard]] const Node& node(int number) const { return code_->nodes[static_cast<std::size_t>(number)]; }
@@ -120,11 +161,14 @@ class Values : public Parser {
 
  private:
   TypedExpression in_subrange(const TypedExpression& value, const Type& to);
+  TypedExpression reference_converted(TypedExpression expression, const Type& to);
   TypedExpression folded(StOp op, const Type* type, Place place, Cell a, Cell b, bool untyped);
   int bits_node(const TypedExpression& expression);
   int in_pool(std::size_t cells);
 
   std::unordered_map<std::string, int> strings_;
+  const Type* longest_string_ = nullptr;
+  const Type* longest_wide_ = nullptr;
 };
 
 /// One operator between two values.

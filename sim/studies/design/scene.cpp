@@ -154,7 +154,8 @@ class SceneMaker {
       return refuse("design.scene"_code, fmt::format("it has {} cam tables", section.tables.size()),
                     "name a scene with one");
     const auto& old = section.tables.front();
-    const auto program = content(section.program);
+    std::string program;
+    for (const auto& file : section.program_files) program += content(file) + '\n';
     if (!found_in(program, R"(\b(File)\s*:=)").empty())
       return refuse("design.scene"_code, "its program asks for its table by the name of the file",
                     "let it ask by ID");

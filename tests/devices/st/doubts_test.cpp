@@ -73,5 +73,11 @@ TEST(StDoubts, ACamThatIsSelectedTheOtherWayRound) {
       ElementsAre("2:1: MC_CamTableSelect has the Master and the Slave of MC_CamIn the other way round"));
 }
 
+TEST(StDoubts, ABlockThatAssignsItsInput) {
+  EXPECT_THAT(told("FUNCTION_BLOCK B VAR_INPUT n : INT; END_VAR\nn := n + 1;\nn := 0;\nEND_FUNCTION_BLOCK\n" +
+                   head + "b : B; END_VAR\nb(n := 1);\nEND_PROGRAM\n"),
+              ElementsAre("2:1: n is an input of B and is assigned here: what the caller gave is lost"));
+}
+
 }  // namespace
 }  // namespace drycut::devices::plcopen::st

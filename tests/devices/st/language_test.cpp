@@ -141,8 +141,8 @@ TEST(StLanguage, InputsAreAssignedInsideAFunction) {
   EXPECT_THAT(
       problems_of(
           "FUNCTION_BLOCK B VAR_INPUT a : INT; END_VAR\na := 3;\nEND_FUNCTION_BLOCK PROGRAM p END_PROGRAM"),
-      ElementsAre(StartsWith("2:1: 'a' is an input of 'B'")))
-      << "a block keeps its inputs for the next call";
+      testing::IsEmpty())
+      << "CODESYS takes it: a note, see doubts_test.cpp";
 }
 
 TEST(StLanguage, BlocksHaveThePinsOfIecBesideThoseOfCodesys) {
