@@ -197,8 +197,9 @@ std::optional<Replayed> replay(const scenario::Scenario& scenario, const ReplayS
     sums = {};
   }
 
-  // Smooth, and no more values than the cutoff asks for; none of the beginning and of the end.
-  const double settled = 8 / omega + reach_of(setup.cutoff);
+  // Smooth, and no more values than the cutoff asks for; none of the end, and none of the beginning: the
+  // machine is at rest there, the recording may not be. Of that 1e-5 is left.
+  const double settled = 14 / omega + reach_of(setup.cutoff);
   const auto skip = static_cast<std::size_t>(std::ceil(settled / found.step));
   const auto stride = std::max<std::size_t>(1, static_cast<std::size_t>(0.25 / setup.cutoff / found.step));
   const auto all = found.torque_left.size();
