@@ -154,10 +154,10 @@ class Guesser {
       if (counted != none) time.column.text = reference(counted);
       return remark("time:", fmt::format("the header says {:g} s a sample", *head_.interval));
     }
+    if (head_.columns.size() > 1 && has_moments(beginning_, head_, 0)) return time_column(0);
     const auto rise = head_.columns.size() > 1 ? rise_of(columns_.front()) : Rise();
     if (!rise.rises) return remark("channels:", "THE FILE HAS NO TIME: add a line time: {rate: 1 kHz}");
     skip_ = 0;
-    if (has_moments(beginning_, head_, 0)) return time_column(0);
     time.column.text = reference(0);
     remark("time:", rise.by_one ? "it counts samples; ADD THEIR RATE, which is not in the file: rate: 1 kHz"
                                 : "it rises all the time; ADD ITS UNIT, which is not in the file: unit: ms");

@@ -196,7 +196,7 @@ TEST_F(OddFiles, AColumnIsNamedWithoutItsUnitWhereThatIsUnique) {
   EXPECT_THAT(made.series[1].value, ElementsAre(2, 2));
   loaded("t [s],v [mm],v [V]\n0,3,4\n1,3,4\n",
          "time: {column: t, unit: s}\nchannels: {a: {column: v, unit: V}}\n");
-  EXPECT_THAT(places(), ElementsAre("3:23 recording.column-twice"));
+  EXPECT_THAT(places(), ElementsAre("3:24 recording.column-twice"));
   loaded("v,v [V]\n0,3\n1,4\n", "time: {column: v, unit: s}\nchannels: {a: {column: \"v [V]\", unit: V}}\n");
   EXPECT_THAT(lines_of(problems), IsEmpty()) << "the whole name goes first";
 }
