@@ -429,8 +429,8 @@ TypedExpression Expressions::user_call(Unit& unit, const StToken& name, const st
   list.insert(list.end(), after.begin(), after.end());
   if (method != nullptr) {
     const int next = static_cast<int>(method_numbers_.size());
-    const int number = method->fixed ? -1 : method_numbers_.emplace(unit.key, next).first->second;
-    list.insert(list.begin(), {method->instance, number});
+    const int of_method = method->fixed ? -1 : method_numbers_.emplace(unit.key, next).first->second;
+    list.insert(list.begin(), {method->instance, of_method});
   }
   const int first = add_list(list);
   // A text or structure outlives the next call of the function.

@@ -30,7 +30,8 @@ void Statements::compile_body(Unit& unit) {
 /// What the body sees of its inputs with R_EDGE and F_EDGE.
 void Statements::find_edges(const Unit& unit, std::vector<int>& all) {
   const Type* boolean = type_of(Basic::boolean);
-  for (const auto& [input, rising] : unit.edges) {
+  for (const auto& [name, rising] : unit.edges) {
+    const auto& input = name;  // clang 14 has no structured bindings in lambdas
     const Place place = input.place;
     const auto cell = [&](std::string_view mark) {
       const Variable* member = find_member(*unit.type, fmt::format("{}{}", input.text, mark));
