@@ -100,7 +100,7 @@ class Replay:
 class Fit:
     """What drycut.fit() gives: the facts of fit.json.
 
-    passed          all values are known, and the cross test keeps its limit
+    passed          all values are known, two thirds of the torque are explained, and the cross test keeps its limit
     parameters      FitValue of each path
     torque_offset   FitValue: what the recorded torque has too much
     inputs          FitValue of each recorded force or torque: the share of it that acts
@@ -109,6 +109,7 @@ class Fit:
     cross_error     the same of the cross test; None without
     condition       above 30 values cannot be told apart
     cutoff          of the filter, chosen from the data [Hz]
+    inertia_at_motor  of all that it moves, with the values found [kg m2]; None with closed=True
     ladder          other models and what they gain, a dict each
     codes           of what was found
     notes           the same in words
@@ -126,6 +127,7 @@ class Fit:
     cross_error: float | None
     condition: float
     cutoff: float
+    inertia_at_motor: float | None
     ladder: list[dict[str, Any]]
     codes: list[str]
     notes: list[str]
