@@ -158,7 +158,7 @@ TypedExpression Expressions::call(const Tree& tree, const Type* wanted) {
     return enabled(enable, method_call(method, given), wanted);
   }
   if (!names_function(callee)) {
-    const TypedExpression named = typed(callee);
+    TypedExpression named = typed(callee);
     if (named.unknown()) return named;
     const bool block = named.type->basic == Basic::block;
     give_up("st.use"_code, name.place,
@@ -379,7 +379,7 @@ std::vector<int> Expressions::input_triple(const Type& function, const Variable&
 
 TypedExpression Expressions::user_call(Unit& unit, const StToken& name, const std::vector<Argument>& given,
                                        const Method* method) {
-  const TypedExpression unknown = unknown_at(name.place);
+  TypedExpression unknown = unknown_at(name.place);
   const bool known = unit.state == Unit::State::done && unit.type != nullptr && unit.pou >= 0;
   if (!known || unit.type->broken) {
     for (const Argument& argument : given) typed(*argument.tree);
