@@ -26,6 +26,7 @@ double steps_of(const recordings::Series& series) {
 /// Work that the torque did on the motion over all work, whatever its direction: friction takes some, so it
 /// is above 0.
 double share_of_work(const ReplaySeries& series, double scale) {
+  if (!(series.until > series.from)) return 0;
   const auto count = static_cast<std::size_t>((series.until - series.from) / series.sampling);
   const auto torque = resampled(series.torque, series.from, series.sampling, count);
   const auto motion = resampled(series.motion, series.from, series.sampling, count);

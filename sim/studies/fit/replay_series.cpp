@@ -96,6 +96,7 @@ void refuse_without_inputs(const recordings::Recording& recording, const std::fi
 /// Distance of the motion that is followed over that of recorded speeds, by their common times.
 std::optional<double> counts_over_speed(const recordings::Series& counts, recordings::Series speed,
                                         const std::string& unit) {
+  if (speed.time_s.size() < 2 || counts.time_s.size() < 2) return {};
   speed = in_unit(std::move(speed), unit);
   const double step = sampling_of(speed);
   const double from = std::max(counts.time_s.front(), speed.time_s.front());

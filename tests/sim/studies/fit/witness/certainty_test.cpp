@@ -49,8 +49,8 @@ TEST(FitWitness, AConstantSpeedTellsNoMass) {
 TEST(FitWitness, SwingingBackIsNoOtherDirection) {
   std::vector<Leg> legs;
   double until = 0;
-  for (const double volts : {2.0, 5.0, 3.0})
-    for (const auto& part : {Leg{0.15, 0, volts}, Leg{0.4, volts, volts}, Leg{0.05, volts, -0.15},
+  for (const double volts : {2.0, 5.0, 3.0, 4.0, 1.0})
+    for (const auto& part : {Leg{0.15, 0, volts}, Leg{0.6, volts, volts}, Leg{0.05, volts, -0.15},
                              Leg{0.05, -0.15, 0}, Leg{0.2, 0, 0}}) {
       until += part.until;
       legs.push_back({until, part.from, part.to});
