@@ -117,15 +117,15 @@ int compare_with_recording(const CompareOptions& options) {
     return bad_input;
   }
   int status = all_passed;
+  const auto hints = studies::explained_table(measured);
   try {
     folder->begin();
-    status = studies::write_measured(measured, options.tolerances, *folder, options.pictures);
+    status = studies::write_measured(measured, hints, options.tolerances, *folder, options.pictures);
   } catch (const std::exception& error) {
     return print_failure(drycut::words_of(error));
   }
   fmt::print("{}", studies::residual_table(measured).text(0));
-  if (const auto hints = studies::explained_table(measured); !hints.rows().empty())
-    fmt::print("\n{}\n", hints.text(0));
+  if (!hints.rows().empty()) fmt::print("\n{}\n", hints.text(0));
   fmt::print("{}\n", studies::residual_sentence(measured));
   for (const auto& channel : measured.only_measured)
     fmt::print("  note {} was not recorded in the run\n", channel);

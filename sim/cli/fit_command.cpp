@@ -132,9 +132,10 @@ Verb fit_verb() {
           "mass, friction, stiffness, play. Replays the recorded torque in the\n"
           "simulated machine and compares the motion, or with --closed runs the\n"
           "scenario and compares torque and motion.\n"
-          "Exit status: 0 all values are known, 1 one is not, or the cross test is\n"
-          "above --limit, 2 bad input, 3 the machine cannot follow the recording, or a\n"
-          "result could not be written",
+          "Exit status: 0 all values are known, 1 one is not, more than a third of the\n"
+          "torque is left unexplained, or the cross test is above --limit,\n"
+          "2 bad input, 3 the machine cannot follow the recording, or a result could not\n"
+          "be written",
           {"drycut fit line.yaml --plan --vary plants.axis.mass",
            "drycut fit line.yaml --recording move.yaml --vary plants.axis.mass",
            "  --vary plants.axis.carriage_friction.coulomb"},

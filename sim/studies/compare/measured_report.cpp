@@ -10,7 +10,6 @@
 #include "base/text.hpp"
 #include "sim/record/verdict.hpp"
 #include "sim/report/report.hpp"
-#include "sim/studies/compare/explained.hpp"
 #include "sim/studies/compare/overlays.hpp"
 
 namespace drycut::sim::studies {
@@ -127,12 +126,13 @@ record::Verdict residual_verdict(const MeasuredRun& measured) {
   return verdict;
 }
 
-renders::Report residual_page(const MeasuredRun& measured, const std::vector<std::string>& tolerances) {
+renders::Report residual_page(const MeasuredRun& measured, const Table& hints,
+                              const std::vector<std::string>& tolerances) {
   auto page = report::page_of(residual_verdict(measured));
   page.scenario = measured.file.string();
   page.summary.push_back(shown_table("What the run leaves of what was measured: simulated less measured",
                                      residual_table(measured)));
-  if (const auto hints = explained_table(measured); !hints.rows().empty())
+  if (!hints.rows().empty())
     page.summary.push_back(
         shown_table("What one value alone would explain; drycut fit finds values and limits", hints));
   for (const auto& finding : measured.findings) page.notes.push_back(to_string(finding));
@@ -185,10 +185,11 @@ std::string residual_sentence(const MeasuredRun& measured) {
                      told(*worst));
 }
 
-int write_measured(const MeasuredRun& measured, const std::vector<std::string>& tolerances,
-                   OutputFolder& folder, bool pictures) {
+int write_measured(const MeasuredRun& measured, const Table& hints,
+                   const std::vector<std::string>& tolerances, OutputFolder& folder, bool pictures) {
   write_file(folder.add("comparison.csv"), residual_table(measured).csv());
-  if (pictures) report::write_report(residual_page(measured, tolerances), residual_plots(measured), folder);
+  if (pictures)
+    report::write_report(residual_page(measured, hints, tolerances), residual_plots(measured), folder);
   const auto verdict = residual_verdict(measured);
   record::write_verdict(verdict, folder);
   return verdict.exit;

@@ -13,10 +13,10 @@ Table residual_table(const MeasuredRun& measured);
 /// The sentence of its verdict.
 std::string residual_sentence(const MeasuredRun& measured);
 
-/// Writes comparison.csv, verdict.json and, with `pictures`, plots/ and report.html into `folder`. Returns
-/// the exit status: 1 where a tolerance was given and is exceeded. Throws std::runtime_error if something
-/// cannot be written.
-int write_measured(const MeasuredRun& measured, const std::vector<std::string>& tolerances,
-                   OutputFolder& folder, bool pictures);
+/// Writes comparison.csv, verdict.json and, with `pictures`, plots/ and report.html into `folder`, which
+/// tells `hints` too, the explained_table(). Returns the exit status: 1 where a tolerance was given and is
+/// exceeded. Throws std::runtime_error if something cannot be written.
+int write_measured(const MeasuredRun& measured, const Table& hints,
+                   const std::vector<std::string>& tolerances, OutputFolder& folder, bool pictures);
 
 }  // namespace drycut::sim::studies

@@ -11,6 +11,7 @@
 #include "sim/parallel.hpp"
 #include "sim/scenario/units.hpp"
 #include "sim/studies/fit/noise.hpp"
+#include "sim/studies/fit/words.hpp"
 
 namespace drycut::sim::studies {
 
@@ -18,13 +19,11 @@ namespace {
 
 constexpr std::string_view torque_constant = "servo.torque_constant";
 
-bool is_of_spring(const FitPath& path) {
-  return path.row.starts_with("gear.") || path.row.starts_with("nut.");
-}
+bool is_of_spring(const FitPath& path) { return shows(path) == Shows::in_bending; }
 
 /// Values that show only where the motion begins, turns or stands.
 bool shows_at_standstill(const FitPath& path) {
-  return is_of_spring(path) || path.row.ends_with(".breakaway") || path.row.ends_with(".stribeck_speed");
+  return is_of_spring(path) || shows(path) == Shows::at_low_speed;
 }
 
 void begin(scenario::Scenario& machine, const ReplaySeries& series, bool closed) {
@@ -68,9 +67,9 @@ void FitBench::collect_unknowns() {
                                                   scenario::to_si(row->max, row->unit)});
     // A stiffness of 0 is none that is known.
     constexpr double far = 100;
-    one.never_zero = path.row.ends_with("mass") || path.row.ends_with("inertia") ||
-                     path.row.ends_with("stiffness") || path.row == torque_constant;
-    if (path.row.ends_with("stiffness") || path.row == torque_constant) {
+    const bool is_scale = path.row.ends_with("stiffness") || path.row == torque_constant;
+    one.never_zero = is_scale || shows(path) == Shows::in_acceleration;
+    if (is_scale) {
       one.low = one.start / far;
       one.high = one.start * far;
     }
@@ -97,10 +96,16 @@ void FitBench::collect_unknowns() {
   }
 }
 
-Plausible FitBench::answer_with(const std::vector<double>& set) {
+std::unique_ptr<scenario::Scenario> FitBench::take_machine(const std::vector<double>& set,
+                                                           std::size_t recording) {
   auto machine = take_machine();
   for (std::size_t i = 0; i < values(); ++i) set_quantity(*machine, question_.vary[i], set[i]);
-  begin(*machine, recordings_.front(), question_.closed);
+  begin(*machine, recordings_[recording], question_.closed);
+  return machine;
+}
+
+Plausible FitBench::answer_with(const std::vector<double>& set) {
+  auto machine = take_machine(set, 0);
   const auto answer = measure_answer(*machine, recordings_.front());
   give_back(std::move(machine));
   return answer;
@@ -162,9 +167,7 @@ void FitBench::give_back(std::unique_ptr<scenario::Scenario> machine) {
 
 std::optional<Replayed> FitBench::replay_one(const std::vector<double>& set, std::size_t recording,
                                              double cutoff) {
-  auto machine = take_machine();
-  for (std::size_t i = 0; i < values(); ++i) set_quantity(*machine, question_.vary[i], set[i]);
-  begin(*machine, recordings_[recording], question_.closed);
+  auto machine = take_machine(set, recording);
   std::optional<Replayed> found;
   if (is_sound(*machine))
     found = studies::replay(*machine, recordings_[recording],

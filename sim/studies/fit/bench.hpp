@@ -61,6 +61,8 @@ class FitBench {
 
  private:
   std::unique_ptr<scenario::Scenario> take_machine();
+  /// With the values of a set, where a recording begins.
+  std::unique_ptr<scenario::Scenario> take_machine(const std::vector<double>& set, std::size_t recording);
   void give_back(std::unique_ptr<scenario::Scenario> machine);
   void collect_unknowns();
   [[nodiscard]] ReplayErrors errors_of(const std::vector<double>& set, std::size_t recording) const;

@@ -80,7 +80,8 @@ void doubt_resolution(const FitBench& bench, std::size_t i, std::vector<Finding>
                          Role::warning);
   }
   constexpr double almost = 0.14;
-  if (bandwidth_of(one.torque) * one.sampling > almost / 1.25)
+  const double bandwidth = bandwidth_of(one.torque);
+  if (bandwidth * one.sampling > almost / 1.25)
     found.emplace_back(
         "fit.slow"_code,
         fmt::format("{}: the torque changes as fast as it was sampled, every {:.3g} ms; record "
@@ -89,14 +90,14 @@ void doubt_resolution(const FitBench& bench, std::size_t i, std::vector<Finding>
         Role::warning);
   for (const auto& channel : one.unused)
     found.emplace_back("fit.unused-channel"_code, fmt::format("{}: {} is not used", one.name(), channel));
-  if (bench.resolved(i) < bandwidth_of(one.torque))
+  if (const double resolved = bench.resolved(i); resolved < bandwidth)
     found.emplace_back(
         "fit.coarse"_code,
         fmt::format(
             "{}: above {:.3g} Hz what the motion is rounded to is worth more than {:.0f} % of the torque; "
             "only what is below counts. Springs and play show above: record a finer position, or "
             "the speed that the drive measures",
-            one.name(), bench.resolved(i), bench.noise_share() * 100));
+            one.name(), resolved, bench.noise_share() * 100));
 }
 
 }  // namespace

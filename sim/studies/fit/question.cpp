@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "sim/file.hpp"
 #include "sim/recordings/recording_file.hpp"
+#include "sim/studies/fit/words.hpp"
 
 namespace drycut::sim::studies {
 
@@ -88,9 +89,8 @@ void follow_motion(ReplaySeries& series) {
 }
 
 bool looks_for_springs(const FitQuestion& question) {
-  return std::ranges::any_of(question.vary, [](const FitPath& path) {
-    return path.row.starts_with("gear.") || path.row.starts_with("nut.");
-  });
+  return std::ranges::any_of(question.vary,
+                             [](const FitPath& path) { return shows(path) == Shows::in_bending; });
 }
 
 std::vector<ReplaySeries> read_recordings(const std::vector<std::filesystem::path>& files, FitPlan& plan,

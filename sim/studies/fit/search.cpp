@@ -133,6 +133,39 @@ AtCutoff simplest(FitBench& bench, AtCutoff with) {
   return explains_more ? with : without;
 }
 
+/// The same fit with as much noise again in the motion: by how much each value moves, largest of some tries.
+Set moved_by_noise(const FitBench& bench, const AtCutoff& chosen) {
+  constexpr std::uint64_t tries = 2;
+  constexpr int most_trials = 15;
+  Set most(bench.values() + 1);
+  for (std::uint64_t seed = 1; seed <= tries; ++seed) {
+    std::vector<ReplaySeries> noisy;
+    for (const auto& one : bench.recordings()) noisy.push_back(with_noise_again(one, seed));
+    FitBench again(bench.question(), noisy, bench.jobs(), bench.standstill());
+    for (std::size_t i = 0; i < chosen.values.size(); ++i)
+      if (i > bench.torque_offset() || bench.unknowns()[i].is_held()) again.fix(i, chosen.values[i]);
+    const auto moved = solve_at(again, chosen.cutoff, {chosen.values}, most_trials);
+    for (std::size_t i = 0; i < most.size(); ++i)
+      most[i] = std::max(most[i], std::abs(moved.values[i] - chosen.values[i]));
+  }
+  return most;
+}
+
+/// Limits hold what as much noise again would have found; what it moves far was found in noise.
+void widen_by_noise(const FitBench& bench, AtCutoff& chosen) {
+  constexpr double far = 0.1;
+  if (bench.question().closed) return;
+  const auto moved = moved_by_noise(bench, chosen);
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    auto& one = chosen.solution.estimates[i];
+    if (one.known != FitKnown::yes) continue;
+    const double half = std::hypot((one.high - one.low) / 2, moved[i]);
+    one.low = one.value - half;
+    one.high = one.value + half;
+    if (bench.unknowns()[i].never_zero && moved[i] > far * std::abs(one.value)) one.known = FitKnown::no;
+  }
+}
+
 }  // namespace
 
 double error_of(const std::vector<Replayed>& all) {
@@ -163,8 +196,7 @@ AtCutoff solve_at(FitBench& bench, double cutoff, const std::vector<Set>& starts
   if (count < least_a_value * bench.unknowns().size())
     throw std::runtime_error(
         fmt::format("too little of the recorded motion is of use: {} independent instants for {} values, an "
-                    "offset and a delay "
-                    "among them. What stands or turns tells nothing: record a longer move",
+                    "offset and a delay among them. What stands or turns tells nothing: record a longer move",
                     count, bench.unknowns().size()));
   AtCutoff found{cutoff, starts.front(), {}};
   double least = std::numeric_limits<double>::infinity();
@@ -207,43 +239,6 @@ std::vector<Set> starts_of(const FitBench& bench) {
   }
   return starts;
 }
-
-namespace {
-
-/// The same fit with as much noise again in the motion: by how much each value moves, largest of some tries.
-Set moved_by_noise(const FitBench& bench, const AtCutoff& chosen) {
-  constexpr std::uint64_t tries = 2;
-  constexpr int most_trials = 15;
-  Set most(bench.values() + 1);
-  for (std::uint64_t seed = 1; seed <= tries; ++seed) {
-    std::vector<ReplaySeries> noisy;
-    for (const auto& one : bench.recordings()) noisy.push_back(with_noise_again(one, seed));
-    FitBench again(bench.question(), noisy, bench.jobs(), bench.standstill());
-    for (std::size_t i = 0; i < chosen.values.size(); ++i)
-      if (i > bench.torque_offset() || bench.unknowns()[i].is_held()) again.fix(i, chosen.values[i]);
-    const auto moved = solve_at(again, chosen.cutoff, {chosen.values}, most_trials);
-    for (std::size_t i = 0; i < most.size(); ++i)
-      most[i] = std::max(most[i], std::abs(moved.values[i] - chosen.values[i]));
-  }
-  return most;
-}
-
-/// Limits hold what as much noise again would have found; what it moves far was found in noise.
-void widen_by_noise(const FitBench& bench, AtCutoff& chosen) {
-  constexpr double far = 0.1;
-  if (bench.question().closed) return;
-  const auto moved = moved_by_noise(bench, chosen);
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    auto& one = chosen.solution.estimates[i];
-    if (one.known != FitKnown::yes) continue;
-    const double half = std::hypot((one.high - one.low) / 2, moved[i]);
-    one.low = one.value - half;
-    one.high = one.value + half;
-    if (bench.unknowns()[i].never_zero && moved[i] > far * std::abs(one.value)) one.known = FitKnown::no;
-  }
-}
-
-}  // namespace
 
 Solved search_fit(FitBench& bench) {
   Solved solved;

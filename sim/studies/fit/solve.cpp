@@ -295,7 +295,7 @@ FitSolution solve_fit(const std::vector<FitUnknown>& unknowns, const ResidualsOf
   std::vector<FitUnknown> free;
   std::vector<double> held;
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
-    held.push_back(unknowns[i].is_held() ? unknowns[i].low : unknowns[i].start);
+    held.push_back(unknowns[i].low);
     if (unknowns[i].is_held()) continue;
     numbers.push_back(i);
     free.push_back(unknowns[i]);

@@ -98,7 +98,8 @@ struct FitFound {
     if (std::ranges::find(codes, finding.code) == codes.end()) codes.push_back(finding.code);
     findings.push_back(std::move(finding));
   }
-  /// All values are known, and the cross test keeps its limit.
+  /// All values are known, no more than a third of the torque is left unexplained, and the cross test keeps
+  /// its limit.
   bool passed = false;
 
   template <typename Archive, typename Self>
