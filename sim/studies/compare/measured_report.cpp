@@ -34,6 +34,7 @@ std::vector<std::size_t> drawn_instants(const MeasuredChannel& channel) {
 
 std::vector<double> of_instants(const std::vector<double>& values, const std::vector<std::size_t>& instants) {
   std::vector<double> chosen;
+  chosen.reserve(instants.size());
   for (const auto i : instants) chosen.push_back(values[i]);
   return chosen;
 }
