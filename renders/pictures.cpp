@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <deque>
 #include <exception>
 #include <mutex>
 #include <stdexcept>
@@ -16,8 +15,8 @@
 #include "base/picture_size.hpp"
 #include "renders/camera.hpp"
 #include "renders/caption_bar.hpp"
-#include "renders/gl_renderer.hpp"
 #include "renders/overlays.hpp"
+#include "renders/picture_library.hpp"
 #include "renders/solid_mesh.hpp"
 #include "renders/tiles.hpp"
 
@@ -43,18 +42,18 @@ std::string frame_name(std::size_t number) { return fmt::format("frame_{:05}.png
 void draw_frames(const Film& film, const std::vector<Stage>& stages, const Overlays& overlays,
                  const CaptionLayout& caption, const std::filesystem::path& directory,
                  std::atomic<std::size_t>& next, const std::function<void()>& drawn) {
-  std::deque<GlRenderer> renderers;
-  for (const Stage& stage : stages) renderers.emplace_back(stage);
+  std::vector<DrawParts> renderers;
+  for (const Stage& stage : stages) renderers.push_back(picture_library().drawer(stage));
   const std::vector<Tile> tiles = tiles_of(film);
   Image image(film.width, film.height);
   for (auto number = next++; number < film.frames.size(); number = next++) {
     const Frame& frame = film.frames[number];
     if (tiles.size() == 1) {
-      renderers.front().draw(frame.placements, camera_of(film, number), image);
+      renderers.front()(frame.placements, camera_of(film, number), image);
     } else {
       for (std::size_t view = 0; view < tiles.size(); ++view) {
         Image part(tiles[view].width, tiles[view].height);
-        renderers[view].draw(frame.placements, camera_of(film, number, view), part);
+        renderers[view](frame.placements, camera_of(film, number, view), part);
         paste(part, tiles[view], image);
       }
     }

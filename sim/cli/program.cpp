@@ -39,7 +39,7 @@ ProblemKeeper::~ProblemKeeper() { kept_problems = nullptr; }
 
 int run_program(std::vector<std::string> words) {
   CLI::App app{"drycut: virtual commissioning for cut-to-length lines", "drycut"};
-  app.set_version_flag("--version", version_text());
+  app.set_version_flag("--version", version_text);
   int status = all_passed;
 
   add_commands(app, status);

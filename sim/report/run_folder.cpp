@@ -65,7 +65,7 @@ RunLeft RunFolder::run(const scenario::Scenario& scenario, loop::Simulation& sim
     simulation.write_to(files_.add(trace_file), files_.add(events_file));
   } else {
     hdf5 = files_.add(hdf5_file);
-    simulation.write_to(std::make_unique<record::Hdf5File>(simulation.recording(), hdf5, about(scenario)),
+    simulation.write_to(record::hdf5_writer(simulation.recording(), hdf5, about(scenario)),
                         hdf5.parent_path());
   }
 

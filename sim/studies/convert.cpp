@@ -70,7 +70,7 @@ void write_record(const record::Record& record, RecordFormat format, const fs::p
   const auto& recording = record.recording;
   Channels channels(recording);
   const Part part(file);
-  const auto told = [&](record::Observer&& to) { tell(recording, channels.numbers, to); };
+  const auto told = [&](auto&& to) { tell(recording, channels.numbers, to); };
   switch (format) {
     case RecordFormat::csv: {
       const Part events(record::events_beside(file));
@@ -79,7 +79,7 @@ void write_record(const record::Record& record, RecordFormat format, const fs::p
       break;
     }
     case RecordFormat::hdf5:
-      told(record::Hdf5File(channels.recording, part.path(), record.about));
+      told(*record::hdf5_writer(channels.recording, part.path(), record.about));
       if (!record.outcome.checks.empty()) record::add_outcome(part.path(), record.outcome);
       break;
     case RecordFormat::mcap: {

@@ -58,7 +58,8 @@ double write_hdf5() {
   const auto made = processor_seconds();
   const auto file = std::filesystem::temp_directory_path() / fmt::format("drycut_bench_{}.h5", getpid());
   {
-    sim::record::Hdf5File out(recording, file, {});
+    const auto writer = sim::record::hdf5_writer(recording, file, {});
+    auto& out = *writer;
     for (int row = 0; row < rows; ++row) {
       set_row(row, numbers);
       out.sample(sim::Time{row} * 100 * sim::microsecond);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "renders/gl_renderer.hpp"
+#include "renders/loaded/gl_renderer.hpp"
 #include "renders/lamp.hpp"
 
 namespace drycut::renders {

@@ -4,9 +4,9 @@
 #include <csignal>
 #include <random>
 
-#include "sim/record/deflate.hpp"
+#include "sim/record/hdf5/deflate.hpp"
+#include "sim/record/hdf5/table.hpp"
 #include "sim/record/hdf5_file.hpp"
-#include "sim/record/hdf5_table.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim::record {
@@ -29,7 +29,7 @@ struct Hdf5Test : testing::Test {
     angle = static_cast<double>(row % 7);
   }
   static Time at(std::size_t row) { return static_cast<Time>(row) * 2 * millisecond; }
-  void rows(Hdf5File& file, std::size_t begin, std::size_t end) {
+  void rows(Observer& file, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       set(row);
       file.sample(at(row));
@@ -70,7 +70,8 @@ TEST_F(Hdf5Test, GivesBackWhatItTook) {
   const About about = {
       {"drycut", "0.1.0"}, {"step", "100 us"}, {"set", ""}, {"scenario", std::string(200'000, 's')}};
   {
-    Hdf5File out(recording, file, about);
+    const auto writer = hdf5_writer(recording, file, about);
+    auto& out = *writer;
     out.happened({100'000, 0.00005, "knife", "cut", {{"length", 800.0125, "mm"}, {"number", 3, ""}}, ""});
     rows(out, 0, 2 * block + 5);
     out.happened(
@@ -115,7 +116,8 @@ TEST_F(Hdf5Test, GivesBackWhatItTook) {
 TEST_F(Hdf5Test, IsTheSameBytesTwice) {
   const auto write = [&](const fs::path& to) {
     {
-      Hdf5File out(recording, to, {{"drycut", "0.1.0"}});
+      const auto writer = hdf5_writer(recording, to, {{"drycut", "0.1.0"}});
+      auto& out = *writer;
       for (std::size_t row = 0; row < 3 * block; row += 100) {
         rows(out, row, row + 100);
         out.happened({at(row), 0, "knife", "cut", {{"length", 800, "mm"}}, ""});
@@ -131,7 +133,8 @@ TEST_F(Hdf5Test, IsTheSameBytesTwice) {
 }
 
 TEST_F(Hdf5Test, CanBeReadWhileItIsWritten) {
-  Hdf5File out(recording, file, {});
+  const auto writer = hdf5_writer(recording, file, {});
+  auto& out = *writer;
   expect_rows(read(file), 0);
   rows(out, 0, block - 1);
   out.happened({at(block - 2), 0, "knife", "cut", {}, ""});
@@ -152,7 +155,8 @@ TEST_F(Hdf5Test, RefusesWhatIsNoRecord) {
       HasSubstr(
           "x.h5:1:1: it is no HDF5 file; name a file that drycut wrote: trace.h5 [record.not-a-record]\n"));
   {
-    Hdf5File out(recording, file, {});
+    const auto writer = hdf5_writer(recording, file, {});
+    auto& out = *writer;
     rows(out, 0, 3 * block);
     out.finish();
   }
@@ -174,7 +178,8 @@ TEST_F(Hdf5Test, RefusesWhatIsNoRecord) {
 
 TEST_F(Hdf5Test, RefusesTimesThatAreNone) {
   const auto with_times = [&](Time first, Time then) {
-    Hdf5File out(recording, file, {});
+    const auto writer = hdf5_writer(recording, file, {});
+    auto& out = *writer;
     out.sample(first);
     out.sample(then);
     out.finish();
@@ -190,7 +195,8 @@ TEST_F(Hdf5Test, TellsAFullDisk) {
   getrlimit(RLIMIT_FSIZE, &before);
   std::string told;
   {
-    Hdf5File out(recording, file, {});
+    const auto writer = hdf5_writer(recording, file, {});
+    auto& out = *writer;
     const rlimit most{100'000, before.rlim_max};
     setrlimit(RLIMIT_FSIZE, &most);
     try {
@@ -202,7 +208,7 @@ TEST_F(Hdf5Test, TellsAFullDisk) {
   }
   std::signal(SIGXFSZ, before_it);
   EXPECT_EQ(told, "cannot write " + file.string() + ": File too large");
-  EXPECT_THROW(Hdf5File(recording, folder / "nowhere/trace.h5", {}), std::runtime_error);
+  EXPECT_THROW(hdf5_writer(recording, folder / "nowhere/trace.h5", {}), std::runtime_error);
 }
 
 /// What HDF5's filters make of it, backwards.

@@ -95,7 +95,7 @@ TEST(VisitedOutcome, GoesThroughAFileOfHdf5AndBack) {
   const auto file = folder / "trace.h5";
   const Recording recording;
   for (unsigned seed = 0; seed < 20; ++seed) {
-    Hdf5File(recording, file, {}).finish();
+    hdf5_writer(recording, file, {})->finish();
     const auto outcome = Anything(seed).made<Outcome>();
     add_outcome(file, outcome);
     Problems problems;

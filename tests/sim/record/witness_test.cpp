@@ -60,7 +60,8 @@ TEST_F(RecordsWitness, H5pyWhileItIsWritten) {
   double speed = 0;
   Recording recording;
   recording.add("web.speed", "m/min").slot = &speed;
-  Hdf5File file(recording, folder / "trace.h5", {{"drycut", "0"}});
+  const auto writer = hdf5_writer(recording, folder / "trace.h5", {{"drycut", "0"}});
+  auto& file = *writer;
   for (int row = 0; row < 10'000; ++row) {
     speed = row;
     file.sample(Time{row} * millisecond);

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "renders/gl_context.hpp"
-#include "renders/gl_lamps.hpp"
-#include "renders/gl_parts.hpp"
+#include "renders/loaded/gl_context.hpp"
+#include "renders/loaded/gl_lamps.hpp"
+#include "renders/loaded/gl_parts.hpp"
 #include "renders/png_image.hpp"
 #include "renders/stage.hpp"
 

@@ -1,4 +1,4 @@
-#include "renders/gl_parts.hpp"
+#include "renders/loaded/gl_parts.hpp"
 
 #include <GL/gl.h>
 #include <GL/glext.h>

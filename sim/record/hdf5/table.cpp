@@ -1,4 +1,4 @@
-#include "sim/record/hdf5_table.hpp"
+#include "sim/record/hdf5/table.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "sim/record/deflate.hpp"
+#include "sim/record/hdf5/deflate.hpp"
 
 #include <zlib.h>
 

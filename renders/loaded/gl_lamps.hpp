@@ -1,6 +1,6 @@
 #pragma once
-#include "renders/gl_parts.hpp"
 #include "renders/lamp.hpp"
+#include "renders/loaded/gl_parts.hpp"
 
 namespace drycut::renders {
 

@@ -1,16 +1,15 @@
-#include "sim/record/hdf5_file.hpp"
+#include "sim/record/hdf5/faces.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 
 #include "base/text.hpp"
-#include "sim/record/hdf5_table.hpp"
+#include "sim/record/hdf5/table.hpp"
 
 namespace drycut::sim::record {
 
@@ -24,8 +23,6 @@ struct Wrong {
 };
 
 hdf5::Handle open_file(const std::filesystem::path& file) {
-  if (!is_hdf5(file))
-    throw Wrong{"it is no HDF5 file", "name a file that drycut wrote: trace.h5", "record.not-a-record"_code};
   for (const auto how : {H5F_ACC_RDONLY, H5F_ACC_RDONLY | H5F_ACC_SWMR_READ}) {  // the latter: it is written
     const hdf5::Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_file_locking(access, 1, 1);
@@ -256,16 +253,7 @@ About read_about(hid_t file) {
 
 }  // namespace
 
-bool is_hdf5(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored)) return false;  // a FIFO would be waited for
-  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
-  std::array<char, signature.size()> begin{};
-  std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
-  return std::string_view(begin.data(), begin.size()) == signature;
-}
-
-bool names_drycut(const std::filesystem::path& file) {
+bool says_drycut(const std::filesystem::path& file) {
   const hdf5::Hdf5Turn turn;
   try {
     return attribute_of(open_file(file), hdf5::writer_name) == hdf5::writer;
@@ -274,7 +262,7 @@ bool names_drycut(const std::filesystem::path& file) {
   }
 }
 
-Record read_hdf5(const std::filesystem::path& file, Problems& problems, const SeverityOf& severity_of) {
+Record read_from(const std::filesystem::path& file, Problems& problems, const SeverityOf& severity_of) {
   Record record;
   const hdf5::Hdf5Turn turn;
   try {

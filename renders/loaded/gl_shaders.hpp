@@ -86,8 +86,8 @@ void main() {
 }
 )";
 
-/// How much of the key light and of the sky's light reach a point, 0..1. The key's map is looked at whether or
-/// not the point faces the lamp: the rasteriser pays more for the choice than for the look.
+/// How much of the key light and of the sky's light reach a point, 0..1. The key's map is looked at whether
+/// or not the point faces the lamp: the rasteriser pays more for the choice than for the look.
 inline constexpr const char* kLamps = R"(
 uniform sampler2DShadow key_map;
 uniform mat4 key_matrix;

@@ -1,4 +1,4 @@
-#include "renders/gl_context.hpp"
+#include "renders/loaded/gl_context.hpp"
 
 #include <GL/osmesa.h>
 

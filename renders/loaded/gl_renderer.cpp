@@ -1,4 +1,4 @@
-#include "renders/gl_renderer.hpp"
+#include "renders/loaded/gl_renderer.hpp"
 
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -11,7 +11,7 @@
 #include <string>
 
 #include "renders/antialias.hpp"
-#include "renders/gl_shaders.hpp"
+#include "renders/loaded/gl_shaders.hpp"
 
 namespace drycut::renders {
 namespace {

@@ -1,11 +1,11 @@
-#include "renders/gl_lamps.hpp"
+#include "renders/loaded/gl_lamps.hpp"
 
 #include <GL/gl.h>
 #include <GL/glext.h>
 
 #include <algorithm>
 
-#include "renders/gl_shaders.hpp"
+#include "renders/loaded/gl_shaders.hpp"
 
 namespace drycut::renders {
 namespace {
