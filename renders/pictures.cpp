@@ -18,6 +18,7 @@
 #include "renders/overlays.hpp"
 #include "renders/picture_library.hpp"
 #include "renders/solid_mesh.hpp"
+#include "renders/stage.hpp"
 #include "renders/tiles.hpp"
 
 namespace drycut::renders {
