@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/random/sobol.hpp>
 #include <charconv>
 #include <cmath>
 
@@ -250,12 +251,26 @@ std::vector<SweepPoint> grid(const SweepAxes& axes) {
   return points;
 }
 
+static_assert(sobol_axes == boost::random::default_sobol_table::max_dimension);
+
+std::vector<std::vector<double>> sobol_shares(std::size_t axes, std::size_t count) {
+  // Point 0, where all ranges begin, is left out by Boost.
+  std::vector<std::vector<double>> points(count, std::vector<double>(axes));
+  if (axes == 0) return points;
+  boost::random::sobol_engine<std::uint32_t, 32> numbers(axes);
+  constexpr double end = 4294967296.0;
+  for (std::size_t number = 1; number < count; ++number)
+    for (auto& share : points[number]) share = numbers() / end;
+  return points;
+}
+
 std::vector<SweepPoint> sobol(const SweepAxes& axes, std::size_t count) {
   std::vector<SweepPoint> points(count);
+  const auto shares = sobol_shares(axes.size(), count);
   for (std::size_t number = 0; number < count; ++number) {
     for (std::size_t i = 0; i < axes.size(); ++i) {
       const auto& axis = axes[i];
-      const double share = sobol_number(i, static_cast<std::uint32_t>(number));
+      const double share = shares[number][i];
       if (!axis.is_range()) {
         const auto which = static_cast<std::size_t>(share * static_cast<double>(axis.values.size()));
         points[number].push_back(axis.values[which]);

@@ -55,8 +55,8 @@ std::optional<std::size_t> grid_size(const SweepAxes& axes, std::size_t most);
 std::vector<SweepPoint> grid(const SweepAxes& axes);
 /// The first `count` points of a Sobol sequence over the ranges: they fill them evenly, whatever the count.
 std::vector<SweepPoint> sobol(const SweepAxes& axes, std::size_t count);
-/// Coordinate `axis` of point `number` of the sequence, 0 to below 1: `axis` below sobol_axes.
-double sobol_number(std::size_t axis, std::uint32_t number);
-inline constexpr std::size_t sobol_axes = 10;
+/// Those points as shares of so many ranges, at most sobol_axes: 0 to below 1.
+std::vector<std::vector<double>> sobol_shares(std::size_t axes, std::size_t count);
+inline constexpr std::size_t sobol_axes = 3667;
 
 }  // namespace drycut::sim::studies

@@ -119,30 +119,43 @@ TEST(SweepGrid, TheLastAxisGoesFastest) {
 // Every 2^k points lie in 2^k different parts of each axis, and any two of the first axes form a net: each of
 // the 2^k rectangles of equal size and shape holds one (k up to 4 for the first two).
 TEST(Sobol, FillsEveryAxisEvenly) {
-  for (std::size_t axis = 0; axis < sobol_axes; ++axis) {
-    for (const std::uint32_t count : {2U, 16U, 256U}) {
+  constexpr std::size_t axes = 12;
+  const auto points = sobol_shares(axes, 256);
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    for (const std::size_t count : {2U, 16U, 256U}) {
       std::set<int> parts;
-      for (std::uint32_t i = 0; i < count; ++i) {
-        const double x = sobol_number(axis, i);
+      for (std::size_t i = 0; i < count; ++i) {
+        const double x = points[i][axis];
         EXPECT_GE(x, 0);
         EXPECT_LT(x, 1);
-        parts.insert(static_cast<int>(x * count));
+        parts.insert(static_cast<int>(x * static_cast<double>(count)));
       }
       EXPECT_EQ(parts.size(), count) << axis;
     }
     for (std::size_t other = 0; other < axis; ++other) {
       bool same = true;
-      for (std::uint32_t i = 0; i < 64; ++i) same = same && sobol_number(axis, i) == sobol_number(other, i);
+      for (std::size_t i = 0; i < 64; ++i) same = same && points[i][axis] == points[i][other];
       EXPECT_FALSE(same) << axis << " is " << other;
     }
   }
   for (const int columns : {1, 2, 4, 8, 16}) {
     std::set<std::pair<int, int>> cells;
-    for (std::uint32_t i = 0; i < 16; ++i)
-      cells.emplace(static_cast<int>(sobol_number(0, i) * columns),
-                    static_cast<int>(sobol_number(1, i) * (16 / columns)));
+    for (std::size_t i = 0; i < 16; ++i)
+      cells.emplace(static_cast<int>(points[i][0] * columns),
+                    static_cast<int>(points[i][1] * (16 / columns)));
     EXPECT_EQ(cells.size(), 16U) << columns;
   }
+}
+
+// By the direction numbers of Joe and Kuo (2008), whose first rows give these by hand; it takes thousands of
+// axes.
+TEST(Sobol, HasThePublishedNumbers) {
+  const auto points = sobol_shares(10, 6);
+  const std::vector<double> third = {0.75, 0.25, 0.25, 0.25, 0.75, 0.75, 0.25, 0.75, 0.75, 0.75};
+  EXPECT_THAT(points[0], testing::Each(0));
+  EXPECT_THAT(points[1], testing::Each(0.5));
+  EXPECT_EQ(points[2], third);
+  EXPECT_EQ(sobol_shares(sobol_axes, 3)[2].size(), sobol_axes);
 }
 
 TEST(Sobol, LiesInTheRanges) {
