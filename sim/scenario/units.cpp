@@ -13,6 +13,8 @@
 #include <memory>
 #include <mutex>
 
+#include "sim/scenario/everyday_units.hpp"
+
 namespace drycut::sim::scenario {
 
 namespace {
@@ -21,15 +23,6 @@ struct FreeUnit {
   void operator()(ut_unit* unit) const { ut_free(unit); }
 };
 using Unit = std::unique_ptr<ut_unit, FreeUnit>;
-
-// A unit against SI: si = number * factor / divisor + offset. The divisor keeps 3 mm at the double nearest to
-// 0.003, which 3 * 0.001 is not.
-struct Conversion {
-  double factor = 1;
-  double divisor = 1;
-  double offset = 0;
-  std::string dimension;  ///< SI base units, radian kept apart: "m.s-1"; "" = pure number
-};
 
 // UDUNITS reads numbers, offsets and logarithms anywhere in a unit ("5 10 mm" would be 50 mm). Here a number
 // is an exponent, or the 1 of "1/min".
@@ -93,7 +86,7 @@ std::string with_forces(std::string_view text) {
                      text.substr(pound_end));
 }
 
-// The table of units, loaded once (5 ms). UDUNITS is not safe for several threads, hence one lock over all.
+// The table of UDUNITS, loaded once (5 ms). UDUNITS is not safe for several threads, hence one lock over all.
 class UnitTable {
  public:
   UnitTable() {
@@ -184,8 +177,11 @@ class UnitTable {
 };
 
 std::optional<Conversion> find(std::string_view unit) {
-  static UnitTable table;
-  return table.find(unit);
+  const auto everyday = std::ranges::lower_bound(everyday_units, unit, {}, &EverydayUnit::unit);
+  if (everyday != everyday_units.end() && everyday->unit == unit)
+    return Conversion{everyday->factor, everyday->divisor, everyday->offset,
+                      std::string(everyday->dimension)};
+  return udunits_conversion(unit);
 }
 
 struct NamedUnit {
@@ -223,6 +219,11 @@ constexpr std::array<NamedUnit, 27> dimension_names = {{
 }};
 
 }  // namespace
+
+std::optional<Conversion> udunits_conversion(std::string_view unit) {
+  static UnitTable table;
+  return table.find(unit);
+}
 
 bool is_unit(std::string_view unit) { return find(unit).has_value(); }
 

@@ -9,6 +9,16 @@ namespace drycut::sim::scenario {
 /// Units of measure by UDUNITS-2, with the field's spellings added (deg, rev, Nm). Angle is a dimension of
 /// its own where UDUNITS keeps it ("rad"); "" is the pure number. Safe to call from several threads.
 
+/// A unit against SI: si = number * factor / divisor + offset.
+struct Conversion {
+  double factor = 1;
+  double divisor = 1;
+  double offset = 0;
+  std::string dimension;  ///< SI base units, radian kept apart: "m.s-1"; "" = pure number
+};
+/// What UDUNITS says, everyday_units aside; nullopt if it does not know the unit.
+std::optional<Conversion> udunits_conversion(std::string_view unit);
+
 /// True if `unit` is one that is known.
 bool is_unit(std::string_view unit);
 /// SI value of `number` in `unit`. The unit must be known.

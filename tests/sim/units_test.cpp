@@ -1,7 +1,10 @@
 #include "sim/scenario/units.hpp"
+#include "sim/scenario/everyday_units.hpp"
 #include "sim/scenario/unit_groups.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include <cmath>
 #include <numbers>
@@ -205,6 +208,19 @@ TEST(Units, MayBeAskedByManyThreads) {
   }
   for (auto& thread : threads) thread.join();
   for (const int count : right) EXPECT_EQ(count, 500);
+}
+
+// In the order that they are looked up in, and as UDUNITS has them, to the bit.
+TEST(Units, EverydayUnitsAreThoseOfUdunits) {
+  EXPECT_TRUE(std::ranges::is_sorted(everyday_units, {}, &EverydayUnit::unit));
+  for (const auto& unit : everyday_units) {
+    const auto meant = udunits_conversion(unit.unit);
+    ASSERT_TRUE(meant) << unit.unit;
+    EXPECT_EQ(unit.factor, meant->factor) << unit.unit;
+    EXPECT_EQ(unit.divisor, meant->divisor) << unit.unit;
+    EXPECT_EQ(unit.offset, meant->offset) << unit.unit;
+    EXPECT_EQ(unit.dimension, meant->dimension) << unit.unit;
+  }
 }
 
 }  // namespace
