@@ -165,7 +165,8 @@ class Dispatch {
       if (open_.contains(item)) left.push_back(item);
     if (left.empty()) return;
     const auto why = news.why.empty() ? std::string("it ended before its end") : news.why;
-    const auto suspect = chunk.begun ? chunk.begun : left.size() == 1 ? std::optional(left[0]) : std::nullopt;
+    auto suspect = chunk.begun;
+    if (!suspect && left.size() == 1) suspect = left.front();
     const bool nothing_runs = chunk.blank && (!suspect || engine_.answered == 0);
     if (nothing_runs && ++blank_ends_ >= most_blank_ends)
       throw std::runtime_error(
