@@ -61,6 +61,7 @@ Cutter::Cutter(const CutterData& data, const Shaft& drum)
       lag_(helix_lag(data.radius, data.helix, data.width)),
       touch_(engagement_angle(closing_, data.thickness)),
       engagement_(touch_ + lag_ / 2),
+      pitch_(2 * pi / data.blades),
       coupling_(data.coupling),
       theta_(nearest_blade(drum)),
       engaged_(std::abs(theta_) < engagement_),
@@ -68,13 +69,9 @@ Cutter::Cutter(const CutterData& data, const Shaft& drum)
       deepest_(engaged_ ? penetration(closing_, data.thickness, theta_) : 0),
       farthest_(lead()) {}
 
-double Cutter::nearest_blade(const Shaft& drum) const {
-  const double pitches = drum.part * data_.blades;
-  const double blade = std::floor(pitches + 0.5);
-  const double theta = (pitches - blade) * (2 * pi / data_.blades);
-  if (data_.eccentricity == 0) return theta;
-  // A circle that lies e beside the axis has its tips e/R cos(angle to blade 1) ahead of their place.
-  return theta + data_.eccentricity / data_.radius * std::cos(2 * pi * blade / data_.blades);
+// A circle that lies e beside the axis has its tips e/R cos(angle to blade 1) ahead of their place.
+double Cutter::ahead(double blade) const {
+  return data_.eccentricity / data_.radius * std::cos(2 * pi * blade / data_.blades);
 }
 
 // Angle of the point of the blade that is nearest to bottom dead centre.
@@ -187,10 +184,8 @@ void Cutter::follow(const Shaft& drum, const Slide& web, double before, double h
   }
 }
 
-Cutter::Outcome Cutter::sense(const Shaft& drum, const Slide& web, double h) {
+Cutter::Outcome Cutter::sense_blade(const Shaft& drum, const Slide& web, double before, double h) {
   Outcome outcome;
-  const double before = theta_;
-  theta_ = nearest_blade(drum);
   // From one blade to the next theta jumps at half a pitch; there it passes no bottom dead centre.
   const bool near = std::abs(theta_ - before) < pi / data_.blades;
   const double through = (engaged_ ? direction_ : before <= 0 ? 1 : -1) * lag_ / 2;

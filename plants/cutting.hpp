@@ -1,4 +1,7 @@
 #pragma once
+#include <cmath>
+#include <utility>
+
 #include "plants/motor_load.hpp"
 #include "plants/world.hpp"
 
@@ -89,7 +92,12 @@ class Cutter {
                            ///< positive where a helical blade was faster than the web [m]
     double excess = 0;     ///< of tear and buckle: |blade - web| now [m/s]
   };
-  [[nodiscard]] Outcome sense(const Shaft& drum, const Slide& web, double h);
+  [[nodiscard]] Outcome sense(const Shaft& drum, const Slide& web, double h) {
+    const double before = std::exchange(theta_, nearest_blade(drum));
+    // Nearly always no blade is in the web, and none has come to the other side of bottom dead centre.
+    if (!engaged_ && std::abs(theta_) >= engagement_ && before * theta_ > 0) return {};
+    return sense_blade(drum, web, before, h);
+  }
 
   [[nodiscard]] bool engaged() const { return engaged_; }
   /// Angle of the nearest blade from bottom dead centre [rad].
@@ -105,7 +113,14 @@ class Cutter {
   void visit(StateArchive& archive);
 
  private:
-  [[nodiscard]] double nearest_blade(const Shaft& drum) const;
+  [[nodiscard]] double nearest_blade(const Shaft& drum) const {
+    const double pitches = drum.part * data_.blades;
+    const auto blade = static_cast<double>(static_cast<int>(pitches + 0.5));
+    const double theta = (pitches - blade) * pitch_;
+    return data_.eccentricity == 0 ? theta : theta + ahead(blade);
+  }
+  [[nodiscard]] double ahead(double blade) const;
+  [[nodiscard]] Outcome sense_blade(const Shaft& drum, const Slide& web, double before, double h);
   // Of the leading end of a helical blade, whichever it is, counted up while it cuts [rad].
   [[nodiscard]] double lead() const { return direction_ * theta_ + lag_ / 2; }
   [[nodiscard]] double nearest_point() const;
@@ -123,6 +138,7 @@ class Cutter {
   const double lag_;         // of a helical blade [rad]
   const double touch_;       // angle at which a point of it touches the web [rad]
   const double engagement_;  // angle at which the whole blade has left it [rad]
+  const double pitch_;       // from blade to blade [rad]
   double coupling_;          // [N s/m]
   double theta_;
   bool engaged_;

@@ -92,8 +92,7 @@ void FlyingSaw::sense(double h) {
   tell_motor_load(h);
   screw_.sense(h);
   servo_.sense(rotor());
-  if (servo_.has_events())
-    for (MachineEvent& event : servo_.take_events(rotor())) happened(std::move(event));
+  happened_to(servo_, rotor());
   head_.sense(h);
   const Slide& material = this->material();
   clamp_.sense(carriage(), material, h);

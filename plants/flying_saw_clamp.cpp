@@ -5,6 +5,9 @@
 namespace drycut::plants {
 
 void Clamp::move_jaws(double h) {
+  closed.edges.clear();
+  gripped_ = let_go_ = false;
+  if (stroke_ == (command.level ? 1 : 0)) return;  // they are there
   const double time = command.level ? data_.close_time : data_.open_time;
   const double change = time > 0 ? h / time : 1;
   stroke_ = std::clamp(stroke_ + (command.level ? change : -change), 0.0, 1.0);
@@ -12,7 +15,6 @@ void Clamp::move_jaws(double h) {
   constexpr double hair = 1e-9;
   const bool before = closed_;
   closed_ = closed_ ? stroke_ > hair : stroke_ > 1 - hair;
-  closed.edges.clear();
   gripped_ = closed_ && !before;
   let_go_ = before && !closed_;
   if (closed_ == before) return;
@@ -23,11 +25,13 @@ void Clamp::move_jaws(double h) {
 
 void Clamp::drive(Slide& carriage, Slide& material, double h) {
   move_jaws(h);
-  const double reduced = carriage.mass * material.mass / (carriage.mass + material.mass);
-  const double difference = carriage.speed + carriage.force * h / carriage.mass - material.speed -
-                            material.force * h / material.mass;
-  const double most = limit();
-  friction_ = most > 0 ? std::clamp(-difference * reduced / h, -most, most) : 0;
+  friction_ = 0;
+  if (const double most = limit(); most > 0) {
+    const double reduced = carriage.mass * material.mass / (carriage.mass + material.mass);
+    const double difference = carriage.speed + carriage.force * h / carriage.mass - material.speed -
+                              material.force * h / material.mass;
+    friction_ = std::clamp(-difference * reduced / h, -most, most);
+  }
   carriage.add_force(friction_);
   material.add_force(-friction_);
 }

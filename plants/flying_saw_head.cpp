@@ -48,7 +48,11 @@ void SawHead::valve(double h) {
     }
   }
   const double target = (valve_down_ ? data_.down_force : -data_.up_force) * (1 - pressure_loss_);
-  force_ += (target - force_) * share_of(data_.fill_time, h);
+  if (h != h_) {
+    h_ = h;
+    fill_share_ = share_of(data_.fill_time, h);
+  }
+  force_ += (target - force_) * fill_share_;
 }
 
 void SawHead::drive(double h, double resistance) {
@@ -66,7 +70,8 @@ void SawHead::drive(double h, double resistance) {
 void SawHead::sense(double h) {
   up_.sense(body_.position_before, body_.position, h);
   down_.sense(body_.position_before, body_.position, h);
-  blade_turn_ = std::fmod(blade_turn_ + blade_speed * h, units::turn);
+  blade_turn_ += blade_speed * h;
+  if (blade_turn_ >= units::turn) blade_turn_ = std::fmod(blade_turn_, units::turn);
 }
 
 void SawHead::offer_ports(std::vector<Port>& ports) {

@@ -72,6 +72,8 @@ class SawHead {
   bool valve_down_ = false;   // position of the valve
   double valve_waiting_ = 0;  // since the command differs from it [s]
   double force_;
+  double h_ = 0;  // the step for which the share below holds
+  double fill_share_ = 1;
   double pressure_loss_ = 0;  // share
   double blade_turn_ = 0;
 };

@@ -46,8 +46,7 @@ void LinearAxis::sense(double h) {
   screw_.sense(h);
   for (EndStop& stop : screw_.stops)
     if (stop.stopped(carriage())) happened(stop.hit("end_stop"));
-  if (drive_.has_events())
-    for (MachineEvent& event : drive_.take_events(rotor())) happened(std::move(event));
+  happened_to(drive_, rotor());
   if (tool_.level && data_.tool == "pen") draw_ink();
 }
 

@@ -445,6 +445,12 @@ class Plant {
 
  protected:
   void happened(MachineEvent event) { events_.push_back(std::move(event)); }
+  /// What happened to its drive, with the motor's `rotor`.
+  template <class Drive, class Rotor>
+  void happened_to(Drive& drive, const Rotor& rotor) {
+    if (!drive.has_events()) return;
+    for (MachineEvent& event : drive.take_events(rotor)) happened(std::move(event));
+  }
 
  private:
   std::vector<MachineEvent> events_;

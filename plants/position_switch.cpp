@@ -16,31 +16,21 @@ PositionSwitch::PositionSwitch(const PositionSwitchData& data, double period, do
   port.level = raw_;
 }
 
-// The shorter way round, where it goes round.
-double PositionSwitch::shorter(double way) const {
-  return period_ > 0 && std::abs(way) > period_ / 2 ? way - period_ * std::nearbyint(way / period_) : way;
-}
+double PositionSwitch::wrapped(double way) const { return way - period_ * std::nearbyint(way / period_); }
 
-double PositionSwitch::offset(double position) const { return shorter(position - data_.centre); }
-
-void PositionSwitch::sense(double before, double now, double h) {
-  port.edges.clear();
-  if (before == now && !pending_) return;
-  const double way = shorter(now - before);
+// The part of the step until it is at the centre, where it passes that; else nothing.
+double PositionSwitch::to_centre(double before, double way, double h) {
   const double from = offset(before);
-  double rest = 0;
-  if (from * (from + way) < 0) {  // over the centre: towards it first, then away
-    rest = -from / way;
-    move(0, 0, rest, h);
-  }
-  move(std::abs(offset(now)), rest, 1, h);
-  filter(h);
+  if (from * (from + way) >= 0) return 0;
+  const double rest = -from / way;
+  move(0, 0, rest, h);
+  return rest;
 }
 
 void PositionSwitch::follow(double distance, double h) {
   port.edges.clear();
   move(distance, 0, 1, h);
-  filter(h);
+  if (pending_) filter(h);
 }
 
 void PositionSwitch::pass(double edge, double was, double begin, double end, double h) {
@@ -54,7 +44,6 @@ void PositionSwitch::pass(double edge, double was, double begin, double end, dou
 }
 
 void PositionSwitch::filter(double h) {
-  if (!pending_) return;
   if (remaining_ <= h) return let_through(h);
   remaining_ -= h;
 }

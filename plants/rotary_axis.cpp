@@ -64,8 +64,7 @@ void RotaryAxis::sense(double h) {
   tell_motor_load(h);
   gear_.sense(rotor_, table_, h);
   sensors_.sense(rotor_, table_, h);
-  if (drive_.has_events())
-    for (MachineEvent& event : drive_.take_events(rotor_)) happened(std::move(event));
+  happened_to(drive_, rotor_);
 }
 
 void RotaryAxis::visit(StateArchive& archive) { STATE(archive, drive_, gear_, sensors_, outer_torque_); }

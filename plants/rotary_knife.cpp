@@ -75,8 +75,7 @@ void RotaryKnife::sense(double h) {
   tell_motor_load(h);
   gear_.sense(rotor_, drum_, h);
   servo_.sense(rotor_);
-  if (servo_.has_events())
-    for (MachineEvent& event : servo_.take_events(rotor_)) happened(std::move(event));
+  happened_to(servo_, rotor_);
   sensors_.sense(rotor_, drum_, h);
   const Cutter::Outcome outcome = cutter_.sense(drum_, station_.under(0, drum_.speed * along_web_), h);
   if (station_.is_empty()) return;

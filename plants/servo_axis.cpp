@@ -11,17 +11,6 @@ ServoAxis::ServoAxis(const ServoAxisData& data, const Shaft& rotor, Random noise
   if (data.kind == "pulses") pulses_.emplace(data.pulses, amplifier_, rotor);
 }
 
-void ServoAxis::drive(Shaft& rotor, double h) {
-  if (pulses_)
-    pulses_->drive(rotor, h);
-  else
-    amplifier_.drive(rotor, h);
-}
-
-void ServoAxis::sense(const Shaft& rotor) {
-  if (pulses_) pulses_->sense(rotor);
-}
-
 std::vector<MachineEvent> ServoAxis::take_events(const Shaft& rotor) {
   std::vector<MachineEvent> events = amplifier_.power().take_events();
   if (pulses_ && pulses_->just_tripped())

@@ -35,9 +35,16 @@ class ServoAxis {
   ServoAxis& operator=(const ServoAxis&) = delete;
 
   /// Torque on the rotor for the coming step of `h` seconds.
-  void drive(Shaft& rotor, double h);
+  void drive(Shaft& rotor, double h) {
+    if (pulses_)
+      pulses_->drive(rotor, h);
+    else
+      amplifier_.drive(rotor, h);
+  }
   /// Outputs after the step.
-  void sense(const Shaft& rotor);
+  void sense(const Shaft& rotor) {
+    if (pulses_) pulses_->sense(rotor);
+  }
 
   [[nodiscard]] ServoDrive& amplifier() { return amplifier_; }
   [[nodiscard]] const ServoDrive& amplifier() const { return amplifier_; }

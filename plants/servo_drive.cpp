@@ -178,18 +178,17 @@ double ServoDrive::ripple(const Shaft& rotor) const {
          data_.torque_ripple * torque_ * std::sin(units::turn * data_.torque_ripple_periods * rotor.part);
 }
 
-// What the last step came to, and a trip that the enable takes back.
-void ServoDrive::begin(const Shaft& rotor, double h, const Feed& feed) {
+// What the last step came to, as in PowerStage::account, and a trip that the enable takes back.
+void ServoDrive::begin(const Shaft& turned, double h, const PowerStage* other) {
   if (h != h_) prepare(h);
-  const Shaft& turned = feed.turned != nullptr ? *feed.turned : rotor;
-  power_.account({torque_, 0, saturated_ ? asked_ : 0, energised_}, turned, h, feed.other);
+  power_.account({torque_, 0, saturated_ ? asked_ : 0, energised_}, turned, h, other);
   if (enable.level && !enabled_before_) power_.reset();
   enabled_before_ = enable.level;
   energised_ = enabled();
 }
 
 void ServoDrive::drive(Shaft& rotor, double h, const Feed& feed) {
-  begin(rotor, h, feed);
+  begin(feed.turned != nullptr ? *feed.turned : rotor, h, feed.other);
   faults_.drifted += faults_.drift * h;
   double input = faults_.stuck ? faults_.stuck_at : reference.volts;
   input += data_.offset + faults_.offset + faults_.drifted;

@@ -126,7 +126,7 @@ class ServoDrive {
   void visit(StateArchive& archive);
 
  private:
-  void begin(const Shaft& rotor, double h, const Feed& feed = {});
+  void begin(const Shaft& turned, double h, const PowerStage* other = nullptr);
   void release(Shaft& rotor);
   void end_loops(double speed);
   void prepare(double h);

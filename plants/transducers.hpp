@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,17 +23,14 @@ class PulseLine {
   void carry(double before, double now, double h) {
     if (now != last_) forward_ = now > last_;
     last_ = now;
-    double early = 0;
-    double late = 0;
-    double added = 0;
+    port.before = base_ + gain_ * (before - anchor_);
     if (noisy_) {
-      early = jitter_now_;
-      late = jitter_now_ = jitter_ > 0 ? jitter_ * random_.gaussian() : 0;
-      added = false_counts(h);
+      port.before += jitter_now_;
+      jitter_now_ = jitter_ > 0 ? jitter_ * random_.gaussian() : 0;
+      base_ += false_counts(h);
     }
-    port.before = base_ + gain_ * (before - anchor_) + early;
-    base_ += added;
-    port.now = base_ + gain_ * (now - anchor_) + late;
+    port.now = base_ + gain_ * (now - anchor_);
+    if (noisy_) port.now += jitter_now_;
     // That of port.count_at(1), whose floor is a call.
     const double exact = port.before + (port.now - port.before) + 0.5;
     const auto towards_0 = static_cast<std::int64_t>(exact);
@@ -84,12 +83,14 @@ void put_passed_index(SignalPort& index, double turns_before, double turns, doub
 /// counts, for whoever must know how long it lasted (SignalPort::Edge::width).
 inline void put_index(SignalPort& index, double turns_before, double turns, double count_before, double count,
                       double count_per_turn, double width = 1) {
-  // Both are beyond the same whole number and before the next: the common case, told without rounding. Not
-  // around 0.
+  // Both are beyond the same whole number and before the next: the common case, told without rounding. What
+  // is cut off to 0 lies on either side of it.
   const auto whole = static_cast<std::int64_t>(turns_before);
   const auto exact = static_cast<double>(whole);
-  if (whole != 0 && static_cast<std::int64_t>(turns) == whole && turns_before != exact && turns != exact)
+  if (static_cast<std::int64_t>(turns) == whole && turns_before != exact && turns != exact &&
+      (whole != 0 || (turns_before > 0) == (turns > 0)))
     return;
+  if (turns == turns_before) return;
   put_passed_index(index, turns_before, turns, count_before, count, count_per_turn, width);
 }
 
@@ -155,7 +156,15 @@ class PositionSwitch {
   SignalPort port;  ///< edges with their exact fraction of the step, after the delay
 
   /// Follows the motion over the last step of `h` seconds, over the whole target if it goes so far.
-  void sense(double before, double now, double h);
+  void sense(double before, double now, double h) {
+    port.edges.clear();
+    if (before == now && !pending_) return;
+    const double way = shorter(now - before);
+    // Over the centre it comes towards it first, then goes away.
+    const double rest = std::abs(way) > distance_ ? to_centre(before, way, h) : 0;
+    move(std::abs(offset(now)), rest, 1, h);
+    if (pending_) filter(h);
+  }
   /// The same for a target that is not at one place: `distance` from its centre now.
   void follow(double distance, double h);
 
@@ -165,8 +174,15 @@ class PositionSwitch {
   void visit(StateArchive& archive);
 
  private:
-  [[nodiscard]] double shorter(double way) const;
-  [[nodiscard]] double offset(double position) const;  // from the nearest centre
+  // The shorter way round, where it goes round.
+  [[nodiscard]] double shorter(double way) const {
+    return period_ > 0 && std::abs(way) > period_ / 2 ? wrapped(way) : way;
+  }
+  [[nodiscard]] double wrapped(double way) const;
+  [[nodiscard]] double offset(double position) const {  // from the nearest centre
+    return shorter(position - data_.centre);
+  }
+  double to_centre(double before, double way, double h);
   // In this part of the step, straight.
   void move(double distance, double begin, double end, double h) {
     const double was = distance_;

@@ -27,11 +27,6 @@ TurningTransducers::TurningTransducers(const TurningTransducersData& data, const
       encoder_(data.encoder, (on_load_ ? load : rotor).revolutions(), noise),
       home_(in_turns(data.home), 1, load.part) {}
 
-void TurningTransducers::sense(const Shaft& rotor, const Shaft& load, double h) {
-  encoder_.sense(on_load_ ? load : rotor, h);
-  home_.sense(load.part_before, load.part, h);
-}
-
 void TurningTransducers::offer_ports(std::vector<Port>& ports, const char* encoder, const char* home) {
   ports.push_back({"encoder", &encoder_.pulses.port, encoder});
   ports.push_back({"encoder.index", &encoder_.index, "its index pulse, once a turn"});

@@ -40,7 +40,10 @@ class TurningTransducers {
   TurningTransducers(const TurningTransducersData& data, const Shaft& rotor, const Shaft& load, Random noise);
 
   /// Follows the bodies over the last step of `h` seconds.
-  void sense(const Shaft& rotor, const Shaft& load, double h);
+  void sense(const Shaft& rotor, const Shaft& load, double h) {
+    encoder_.sense(on_load_ ? load : rotor, h);
+    home_.sense(load.part_before, load.part, h);
+  }
 
   // What they add to a plant's lists.
   void offer_ports(std::vector<Port>& ports, const char* encoder, const char* home);

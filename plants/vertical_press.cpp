@@ -44,8 +44,7 @@ void VerticalPress::sense(double h) {
   screw_.sense(h);
   report_contacts();
   watch_for_sag(h);
-  if (drive_.has_events())
-    for (MachineEvent& event : drive_.take_events(rotor())) happened(std::move(event));
+  happened_to(drive_, rotor());
 }
 
 void VerticalPress::report_contacts() {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -38,12 +39,13 @@ class RowLaw {
   struct Place {
     std::int64_t cycle = 0;
     std::int64_t part = 0;
+    bool operator==(const Place&) const = default;
     void visit(StateArchive& archive);
   };
   /// Of a master that has come `counts` from table position `first` (0 = the first row).
   [[nodiscard]] Place place(std::int64_t counts, std::int64_t first = 0) const;
   /// Length of a cycle, in units of Place::part.
-  [[nodiscard]] std::int64_t length() const;
+  [[nodiscard]] std::int64_t length() const { return begin_of(rows_.back()); }
 
   /// Where the slave is then.
   struct Slave {
@@ -65,16 +67,20 @@ class RowLaw {
   void visit(StateArchive& archive);
 
  private:
-  struct Fraction {
-    Wide numerator;
-    std::int64_t denominator;  ///< 1..2^47
-  };
-  [[nodiscard]] Fraction in_cycle(std::int64_t part) const;
-  [[nodiscard]] std::int64_t pulses(std::int64_t cycle, const Fraction& in_cycle) const;
+  void prepare();
+  // Where a row is, in units of Place::part.
+  [[nodiscard]] std::int64_t begin_of(const Row& row) const {
+    return (std::int64_t{row.master} - rows_.front().master) * master_.denominator;
+  }
+  [[nodiscard]] std::size_t piece_at(std::int64_t part) const;
+  template <typename Integer>
+  [[nodiscard]] Slave slave_in(const Place& place) const;
 
   std::vector<Row> rows_;
   Zoom master_;
   Zoom slave_;
+  std::int64_t narrow_cycles_ = 0;      ///< up to this one all products fit 64 bits
+  mutable std::size_t last_piece_ = 1;  ///< the one found last, up to this row: where the next look begins
 };
 
 }  // namespace drycut::devices::lx3vp

@@ -226,6 +226,7 @@ void Decam::start(CamPort& port) {
       resumed ? counts_ + static_cast<std::int32_t>(registered - static_cast<std::uint32_t>(counts_)) : 0;
   ended_ = false;
   go(port);
+  slave_ = law_.slave(place_);
   cycle_ = place_.cycle;
   const std::int64_t in_cycle =
       resumed ? port.registers.i32(operands_.block + word::slave_pulses) : slave_.pulses - slave_.before;
@@ -243,7 +244,9 @@ void Decam::count_delay(CamPort& port) {
 
 void Decam::run(CamPort& port, std::int64_t counts) {
   counts_ += counts;
+  const RowLaw::Place before = place_;
   const bool at_end = go(port);
+  if (place_ != before) slave_ = law_.slave(place_);
   target_ = base_ + slave_.pulses;
   if (place_.cycle > cycle_)
     raise(port, repeats_for_ever() ? status::completed | status::cycle_completed : status::cycle_completed);
@@ -267,9 +270,7 @@ CamMoment Decam::moment(const PulseOutput& output) const {
 
 bool Decam::go(CamPort& port) {
   place_ = law_.place(counts_, first_);
-  const bool at_end = limit(port);
-  slave_ = law_.slave(place_);
-  return at_end;
+  return limit(port);
 }
 
 bool Decam::limit(CamPort& port) {

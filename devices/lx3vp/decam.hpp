@@ -96,6 +96,8 @@ class Decam {
   /// A tick. `stop` is the flag of its output, `taken` tells that another instruction gives pulses there.
   PulseTick tick(CamPort& port, PulseOutput& output, bool stop, bool taken);
 
+  /// There is a fault or a note to take.
+  [[nodiscard]] bool has_news() const { return fault_ || !notes_.empty(); }
   /// What has gone wrong since the last call; nothing if the code is 0.
   std::optional<CamFault> take_fault();
   /// What is worth telling since the last call.
@@ -132,7 +134,7 @@ class Decam {
   [[nodiscard]] bool repeats_for_ever() const { return cyclic_ || cycles_ == 0; }
   /// The present cycle is the last.
   [[nodiscard]] bool stops_after_cycle(CamPort& port) const;
-  /// To the place of the present counts, within what the cam may do; true if it is at its end.
+  /// The master to the place of the present counts, within what the cam may do; true if it is at its end.
   bool go(CamPort& port);
   bool limit(CamPort& port);
   void finish(CamPort& port);

@@ -75,7 +75,7 @@ class IlCompiler : private Complaints {
       return;
     }
     Step step;
-    step.spelling = spelling;
+    step.spell(*spelling);
     step.line = line_;
     step.column = words.front().place.column;
     read_operands(step, words);

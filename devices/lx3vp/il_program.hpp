@@ -175,6 +175,9 @@ struct Operand {
 /// One instruction.
 struct Step {
   const Spelling* spelling = nullptr;  ///< nullptr: a label
+  // Of it, at hand for the scan:
+  Op code = Op::label;
+  Join join = Join::begins;
   std::vector<Operand> operands;
   int line = 0;
   int column = 1;
@@ -186,7 +189,12 @@ struct Step {
   int number = 0;            ///< of the first step of program memory, as D8069 tells it
   bool opens_block = false;  ///< LD and its kind: keeps the block before it for ANB, ORB
 
-  [[nodiscard]] Op op() const { return spelling == nullptr ? Op::label : spelling->mnemonic->op; }
+  void spell(const Spelling& as) {
+    spelling = &as;
+    code = as.mnemonic->op;
+    join = as.mnemonic->join();
+  }
+  [[nodiscard]] Op op() const { return code; }
   /// Letter of Mnemonic::operands; of the set value of a timer or a counter, which stands behind them, v.
   [[nodiscard]] char kind(std::size_t operand) const {
     const auto kinds = spelling == nullptr ? "P" : spelling->mnemonic->operands;

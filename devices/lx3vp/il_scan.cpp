@@ -162,8 +162,7 @@ bool ProgramScan::run_steps(Rung& rung, std::int64_t work) {
   return true;
 }
 
-const Step* ProgramScan::indexed(const Step& step, Rung& rung) {
-  if (!step.indexed) return &step;
+const Step* ProgramScan::with_index(const Step& step, Rung& rung) {
   scratch_ = step;
   const auto kinds = step.spelling->mnemonic->operands;
   for (std::size_t i = 0; i < scratch_.operands.size(); ++i) {
@@ -237,7 +236,7 @@ void ProgramScan::execute(const Step& step, Rung& rung) {
   const Op op = step.op();
   if (is_contact(op)) {
     const bool on = contact(step, rung);
-    switch (step.spelling->mnemonic->join()) {
+    switch (step.join) {
       case Join::begins:
         if (step.opens_block)
           rung.blocks.push_back(rung.flow);

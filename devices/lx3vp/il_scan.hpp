@@ -63,7 +63,8 @@ class ProgramScan {
   void mark(const Step& step, const Rung& rung);
   void execute(const Step& step, Rung& rung);
   /// The step with its index registers applied; nullptr, and told, if it then names what there is not.
-  const Step* indexed(const Step& step, Rung& rung);
+  const Step* indexed(const Step& step, Rung& rung) { return step.indexed ? with_index(step, rung) : &step; }
+  const Step* with_index(const Step& step, Rung& rung);
   void tell_error(const Step& step, const IlError& error, Rung& rung) const;
   // il_flow.cpp: what says where a program goes on and which power it has.
   void flow(const Step& step, Rung& rung);

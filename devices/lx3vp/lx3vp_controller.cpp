@@ -83,8 +83,8 @@ void Lx3vpController::run_devices(std::int64_t time_ns) {
   if (!powered_) return;
   if (std::exchange(power_up_due_, false)) power_up_ns_ = time_ns;
   take_inputs();
-  for (const auto& [address, counter] : cards_.counters)
-    counters_.count(address.number, counter.count, registers_);
+  for (const auto& [number, counter] : counters_row_.of(cards_.counters))
+    counters_.count(number, counter->count, registers_);
   CamPort cams = port();
   pulses_.tick(cams);
   if (pulses_.has_notes()) tell_notes();
@@ -219,15 +219,15 @@ void Lx3vpController::reset_registers() {
 }
 
 void Lx3vpController::take_inputs() {
-  for (const auto& [address, input] : cards_.inputs)
-    inputs_[static_cast<std::size_t>(address.number)] = input.level;
+  for (const auto& [number, input] : inputs_row_.of(cards_.inputs))
+    inputs_[static_cast<std::size_t>(number)] = input->level;
 }
 
 void Lx3vpController::give_outputs() {
-  for (auto& [address, output] : cards_.outputs)
-    output.level = outputs_[static_cast<std::size_t>(address.number)];
-  for (auto& [address, output] : cards_.pulse_outputs)
-    output.count = pulses_before_[static_cast<std::size_t>(address.number)] + pulses_.pulses(address.number);
+  for (const auto& [number, output] : outputs_row_.of(cards_.outputs))
+    output->level = outputs_[static_cast<std::size_t>(number)];
+  for (const auto& [number, train] : trains_row_.of(cards_.pulse_outputs))
+    train->count = pulses_before_[static_cast<std::size_t>(number)] + pulses_.pulses(number);
 }
 
 void Lx3vpController::set_system_relays(std::int64_t time_ns) {

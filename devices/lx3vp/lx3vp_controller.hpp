@@ -126,6 +126,25 @@ class Lx3vpController : public Controller, private Instructions {
   std::int64_t scan_took_ns_ = 0;   ///< the last one, with what it waited for the next
   bool scanning_ = false;
   Cards cards_;
+  /// Terminals of a map by their numbers, in a row that each tick walks; they may become more, never fewer.
+  template <typename Terminal>
+  class Row {
+   public:
+    using Terminals = std::vector<std::pair<int, Terminal*>>;
+    const Terminals& of(std::map<Address, Terminal>& all) {
+      if (row_.size() == all.size()) return row_;
+      row_.clear();
+      for (auto& [address, terminal] : all) row_.emplace_back(address.number, &terminal);
+      return row_;
+    }
+
+   private:
+    Terminals row_;
+  };
+  Row<Counter> counters_row_;
+  Row<DigitalInput> inputs_row_;
+  Row<DigitalOutput> outputs_row_;
+  Row<PulseTrain> trains_row_;
   Registers registers_;
   HighSpeedCounters counters_;
   PulseUnit pulses_;

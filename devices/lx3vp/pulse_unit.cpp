@@ -53,10 +53,8 @@ void PulseUnit::decam(int step, const DecamOperands& operands, bool powered, Cam
 
 std::bitset<pulse_outputs> PulseUnit::used_by_cams() const {
   std::bitset<pulse_outputs> used;
-  for (const auto& [step, cam] : cams_) {
-    const auto output = static_cast<std::size_t>(cam.operands().output);
-    if (cam.enabled() && !cam.refused() && cam.uses(lines_[output].output)) used.set(output);
-  }
+  for (const auto& [step, cam] : cams_)
+    if (uses_output(cam)) used.set(static_cast<std::size_t>(cam.operands().output));
   return used;
 }
 
@@ -205,6 +203,7 @@ void PulseUnit::arrive(Line& line) {
 }
 
 void PulseUnit::count(int output, const PulseTick& tick, Registers& registers) {
+  if (tick.pulses == 0) return;
   lines_[static_cast<std::size_t>(output)].given += tick.pulses;
   const int at = position_registers[static_cast<std::size_t>(output)];
   const auto pulses = static_cast<std::uint32_t>(tick.pulses);
@@ -217,6 +216,7 @@ void PulseUnit::tick_cam(int step, Decam& cam, CamPort& port) {
   count(output, cam.tick(port, line.output, stopped(port.registers, output), line.motion.step >= 0),
         port.registers);
   if (line.motion.step < 0) port.give(cam.operands().direction, line.output.forwards());
+  if (!cam.has_news()) return;
   for (auto& note : cam.take_notes()) notes_.push_back({step, note.warns ? 0 : -1, std::move(note.text)});
   if (auto fault = cam.take_fault())
     notes_.push_back({step, fault->code, std::move(fault->text), line.motion.step});
@@ -224,7 +224,6 @@ void PulseUnit::tick_cam(int step, Decam& cam, CamPort& port) {
 
 void PulseUnit::tick_motion(int output, CamPort& port) {
   Line& line = lines_[static_cast<std::size_t>(output)];
-  if (line.motion.step < 0) return;
   const int direction = line.motion.order.direction;
   const bool stop = stopped(port.registers, output);
   PulseTick tick{0, line.output.forwards(), false};
@@ -243,13 +242,15 @@ void PulseUnit::tick_motion(int output, CamPort& port) {
 }
 
 void PulseUnit::tick(CamPort& port) {
-  for (auto& [step, cam] : cams_)
-    if (cam.enabled() && !cam.refused()) tick_cam(step, cam, port);
-  const auto by_cams = used_by_cams();
-  for (int output = 0; output < pulse_outputs; ++output) {
-    tick_motion(output, port);
-    const auto at = static_cast<std::size_t>(output);
+  std::array<bool, pulse_outputs> by_cams{};
+  for (auto& [step, cam] : cams_) {
+    if (!cam.enabled() || cam.refused()) continue;
+    tick_cam(step, cam, port);
+    by_cams[static_cast<std::size_t>(cam.operands().output)] |= uses_output(cam);
+  }
+  for (std::size_t at = 0; at < lines_.size(); ++at) {
     const Motion& motion = lines_[at].motion;
+    if (motion.step >= 0) tick_motion(static_cast<int>(at), port);
     const bool moves =
         motion.step >= 0 && (motion.order.kind != PulseOrder::Kind::speed || motion.order.frequency != 0);
     port.registers.m[first_busy_relay + at] = moves || by_cams[at];

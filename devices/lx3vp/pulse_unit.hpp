@@ -71,6 +71,9 @@ class PulseUnit {
   };
   enum class Progress : std::uint8_t { off, on, arrived };  ///< of an instruction that comes to an end
 
+  [[nodiscard]] bool uses_output(const Decam& cam) const {
+    return cam.enabled() && !cam.refused() && cam.uses(output(cam.operands().output));
+  }
   /// The outputs on which cams give pulses, or owe some.
   [[nodiscard]] std::bitset<pulse_outputs> used_by_cams() const;
   /// True if the instruction has the output, taking it if it is free.

@@ -105,15 +105,7 @@ void Registers::visit(StateArchive& archive) {
     written[at] = (written_bits[at / bits] >> at % bits & 1U) != 0;
 }
 
-std::uint32_t Registers::u32(int index) const {
-  return static_cast<std::uint32_t>(d[static_cast<std::size_t>(index)]) |
-         static_cast<std::uint32_t>(d[static_cast<std::size_t>(index) + 1]) << 16U;
-}
 float Registers::f32(int index) const { return std::bit_cast<float>(u32(index)); }
-void Registers::set_u32(int index, std::uint32_t value) {
-  put(index, static_cast<std::uint16_t>(value));
-  put(index + 1, static_cast<std::uint16_t>(value >> 16U));
-}
 void Registers::set_f32(int index, float value) { set_u32(index, std::bit_cast<std::uint32_t>(value)); }
 
 std::string shown(std::string_view text) {

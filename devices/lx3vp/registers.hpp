@@ -101,7 +101,10 @@ struct Registers {
   [[nodiscard]] std::int16_t i16(int index) const {
     return static_cast<std::int16_t>(d[static_cast<std::size_t>(index)]);
   }
-  [[nodiscard]] std::uint32_t u32(int index) const;
+  [[nodiscard]] std::uint32_t u32(int index) const {
+    return static_cast<std::uint32_t>(d[static_cast<std::size_t>(index)]) |
+           static_cast<std::uint32_t>(d[static_cast<std::size_t>(index) + 1]) << 16U;
+  }
   [[nodiscard]] std::int32_t i32(int index) const { return static_cast<std::int32_t>(u32(index)); }
   [[nodiscard]] float f32(int index) const;
   /// Writes a word and notes that it was written.
@@ -110,7 +113,10 @@ struct Registers {
     written.set(static_cast<std::size_t>(index));
   }
   void set_i16(int index, std::int16_t value) { put(index, static_cast<std::uint16_t>(value)); }
-  void set_u32(int index, std::uint32_t value);
+  void set_u32(int index, std::uint32_t value) {
+    put(index, static_cast<std::uint16_t>(value));
+    put(index + 1, static_cast<std::uint16_t>(value >> 16U));
+  }
   void set_i32(int index, std::int32_t value) { set_u32(index, static_cast<std::uint32_t>(value)); }
   void set_f32(int index, float value);
 };

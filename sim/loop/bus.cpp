@@ -57,7 +57,10 @@ std::string list(const std::vector<std::string>& names, std::string_view none) {
 
 void OperatorPanel::set(const std::string& name, bool on) {
   auto& port = switches.at(name);
-  if (port.level != on) port.add_edge(on, 0.0);
+  if (port.level != on) {
+    port.add_edge(on, 0.0);
+    has_edges = true;
+  }
   if (on) pressed.insert(name);
   port.level = on;
 }
@@ -439,7 +442,8 @@ void Bus::plants_to_inputs() {
     }
   }
   for (const auto& wire : interrupts_) wire.level->level = wire.from->level;
-  for (auto& [name, port] : panel_.switches) port.edges.clear();
+  if (std::exchange(panel_.has_edges, false))
+    for (auto& [name, port] : panel_.switches) port.edges.clear();
   if (cuts_.any()) cuts_.clear_edges();
 }
 
@@ -464,6 +468,7 @@ void Bus::deliver_interrupts() {
 void Bus::visit(StateArchive& archive) {
   STATE(archive, panel_.pressed);
   for (auto& [name, port] : panel_.switches) archive.named(name, port);
+  if (archive.restores()) panel_.has_edges = true;  // there may be some
   for (auto& [name, port] : panel_.lamps) archive.named(name, port);
   archive.each("analogue_outputs_", analogue_outputs_,
                [&](AnalogueWire& wire) { STATE(archive, wire.added, wire.computed, wire.until); });

@@ -40,6 +40,7 @@ class InputFilters {
 
   /// When a loss begins, once for each time that it does. A counter that was below its limit for 100 ms, a
   /// line that saw a pulse, begin anew.
+  [[nodiscard]] bool has_losses() const { return !losses_.empty(); }
   [[nodiscard]] std::vector<Loss> take_losses() { return std::exchange(losses_, {}); }
   /// What was lost in all, a line a terminal.
   [[nodiscard]] std::vector<Finding> lost() const;
@@ -92,6 +93,7 @@ struct OperatorPanel {
   std::map<std::string, plants::SignalPort> switches;
   std::map<std::string, plants::CommandPort> lamps;
   std::set<std::string> pressed;  ///< switches that have been on
+  bool has_edges = false;         ///< of switches, in the coming step
 
   /// Works a switch at the start of the coming step.
   void set(const std::string& name, bool on);
@@ -108,6 +110,7 @@ class Bus {
                const std::vector<NamedPlant>& plants, Problems& problems);
 
   /// What the cards' filters lost since the last call, and in all.
+  [[nodiscard]] bool has_losses() const { return filters_ && filters_->has_losses(); }
   [[nodiscard]] std::vector<Loss> take_losses() {
     return filters_ ? filters_->take_losses() : std::vector<Loss>();
   }

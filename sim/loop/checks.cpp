@@ -243,7 +243,7 @@ std::string Checks::throughout(const State& state) {
   return text;
 }
 
-void Checks::evaluate(State& state, double at, const std::string& values) {
+void Checks::evaluate(State& state, double at, std::string_view values) {
   ++state.count;
   const auto evaluation = state.expression->evaluate();
   state.last_at = at;
@@ -296,10 +296,10 @@ void Checks::sample(Time now) {
   for (auto& state : states_) {
     const auto kind = state.check.kind;
     if (state.windowed) continue;
-    if (kind == scenario::CheckRequest::Kind::always && in_window(state.check, at)) evaluate(state, at, "");
+    if (kind == scenario::CheckRequest::Kind::always && in_window(state.check, at)) evaluate(state, at);
     if (kind == scenario::CheckRequest::Kind::eventually && now >= state.check.from && !state.held_at &&
         (!state.check.within || now <= state.check.from + *state.check.within)) {
-      evaluate(state, at, "");
+      evaluate(state, at);
     }
   }
 }

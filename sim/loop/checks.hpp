@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/loop/known_events.hpp"
@@ -106,7 +107,7 @@ class Checks : public record::Observer {
   void close_windows(State& state, Time now);
   void take_into_window(State& state, Time now);
   static bool concerns(const State& state, const record::RecordedEvent& event);
-  static void evaluate(State& state, double at, const std::string& values);
+  static void evaluate(State& state, double at, std::string_view values = {});
   static void note_operands(State& state);
   static std::string operands_text(const State& state, double Operand::*number = &Operand::noted);
   static std::string failed_text(const State& state);

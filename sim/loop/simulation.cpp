@@ -260,7 +260,7 @@ void Simulation::step() {
 
   if (controller_) bus_.plants_to_inputs();
 
-  collect_events();
+  if (has_events()) collect_events();
   time_ += step_;
   for (auto* observer : steppers_) observer->stepped(time_);
   if (!world_.failure().empty()) failure_ = world_.failure();
@@ -276,6 +276,14 @@ void Simulation::add_share(record::RecordedEvent& event) const {
   if (begin == nullptr || end == nullptr) return;
   const double share = (end->number - begin->number) / drives_->cycle_of(event.source, event.time + step_);
   event.values.push_back({"share", 100 * std::min(1.0, share), "%"});
+}
+
+// Something has happened in this step, or was told by who works at the machine.
+bool Simulation::has_events() const {
+  for (const auto& plant : plants_)
+    if (plant->has_events()) return true;
+  return (controller_ && controller_->has_events()) || bus_.has_losses() ||
+         events_seen_ != recording_.events().size();
 }
 
 void Simulation::collect_events() {

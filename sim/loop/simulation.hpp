@@ -185,6 +185,7 @@ class Simulation {
   void run_to_end(const std::function<void(Time)>& progress);
   void step();
   void add_share(record::RecordedEvent& event) const;
+  [[nodiscard]] bool has_events() const;
   void collect_events();
   void record();
   void snapshot();

@@ -1,5 +1,6 @@
 #include "sim/loop/watch.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/state_archive.hpp"
@@ -23,10 +24,8 @@ scenario::Expression::Operand Watch::operand(const std::string& name) {
 }
 
 std::string Watch::not_finite() const {
-  for (std::size_t i = 0; i < readings_.size(); ++i) {
-    if (!std::isfinite(slots_[i])) return readings_[i].name;
-  }
-  return "";
+  const auto odd = std::ranges::find_if(slots_, [](double number) { return !std::isfinite(number); });
+  return odd == slots_.end() ? "" : readings_[static_cast<std::size_t>(odd - slots_.begin())].name;
 }
 
 bool Watch::record(const std::string& name, record::Recording& recording) {

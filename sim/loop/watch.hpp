@@ -32,7 +32,8 @@ class Watch {
   /// Lets a slot show another number until the next update().
   void show(const double* slot, double number);
   void update() {
-    for (std::size_t i = 0; i < readings_.size(); ++i) slots_[i] = readings_[i].read();
+    auto slot = slots_.begin();
+    for (const auto& reading : readings_) *slot++ = reading.read();
   }
   /// What has a slot, and where.
   void each(const std::function<void(const Reading&, const double*)>& use) const {

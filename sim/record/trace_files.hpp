@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -55,9 +57,15 @@ class TraceFiles : public Observer {
   const Recording& recording_;
   GrowingFile trace_;
   GrowingFile events_;
-  std::string row_;
-  std::vector<std::pair<std::uint64_t, std::string>>
-      cells_;  ///< of the last row: the bits of a value, its text
+  static constexpr std::size_t longest = 32;  ///< [bytes] of a cell: the longest number takes 24
+  /// A value of the last row.
+  struct Cell {
+    std::uint64_t bits = 0;
+    std::size_t size = 0;  ///< of its text, with the comma before it; 0: there was none
+    std::array<char, longest> text;
+  };
+  std::vector<Cell> cells_;
+  std::string row_;  ///< with room for the longest one
   Time next_flush_ = 0;
 };
 

@@ -23,4 +23,13 @@ struct Mechanism {
 double run_bullet(const Mechanism& mechanism, std::int64_t steps);
 double run_mujoco(const Mechanism& mechanism, std::int64_t steps);
 
+/// What a run of the floor came to.
+struct Followed {
+  double turns = 0;  ///< of the motor
+  double error = 0;  ///< largest of blade against cam in the second half of the run [m]
+};
+/// The line's knife as one straight loop, the least that a step can be: motor and drum, gear, servo,
+/// friction, encoder, and every 2 ms cam, position loop and DAC.
+Followed run_floor(const Mechanism& mechanism, std::int64_t steps);
+
 }  // namespace drycut::bench

@@ -200,6 +200,25 @@ TEST(MeasuringWheel, EveryIndexOfAStepComesAtItsCount) {
   }
 }
 
+// The common case, told without rounding, is none in which an index would come: around 0 too.
+TEST(PutIndex, TheQuickAnswerIsTheExactOne) {
+  const double steps[] = {-1.2, -1, -0.4, -0.1, -1e-12, 0, 1e-12, 0.1, 0.4, 1, 1.2};
+  for (double before = -2; before <= 2; before += 0.1) {
+    for (const double from : {before, std::nearbyint(before)}) {
+      for (const double step : steps) {
+        const double to = from + step;
+        SignalPort quick;
+        SignalPort exact;
+        put_index(quick, from, to, 1000 * from, 1000 * to, 1000);
+        put_passed_index(exact, from, to, 1000 * from, 1000 * to, 1000, 1);
+        ASSERT_EQ(quick.edges.size(), exact.edges.size()) << from << " to " << to;
+        for (std::size_t i = 0; i < quick.edges.size(); ++i)
+          EXPECT_EQ(quick.edges[i].fraction, exact.edges[i].fraction) << from << " to " << to;
+      }
+    }
+  }
+}
+
 TEST(MeasuringWheelFaults, SlipFromNowOnKeepsWhatWasCounted) {
   MeasuringWheel wheel({}, Random());
   std::vector<Fault> faults;

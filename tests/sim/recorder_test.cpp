@@ -1,5 +1,6 @@
 #include "sim/record/recording.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -60,6 +61,23 @@ TEST_F(RecorderTest, TraceHasTimeThenChannelsWithUnits) {
             "time [s],web.speed [m/min],error [Um],panel.start [-]\n"
             "0.0,60,0,0\n"
             "0.0021,20,0,0\n");
+}
+
+// Whole numbers take a way of their own to the same text.
+TEST_F(RecorderTest, NumbersAreWrittenAsFmtWritesThem) {
+  double number = 0;
+  recording.add("number", "").slot = &number;
+  record::TraceFiles files(recording, folder / "trace.csv", folder / "events.csv");
+  std::string expected = "time [s],number [-]\n";
+  for (const double size : {0.0, 1.0, 17.0, 0.1, 2.5, 1e-7, 123456789.0, 999999999999999.0, 1e15, 1e15 + 2,
+                            9007199254740993.0, 1e16, 1e300, 4.9e-324, 1.7976931348623157e308})
+    for (const double value : {size, -size}) {
+      number = value;
+      files.sample(0);
+      expected += fmt::format("0.0,{}\n", value);
+    }
+  files.finish();
+  EXPECT_EQ(contents(folder / "trace.csv"), expected);
 }
 
 TEST_F(RecorderTest, EventsCarryTheirTimeInsideTheStep) {

@@ -106,6 +106,37 @@ TEST(Lx3vpCamLaw, RandomTablesFollowTheDefinition) {
   }
 }
 
+// It looks first where it found the piece last: a law that is asked the same without such a memory.
+TEST(Lx3vpCamLaw, WhereItWasAskedBeforeChangesNothing) {
+  Rows rows;
+  for (std::int32_t i = 0; i <= 50; ++i) rows.push_back({i * (i + 7), 400 * (i % 5) - 17 * i});
+  const RowLaw law(rows, {3, 2}, {5, 7});
+  std::mt19937 random(5);
+  std::int64_t counts = 0;
+  for (int i = 0; i < 5000; ++i) {
+    counts += std::uniform_int_distribution<std::int64_t>(-40, 40)(random) * (i % 100 == 0 ? 1000 : 1);
+    const RowLaw fresh(rows, {3, 2}, {5, 7});
+    const auto place = law.place(counts);
+    const auto slave = law.slave(place);
+    const auto expected = fresh.slave(place);
+    ASSERT_EQ(slave.pulses, expected.pulses) << counts;
+    ASSERT_EQ(slave.before, expected.before) << counts;
+    ASSERT_EQ(slave.position, expected.position) << counts;
+  }
+}
+
+// On either side of where 64 bits are enough for all products, and where they are enough for the place.
+TEST(Lx3vpCamLaw, WhereTheProductsGetLongerNothingChanges) {
+  const RowLaw law(Rows{{0, 0}, {1000, 2000}}, {3, 1}, {1, 3});
+  for (const int bits : {30, 40, 43, 44, 45, 46}) {
+    for (std::int64_t counts = (std::int64_t{1} << bits) - 2000; counts < (std::int64_t{1} << bits) + 2000;
+         counts += 7) {
+      EXPECT_EQ(law.pulses(law.place(counts)), 2 * counts);
+      EXPECT_EQ(law.pulses(law.place(-counts)), -2 * counts);
+    }
+  }
+}
+
 TEST(Lx3vpCamLaw, ExtremeValuesStayDefined) {
   constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
   constexpr std::int32_t least = std::numeric_limits<std::int32_t>::min();
