@@ -98,7 +98,7 @@ void Compiler::place_in_memory() {
 void Compiler::finish() {
   Compiled& code = *code_;
   place_located();
-  for (Node& node : code.nodes) {
+  for (Node& node : nodes_.nodes) {
     if (node.op != StOp::address_pool) continue;
     node.op = StOp::address;
     node.imm += memory_;
@@ -120,6 +120,7 @@ void Compiler::finish() {
     fill(*connections_[i].unit->type, code.instances[i].cell);
   code.image.insert(code.image.end(), pool_.begin(), pool_.end());
   if (!code.referents.empty()) find_kinds();
+  make_instructions(nodes_, code);
 
   for (std::size_t i = 0; i < code.instances.size(); ++i) {
     // One program's variables need no name before them.
