@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "devices/plcopen/axis.hpp"
 #include "devices/plcopen/cam_table.hpp"
@@ -21,7 +21,7 @@ class MotionKernel {
   /// By its name, any case; not connected if there is none.
   [[nodiscard]] AxisRef find_axis(std::string_view name) const;
   [[nodiscard]] int axes() const { return static_cast<int>(axes_.size()); }
-  /// nullptr if the reference is not one of this kernel's.
+  /// nullptr if the reference is not one of this kernel's; until an axis is added.
   Axis* axis(AxisRef ref);
   [[nodiscard]] const Axis* axis(AxisRef ref) const;
 
@@ -66,7 +66,7 @@ class MotionKernel {
   void set_points(std::size_t number);
 
   std::int64_t cycle_ns_;
-  std::deque<Axis> axes_;
+  std::vector<Axis> axes_;
   std::vector<bool> moved_;
   CamTables tables_;
 };

@@ -209,15 +209,23 @@ struct Choice {
   int body = -1;  ///< a node; in instructions where they go on
 };
 
-/// Where the value of an operand is: so many cells, in the lower bits, from one of these on.
-enum class Base : std::uint8_t { memory, own, temporary, constant };
-using Operand = std::uint32_t;
-inline constexpr int base_shift = 30;
-constexpr Operand operand(Base base, std::int64_t cells) {
-  return static_cast<Operand>(base) << base_shift | static_cast<Operand>(cells);
+/// Where cells of operands are counted from.
+enum class Base : std::uint32_t { memory, own, temporary, constant };
+/// Where a value of the instructions is; or a number as it is, of the base `memory`.
+struct Operand {
+  std::uint32_t cells = 0;
+  Base base = Base::memory;
+};
+inline bool operator==(const Operand& a, const Operand& b) { return a.cells == b.cells && a.base == b.base; }
+/// In one number, as lists have it.
+constexpr int base_shift = 28;
+constexpr int packed(const Operand& of) {
+  return static_cast<int>(of.cells | static_cast<std::uint32_t>(of.base) << base_shift);
 }
-constexpr Base base_of(Operand of) { return static_cast<Base>(of >> base_shift); }
-constexpr Operand cells_of(Operand of) { return of & ((Operand{1} << base_shift) - 1); }
+constexpr Operand unpacked(int number) {
+  const auto bits = static_cast<std::uint32_t>(number);
+  return {bits & ((1U << base_shift) - 1), static_cast<Base>(bits >> base_shift)};
+}
 
 /// One step of the machine. Most put into the cell `a` what comes of the cells `b` and `c`; of an operation
 /// without effects `op` is that itself. The others:
@@ -242,10 +250,10 @@ struct Instruction {
   StOp op = StOp::nothing;
   Basic basic = Basic::unknown;
   bool statement = false;  ///< one begins here
-  Operand a = 0;
-  Operand b = 0;
-  Operand c = 0;
   int d = 0;
+  Operand a;
+  Operand b;
+  Operand c;
 };
 
 /// What the text has to an instruction.

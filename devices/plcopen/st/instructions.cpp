@@ -34,7 +34,7 @@ class Instructions {
     for (const int jump : jumps) code_.code[static_cast<std::size_t>(jump)].d = to;
   }
 
-  int emit(StOp op, int number, Operand a = 0, Operand b = 0, Operand c = 0, int d = 0) {
+  int emit(StOp op, int number, Operand a = {}, Operand b = {}, Operand c = {}, int d = 0) {
     const Node& of = node(number);
     const auto standard = [&](int one) { return static_cast<std::size_t>(one) >= nodes_.of_text; };
     Origin origin{number, of.line, of.column};
@@ -44,10 +44,13 @@ class Instructions {
       origin.statement = standard(statement_) ? 0 : begun.line;
       origin.shown = op != StOp::turn && begun.op != StOp::branch;
     }
-    code_.code.push_back({op, of.basic, std::exchange(statement_, -1) >= 0, a, b, c, d});
+    code_.code.push_back({op, of.basic, std::exchange(statement_, -1) >= 0, d, a, b, c});
     code_.origins.push_back(origin);
     return here() - 1;
   }
+
+  static Operand operand(Base base, std::int64_t cells) { return {static_cast<std::uint32_t>(cells), base}; }
+  static Operand raw(std::int64_t number) { return operand(Base::memory, number); }
 
   Operand temporary() {
     code_.temporaries = std::max(code_.temporaries, ++temporaries_);
@@ -108,7 +111,7 @@ class Instructions {
   /// The same, which stays what it is while all of `later` are computed.
   Operand value(int number, std::initializer_list<int> later) {
     const Operand of = value(number);
-    const bool variable = base_of(of) == Base::memory || base_of(of) == Base::own;
+    const bool variable = of.base == Base::memory || of.base == Base::own;
     if (!variable || std::none_of(later.begin(), later.end(), [&](int one) { return acts(one); })) return of;
     const Operand kept = temporary();
     emit(StOp::move, number, kept, of);
@@ -128,7 +131,7 @@ class Instructions {
   void fetch(int number, int address, Operand to) {
     const Node& n = node(address);
     if (n.op == StOp::follow)
-      emit(StOp::fetch, number, to, cell_at(n.a), 0, static_cast<int>(n.imm));
+      emit(StOp::fetch, number, to, cell_at(n.a), {}, static_cast<int>(n.imm));
     else
       emit(StOp::fetch, number, to, value(address));
   }
@@ -137,9 +140,9 @@ class Instructions {
   void into(int number, Operand to) {
     const std::size_t kept = temporaries_;
     const bool parts = puts_in_parts(node(number));
-    const Operand at = parts && base_of(to) != Base::temporary ? temporary() : to;
+    const Operand at = parts && to.base != Base::temporary ? temporary() : to;
     compute(number, at);
-    if (at != to) emit(StOp::move, number, to, at);
+    if (!(at == to)) emit(StOp::move, number, to, at);
     temporaries_ = kept;
   }
   /// Before all is computed: what is a variable is still needed then, or stored after its outputs.
@@ -163,18 +166,18 @@ class Instructions {
       case StOp::load_at:
         return fetch(number, n.a, to);
       case StOp::follow:
-        emit(StOp::follow, number, to, cell_at(n.a), 0, static_cast<int>(n.imm));
+        emit(StOp::follow, number, to, cell_at(n.a), {}, static_cast<int>(n.imm));
         return;
       case StOp::element:
         return element(number, to);
       case StOp::dereference:
-        emit(n.op, number, to, value(n.a), static_cast<Operand>(n.c), static_cast<int>(n.imm));
+        emit(n.op, number, to, value(n.a), raw(n.c), static_cast<int>(n.imm));
         return;
       case StOp::make_reference:
-        emit(n.op, number, to, value(n.a), 0, n.c);
+        emit(n.op, number, to, value(n.a), {}, n.c);
         return;
       case StOp::in_range:
-        emit(n.op, number, to, value(n.a), 0, span(n.c, 0));
+        emit(n.op, number, to, value(n.a), {}, span(n.c, 0));
         return;
       case StOp::time_now:
         emit(n.op, number, to);
@@ -182,13 +185,13 @@ class Instructions {
       case StOp::select: {
         const Operand on = value(n.b, {n.c, n.a});
         const Operand off = value(n.c, {n.a});
-        emit(n.op, number, to, on, off, static_cast<int>(value(n.a)));
+        emit(n.op, number, to, on, off, packed(value(n.a)));
         return;
       }
       case StOp::passes: {
         const Operand step = value(n.c, {n.a, n.b});
         const Operand now = value(n.a, {n.b});
-        emit(n.op, number, to, now, value(n.b), static_cast<int>(step));
+        emit(n.op, number, to, now, value(n.b), packed(step));
         return;
       }
       case StOp::and_then:
@@ -210,7 +213,7 @@ class Instructions {
       default: {
         const bool two = n.b >= 0;
         const Operand a = two ? value(n.a, {n.b}) : value(n.a);
-        emit(n.op, number, to, a, two ? value(n.b) : 0);
+        emit(n.op, number, to, a, two ? value(n.b) : Operand{});
       }
     }
   }
@@ -242,7 +245,7 @@ class Instructions {
     const Operand which = value(n.a);
     const auto list = code_.lists.size();
     code_.lists.resize(list + static_cast<std::size_t>(n.c));
-    emit(n.op, number, which, 0, static_cast<Operand>(n.c), static_cast<int>(list));
+    emit(n.op, number, which, {}, raw(n.c), static_cast<int>(list));
     Jumps over;
     for (int i = 0; i < n.c; ++i) {
       code_.lists[list + static_cast<std::size_t>(i)] = here();
@@ -269,8 +272,8 @@ class Instructions {
     std::vector<int> list{n.b, n.c > 0 ? 1 : 0};
     const std::vector<int> parts = listed(n.a, n.b);
     for (std::size_t i = 0; i < parts.size(); ++i)
-      list.push_back(static_cast<int>(kept_for(parts[i], parts, i + 1, 1)));
-    emit(n.op, number, to, static_cast<Operand>(n.imm), 0, put_list(list));
+      list.push_back(packed(kept_for(parts[i], parts, i + 1, 1)));
+    emit(n.op, number, to, raw(n.imm), {}, put_list(list));
   }
 
   /// A value that stays while each `step`th of `parts` from `next` on is computed.
@@ -294,17 +297,17 @@ class Instructions {
     const auto inputs = static_cast<std::size_t>(nodes_.lists[first]);
     const std::vector<int> triples = listed(static_cast<int>(first) + 1, static_cast<int>(3 * inputs));
     if (method) {
-      list.push_back(static_cast<int>(kept_for(nodes_.lists[from], triples, 0, 3)));
+      list.push_back(packed(kept_for(nodes_.lists[from], triples, 0, 3)));
       list.push_back(nodes_.lists[from + 1]);
     }
     list.push_back(n.c);
     list.push_back(static_cast<int>(inputs));
     for (std::size_t i = 0; i < triples.size(); i += 3) {
-      list.push_back(static_cast<int>(kept_for(triples[i], triples, i + 3, 3)));
+      list.push_back(packed(kept_for(triples[i], triples, i + 3, 3)));
       list.insert(list.end(), {triples[i + 1], triples[i + 2]});
     }
-    const Operand whole = n.b >= 0 ? value(n.b) : 0;
-    emit(n.op, number, to, whole, n.b >= 0 ? static_cast<Operand>(n.imm) : 0, put_list(list));
+    const Operand whole = n.b >= 0 ? value(n.b) : Operand{};
+    emit(n.op, number, to, whole, raw(n.b >= 0 ? n.imm : 0), put_list(list));
     const std::size_t outputs = first + 1 + triples.size();
     for (const int output : listed(static_cast<int>(outputs) + 1, nodes_.lists[outputs])) statement(output);
   }
@@ -342,12 +345,12 @@ class Instructions {
       const auto jump = static_cast<StOp>(static_cast<int>(n.op) - static_cast<int>(StOp::equal) +
                                           static_cast<int>(StOp::unless_equal));
       const Operand a = value(n.a, {n.b});
-      jumps.push_back(emit(jump, number, 0, a, value(n.b)));
+      jumps.push_back(emit(jump, number, {}, a, value(n.b)));
     } else if (n.op == StOp::passes && node(n.c).op == StOp::constant && !is_wide(n.basic)) {
       const bool up = node(n.c).imm >= 0;
       const Operand a = value(n.a, {n.b});
       jumps.push_back(
-          emit(up ? StOp::unless_less_equal : StOp::unless_greater_equal, number, 0, a, value(n.b)));
+          emit(up ? StOp::unless_less_equal : StOp::unless_greater_equal, number, {}, a, value(n.b)));
     } else if (n.op == StOp::bit_not && bits) {
       jumps.push_back(emit(StOp::jump_if, number, value(n.a)));
     } else {
@@ -385,7 +388,7 @@ class Instructions {
         const Operand stored = value(n.b, {n.a});
         const Operand to = value(n.a);
         const int c = n.op == StOp::copy_string ? n.c + 1 : n.c;
-        emit(n.op, number, to, stored, static_cast<Operand>(c), static_cast<int>(n.imm));
+        emit(n.op, number, to, stored, raw(c), static_cast<int>(n.imm));
         return;
       }
       case StOp::evaluate:
@@ -419,7 +422,7 @@ class Instructions {
     if (address.op == StOp::address || address.op == StOp::address_own) return into(n.b, cell_at(n.a));
     const Operand stored = value(n.b, {n.a});
     if (address.op == StOp::follow)
-      emit(StOp::put, number, cell_at(address.a), stored, 0, static_cast<int>(address.imm));
+      emit(StOp::put, number, cell_at(address.a), stored, {}, static_cast<int>(address.imm));
     else
       emit(StOp::put, number, value(n.a), stored);
   }
@@ -428,11 +431,11 @@ class Instructions {
     const Node& n = node(number);
     const StOp address = node(n.a).op;
     if (n.b >= 0)
-      emit(n.op, number, value(n.a), 0, 0, n.b);
+      emit(n.op, number, value(n.a), {}, {}, n.b);
     else if (address == StOp::address || address == StOp::address_own)
       emit(StOp::call_motion, number, cell_at(n.a));
     else
-      emit(StOp::call_motion, number, value(n.a), 0, 1);
+      emit(StOp::call_motion, number, value(n.a), {}, raw(1));
   }
 
   void branch(int number) {
@@ -455,7 +458,7 @@ class Instructions {
     const auto first = nodes_.choices.begin() + n.b;
     const std::size_t begin = code_.choices.size();
     code_.choices.insert(code_.choices.end(), first, first + n.c);
-    const int choosing = emit(n.op, number, selector, static_cast<Operand>(begin), static_cast<Operand>(n.c));
+    const int choosing = emit(n.op, number, selector, raw(static_cast<std::int64_t>(begin)), raw(n.c));
     Jumps over;
     // Labels with a body in common stand behind each other.
     int body = -1;

@@ -101,8 +101,8 @@ void Machine::steps(int first, std::int64_t own) {
   if (code_.temporaries > few) more.resize(code_.temporaries);
   const Bases bases{memory_.data(), memory_.data() + own, more.empty() ? fewer.data() : more.data(),
                     constants_.data()};
-  const auto cell = [&](Operand of) -> Cell& { return at(bases, of); };
-  const auto real = [&](Operand of) { return real_of(at(bases, of)); };
+  const auto cell = [&](const Operand& of) -> Cell& { return at(bases, of); };
+  const auto real = [&](const Operand& of) { return real_of(at(bases, of)); };
   const Instruction* const begin = code_.code.data();
   const Instruction* next = begin + first;
   while (true) {
@@ -112,7 +112,7 @@ void Machine::steps(int first, std::int64_t own) {
     if constexpr (watched)
       if (i.statement) note_statement(origin(i));
     const auto whole = [&](std::uint64_t result) { cell(i.a) = wrapped(i.basic, static_cast<Cell>(result)); };
-    const auto bits = [&](Operand of) { return static_cast<std::uint64_t>(cell(of)); };
+    const auto bits = [&](const Operand& of) { return static_cast<std::uint64_t>(cell(of)); };
     const auto truth = [&](bool holds) { cell(i.a) = holds ? 1 : 0; };
     const auto number = [&](double result) {
       const Cell kept = cell_of(rounded(i.basic, result));
@@ -188,6 +188,13 @@ void Machine::steps(int first, std::int64_t own) {
       case StOp::multiply_real:
         number(real(i.b) * real(i.c));
         break;
+      case StOp::divide_real:
+        if (real(i.c) == 0) operation(i, cell(i.b), cell(i.c));  // refuses it
+        number(real(i.b) / real(i.c));
+        break;
+      case StOp::negate_real:
+        number(-real(i.b));
+        break;
       case StOp::bit_and:
         cell(i.a) = cell(i.b) & cell(i.c);
         break;
@@ -229,7 +236,7 @@ void Machine::steps(int first, std::int64_t own) {
         break;
 
       case StOp::select:
-        cell(i.a) = cell(cell(static_cast<Operand>(i.d)) != 0 ? i.b : i.c);
+        cell(i.a) = cell(cell(unpacked(i.d)) != 0 ? i.b : i.c);
         break;
       case StOp::passes: {
         const Cell a = cell(i.b);
@@ -237,7 +244,7 @@ void Machine::steps(int first, std::int64_t own) {
         if (is_wide(i.basic))
           truth(static_cast<std::uint64_t>(a) <= static_cast<std::uint64_t>(b));
         else
-          truth(cell(static_cast<Operand>(i.d)) >= 0 ? a <= b : a >= b);
+          truth(cell(unpacked(i.d)) >= 0 ? a <= b : a >= b);
         break;
       }
       case StOp::in_range:
@@ -274,7 +281,7 @@ void Machine::steps(int first, std::int64_t own) {
         call_block(i, cell(i.a));
         break;
       case StOp::call_motion:
-        call_motion(i, i.c != 0 ? &at(cell(i.a)) : &cell(i.a));
+        call_motion(i, i.c.cells != 0 ? &at(cell(i.a)) : &cell(i.a));
         break;
 
       case StOp::turn:
@@ -326,10 +333,10 @@ void Machine::steps(int first, std::int64_t own) {
         unless(real(i.b) >= real(i.c));
         break;
       case StOp::choose: {
-        charge(i.c / 8);
+        charge(i.c.cells / 8);
         const Cell selector = cell(i.a);
-        const Choice* const first_choice = code_.choices.data() + i.b;
-        const Choice* const end = first_choice + i.c;
+        const Choice* const first_choice = code_.choices.data() + i.b.cells;
+        const Choice* const end = first_choice + i.c.cells;
         const Choice* const chosen = std::find_if(first_choice, end, [&](const Choice& choice) {
           return selector >= choice.range.low && selector <= choice.range.high;
         });
@@ -338,8 +345,8 @@ void Machine::steps(int first, std::int64_t own) {
       }
       case StOp::multiplex: {
         const Cell which = cell(i.a);
-        if (which < 0 || which >= static_cast<Cell>(i.c))
-          fail(i, fmt::format("MUX has no value {}; 0 to {}", which, i.c - 1));
+        if (which < 0 || which >= static_cast<Cell>(i.c.cells))
+          fail(i, fmt::format("MUX has no value {}; 0 to {}", which, i.c.cells - 1));
         next = begin + code_.lists[static_cast<std::size_t>(i.d + which)];
         break;
       }

@@ -67,8 +67,8 @@ class Machine {
  private:
   /// Where operands are, by their Base.
   using Bases = std::array<Cell*, 4>;
-  static Cell& at(const Bases& bases, Operand of) {
-    return bases[static_cast<std::size_t>(base_of(of))][cells_of(of)];
+  static Cell& at(const Bases& bases, const Operand& of) {
+    return bases[static_cast<std::size_t>(of.base)][of.cells];
   }
   struct Motion {
     std::unique_ptr<FunctionBlock> block;

@@ -15,7 +15,7 @@ Cell Machine::call_function(const Instruction& of, const Bases& bases) {
 
 Cell Machine::call_method(const Instruction& of, const Bases& bases) {
   const int* const list = code_.lists.data() + of.d;
-  const std::int64_t instance = at(bases, static_cast<Operand>(list[0]));
+  const std::int64_t instance = at(bases, unpacked(list[0]));
   int number = list[2];
   if (list[1] >= 0)
     if (const auto actual = code_.methods.find({at(instance), list[1]}); actual != code_.methods.end())
@@ -39,7 +39,7 @@ Cell Machine::call_framed(const Instruction& of, const Bases& bases, const int* 
   spend(of, pou.type->cells / 8);
   reset(pou, pou.frame);
   for (int inputs = *list++; inputs > 0; --inputs, list += 3) {
-    const Cell given = at(bases, static_cast<Operand>(list[0]));
+    const Cell given = at(bases, unpacked(list[0]));
     const int place = list[1] + shift;
     const int cells = list[2];
     if (cells == 1)
@@ -54,9 +54,9 @@ Cell Machine::call_framed(const Instruction& of, const Bases& bases, const int* 
     std::copy_n(memory_.begin() + pou.frame, std::min(pou.type->cells, named.type->cells),
                 memory_.begin() + named.frame);
   const std::int64_t from = pou.frame + pou.result;
-  if (of.c == 0) return at(from);
+  if (of.c.cells == 0) return at(from);
   const Cell result = at(bases, of.b);
-  std::copy_n(memory_.begin() + from, of.c, memory_.begin() + result);
+  std::copy_n(memory_.begin() + from, of.c.cells, memory_.begin() + result);
   return result;
 }
 
@@ -79,27 +79,39 @@ void Machine::call_motion(const Instruction& of, Cell* instance) {
   constexpr std::int64_t work_of_a_motion_block = 50;
   spend(of, work_of_a_motion_block);
   const Motion& motion = motions_[static_cast<std::size_t>(*instance)];
+  // Most pins are of these types.
   for (const auto& [value, cell] : motion.inputs) {
     const Cell* const from = instance + cell;
+    if (bool* const* const flag = std::get_if<bool*>(&value)) {
+      **flag = *from != 0;
+      continue;
+    }
+    if (double* const* const number = std::get_if<double*>(&value)) {
+      **number = real_of(*from);
+      continue;
+    }
     std::visit(
         [&](auto* target) {
           using T = std::remove_cvref_t<decltype(*target)>;
           if constexpr (std::is_same_v<T, AxisRef>) {
             target->number = static_cast<int>(*from);
           } else if constexpr (std::is_same_v<T, CamRef>) {
-            target->file = text(place_of(*from), default_string_length);
+            const std::string_view file = text(place_of(*from), default_string_length);
+            if (target->file != file) target->file = file;
             target->id = static_cast<std::uint16_t>(from[string_cells(default_string_length)]);
-          } else if constexpr (std::is_same_v<T, double>) {
-            *target = real_of(*from);
-          } else {
+          } else if constexpr (!std::is_same_v<T, double>) {
             *target = static_cast<T>(*from);
           }
         },
         value);
   }
   motion.block->call(kernel_);
-  for (const auto& [value, cell] : motion.outputs)
-    if (const auto shown = cell_of_pin(value)) instance[cell] = *shown;
+  for (const auto& [value, cell] : motion.outputs) {
+    if (bool* const* const flag = std::get_if<bool*>(&value))
+      instance[cell] = **flag ? 1 : 0;
+    else if (const auto shown = cell_of_pin(value))
+      instance[cell] = *shown;
+  }
 }
 
 }  // namespace drycut::devices::plcopen::st

@@ -70,7 +70,7 @@ Cell Machine::in_range(const Instruction& of, Cell value) const {
 Cell Machine::dereference(const Instruction& of, Cell value) const {
   const Reference reference = reference_of(value);
   if (reference.referent < 0) fail(of, "the reference is NULL; test it before: p <> NULL");
-  const Referent& wanted = code_.referents[of.c];
+  const Referent& wanted = code_.referents[of.c.cells];
   const bool known = reference.referent < static_cast<std::int64_t>(code_.referents.size());
   if (!known || reference.bytes != 0 ||
       !same_type(*code_.referents[static_cast<std::size_t>(reference.referent)].type, *wanted.type))
@@ -117,12 +117,12 @@ Cell Machine::compare(std::int64_t a, std::int64_t b) {
 }
 
 Cell Machine::text_value(const Instruction& of, const Bases& bases) {
-  const auto op = static_cast<TextOp>(of.b);
+  const auto op = static_cast<TextOp>(of.b.cells);
   const int* list = code_.lists.data() + of.d;
   const int* const end = list + 2 + list[0];
   const bool wide = list[1] != 0;
   list += 2;
-  const auto next = [&] { return at(bases, static_cast<Operand>(*list++)); };
+  const auto next = [&] { return at(bases, unpacked(*list++)); };
   const Cell target = op < TextOp::length ? next() : 0;
   if (op == TextOp::from_value) {
     put_string(text_of(of.basic, next()), target, longest_bytes());
@@ -158,15 +158,15 @@ Cell Machine::text_value(const Instruction& of, const Bases& bases) {
 }
 
 void Machine::store_bits(const Instruction& of, Cell& whole, Cell part) const {
-  const std::uint64_t mask = ((std::uint64_t{1} << of.c) - 1) << of.d;
+  const std::uint64_t mask = ((std::uint64_t{1} << of.c.cells) - 1) << of.d;
   const std::uint64_t rest = static_cast<std::uint64_t>(whole) & ~mask;
   whole = wrapped(of.basic, static_cast<Cell>(rest | ((static_cast<std::uint64_t>(part) << of.d) & mask)));
 }
 
 void Machine::store_text(const Instruction& of, std::int64_t to, std::int64_t from) {
-  const bool wide = of.c > 0;
+  const bool wide = of.c.cells > 0;
   const auto most = static_cast<std::size_t>(of.d);
-  const std::size_t most_characters = wide ? of.c - 1 : most;
+  const std::size_t most_characters = wide ? of.c.cells - 1 : most;
   const std::string_view whole = whole_text(from);
   const std::size_t size = characters(whole, wide);
   if (size > most_characters)
