@@ -75,14 +75,6 @@ AxisRef MotionKernel::find_axis(std::string_view name) const {
   return {};
 }
 
-Axis* MotionKernel::axis(AxisRef ref) {
-  return ref.number < 0 || ref.number >= axes() ? nullptr : &axes_[static_cast<std::size_t>(ref.number)];
-}
-
-const Axis* MotionKernel::axis(AxisRef ref) const {
-  return ref.number < 0 || ref.number >= axes() ? nullptr : &axes_[static_cast<std::size_t>(ref.number)];
-}
-
 bool MotionKernel::locked(std::uint16_t table) const {
   return std::any_of(axes_.begin(), axes_.end(), [&](const Axis& axis) {
     return axis.coupling() != nullptr && axis.link().locks_table && axis.link().table == table;

@@ -22,8 +22,12 @@ class MotionKernel {
   [[nodiscard]] AxisRef find_axis(std::string_view name) const;
   [[nodiscard]] int axes() const { return static_cast<int>(axes_.size()); }
   /// nullptr if the reference is not one of this kernel's; until an axis is added.
-  Axis* axis(AxisRef ref);
-  [[nodiscard]] const Axis* axis(AxisRef ref) const;
+  Axis* axis(AxisRef ref) {
+    return ref.number < 0 || ref.number >= axes() ? nullptr : &axes_[static_cast<std::size_t>(ref.number)];
+  }
+  [[nodiscard]] const Axis* axis(AxisRef ref) const {
+    return ref.number < 0 || ref.number >= axes() ? nullptr : &axes_[static_cast<std::size_t>(ref.number)];
+  }
 
   /// Adds or replaces a table; see CamTables::add. 240010 if a coupling locks the one that is there.
   ErrorId add_table(McCamTable table);

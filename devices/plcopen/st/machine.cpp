@@ -34,12 +34,8 @@ void Machine::start(bool all) {
     Motion motion;
     motion.type = place.type;
     motion.block = place.type->motion->make();
-    for (std::size_t i = 0; i < place.type->members.size(); ++i) {
-      const Variable& pin = place.type->members[i];
-      const bool output = pin.section == VarClass::output;
-      (output ? motion.outputs : motion.inputs)
-          .push_back({place.type->motion->pin(*motion.block, i), pin.offset});
-    }
+    for (std::size_t pin = 0; pin < place.type->members.size(); ++pin)
+      motion.pins.push_back(place.type->motion->pin(*motion.block, pin));
     at(place.cell) = static_cast<Cell>(motions_.size());
     motions_.push_back(std::move(motion));
   }
@@ -362,15 +358,13 @@ void Machine::steps(int first, std::int64_t own) {
 
 void Machine::Motion::visit(StateArchive& archive) {
   // Inputs are given before each call, and no output is a CamRef.
-  auto bound = outputs.begin();
-  for (const Variable& pin : type->members) {
-    if (pin.section != VarClass::output) continue;
-    std::visit(
-        [&](auto* value) {
-          if constexpr (!std::is_same_v<decltype(value), CamRef*>) archive.named(pin.name, *value);
-        },
-        (bound++)->value);
-  }
+  for (std::size_t i = 0; i < pins.size(); ++i)
+    if (const Variable& pin = type->members[i]; pin.section == VarClass::output)
+      std::visit(
+          [&](auto* value) {
+            if constexpr (!std::is_same_v<decltype(value), CamRef*>) archive.named(pin.name, *value);
+          },
+          pins[i]);
   block->visit(archive);
 }
 

@@ -72,13 +72,7 @@ class Machine {
   }
   struct Motion {
     std::unique_ptr<FunctionBlock> block;
-    /// A pin's place in the block and in the instance.
-    struct BoundPin {
-      PinValue value;
-      int cell = 0;
-    };
-    std::vector<BoundPin> inputs;
-    std::vector<BoundPin> outputs;
+    std::vector<PinValue> pins;
     const Type* type = nullptr;
 
     void visit(StateArchive& archive);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -79,39 +80,11 @@ void Machine::call_motion(const Instruction& of, Cell* instance) {
   constexpr std::int64_t work_of_a_motion_block = 50;
   spend(of, work_of_a_motion_block);
   const Motion& motion = motions_[static_cast<std::size_t>(*instance)];
-  // Most pins are of these types.
-  for (const auto& [value, cell] : motion.inputs) {
-    const Cell* const from = instance + cell;
-    if (bool* const* const flag = std::get_if<bool*>(&value)) {
-      **flag = *from != 0;
-      continue;
-    }
-    if (double* const* const number = std::get_if<double*>(&value)) {
-      **number = real_of(*from);
-      continue;
-    }
-    std::visit(
-        [&](auto* target) {
-          using T = std::remove_cvref_t<decltype(*target)>;
-          if constexpr (std::is_same_v<T, AxisRef>) {
-            target->number = static_cast<int>(*from);
-          } else if constexpr (std::is_same_v<T, CamRef>) {
-            const std::string_view file = text(place_of(*from), default_string_length);
-            if (target->file != file) target->file = file;
-            target->id = static_cast<std::uint16_t>(from[string_cells(default_string_length)]);
-          } else if constexpr (!std::is_same_v<T, double>) {
-            *target = static_cast<T>(*from);
-          }
-        },
-        value);
-  }
+  const BlockType& type = *motion.type->motion;
+  static_assert(std::is_same_v<Cell, PinCell> && cam_file_length == default_string_length);
+  type.take_inputs(*motion.block, instance + 1);
   motion.block->call(kernel_);
-  for (const auto& [value, cell] : motion.outputs) {
-    if (bool* const* const flag = std::get_if<bool*>(&value))
-      instance[cell] = **flag ? 1 : 0;
-    else if (const auto shown = cell_of_pin(value))
-      instance[cell] = *shown;
-  }
+  type.give_outputs(*motion.block, instance + 1);
 }
 
 }  // namespace drycut::devices::plcopen::st

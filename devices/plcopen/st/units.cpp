@@ -226,7 +226,7 @@ void Compiler::check_programs() {
              "PROGRAM name ... END_PROGRAM is what the controller runs");
 }
 
-/// No call leads back to where it came from, and none goes deeper than the machine.
+/// No call leads back to where it came from, and none goes deeper than can be done.
 void Compiler::check_calls() {
   std::vector<Unit*> of_pou(code_->pous.size(), nullptr);
   for (const auto& unit : units_)

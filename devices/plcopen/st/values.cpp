@@ -12,7 +12,7 @@
 namespace drycut::devices::plcopen::st {
 namespace {
 
-/// Calls of the machine within each other for one statement in another.
+/// Of one statement in another.
 constexpr int levels_of_a_statement = 3;
 
 }  // namespace

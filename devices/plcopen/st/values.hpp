@@ -52,7 +52,7 @@ struct Unit {
   [[nodiscard]] bool tells_kind() const {
     return extended || !methods.empty() || !interfaces.empty() || base != nullptr;
   }
-  int levels = 1;  ///< how deep the machine calls itself for its body; with those that it calls at the end
+  int levels = 1;  ///< how deep its statements and operations go; with those that it calls at the end
   int levels_below = 0;  ///< of what it calls
 };
 
