@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,12 +22,14 @@ class MotionKernel {
   /// By its name, any case; not connected if there is none.
   [[nodiscard]] AxisRef find_axis(std::string_view name) const;
   [[nodiscard]] int axes() const { return static_cast<int>(axes_.size()); }
-  /// nullptr if the reference is not one of this kernel's; until an axis is added.
+  /// nullptr if the reference is not one of this kernel's.
   Axis* axis(AxisRef ref) {
-    return ref.number < 0 || ref.number >= axes() ? nullptr : &axes_[static_cast<std::size_t>(ref.number)];
+    return ref.number < 0 || ref.number >= axes() ? nullptr
+                                                  : axes_[static_cast<std::size_t>(ref.number)].get();
   }
   [[nodiscard]] const Axis* axis(AxisRef ref) const {
-    return ref.number < 0 || ref.number >= axes() ? nullptr : &axes_[static_cast<std::size_t>(ref.number)];
+    return ref.number < 0 || ref.number >= axes() ? nullptr
+                                                  : axes_[static_cast<std::size_t>(ref.number)].get();
   }
 
   /// Adds or replaces a table; see CamTables::add. 240010 if a coupling locks the one that is there.
@@ -70,7 +73,7 @@ class MotionKernel {
   void set_points(std::size_t number);
 
   std::int64_t cycle_ns_;
-  std::vector<Axis> axes_;
+  std::vector<std::unique_ptr<Axis>> axes_;  ///< which stay where they are
   std::vector<bool> moved_;
   CamTables tables_;
 };

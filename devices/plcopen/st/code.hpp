@@ -21,6 +21,8 @@ namespace drycut::devices::plcopen::st {
 /// What a node of the tree (nodes.hpp) does; `a`, `b`, `c` are nodes unless it says otherwise. Instructions
 /// are of these too, and of those at the end: see Instruction.
 enum class StOp : std::uint8_t {
+  nothing,  ///< a statement
+
   // Values.
   constant,  ///< imm
   load,      ///< the cell at imm
@@ -126,7 +128,6 @@ enum class StOp : std::uint8_t {
   passes,           ///< FOR: a is not yet beyond b with step c
 
   // Statements.
-  nothing,
   evaluate,     ///< a value that nobody wants
   store,        ///< value a to the cell at imm
   store_own,    ///< value a to the cell at imm of the own instance
@@ -167,6 +168,7 @@ enum class StOp : std::uint8_t {
   unless_greater_real,
   unless_greater_equal_real,
 };
+inline constexpr StOp last_op = StOp::unless_greater_equal_real;
 
 /// Functions of texts. A text is an address; where the result is one, the first node is where it goes.
 enum class TextOp : std::uint8_t {

@@ -124,6 +124,7 @@ void Machine::steps(int first, std::int64_t own) {
       }
       if (!holds) next = begin + i.d;
     };
+    if (i.op > last_op) __builtin_unreachable();  // so that the switch need not ask
     switch (i.op) {
       case StOp::move:
         cell(i.a) = cell(i.b);
@@ -190,6 +191,12 @@ void Machine::steps(int first, std::int64_t own) {
         break;
       case StOp::negate_real:
         number(-real(i.b));
+        break;
+      case StOp::absolute_real:
+        number(std::abs(real(i.b)));
+        break;
+      case StOp::to_real:
+        number(static_cast<double>(cell(i.b)));
         break;
       case StOp::bit_and:
         cell(i.a) = cell(i.b) & cell(i.c);

@@ -21,12 +21,12 @@ Cell Machine::operation(const Instruction& of, Cell a, Cell b) {
 }
 
 void Machine::look_at(const Instruction& of, Cell before, Cell result) {
-  const std::string& type = type_of(of.basic)->name;
+  const auto type = [&] { return type_of(of.basic)->name; };
   if (is_real(of.basic)) {
     if (std::isnan(real_of(result)))
       tell_loss(of, "the result is no number; test the values before");
     else
-      tell_loss(of, fmt::format("a {} overflows; it goes to {}", type,
+      tell_loss(of, fmt::format("a {} overflows; it goes to {}", type(),
                                 of.basic == Basic::real ? "3.4e38" : "1.8e308"));
     return;
   }
@@ -34,7 +34,7 @@ void Machine::look_at(const Instruction& of, Cell before, Cell result) {
   const bool number = is_integer(of.basic) && of.basic <= Basic::ulint;
   if (of.op == StOp::wrap) {
     if (number && result != before)
-      tell_loss(of, fmt::format("{} does not fit in {}, which makes {} of it", before, type, result));
+      tell_loss(of, fmt::format("{} does not fit in {}, which makes {} of it", before, type(), result));
     return;
   }
   constexpr double two_to_64 = 18446744073709551616.0;
@@ -43,7 +43,7 @@ void Machine::look_at(const Instruction& of, Cell before, Cell result) {
   const Subrange range = range_of(of.basic);
   const double high = is_wide(of.basic) ? two_to_64 : static_cast<double>(range.high);
   if (value >= static_cast<double>(range.low) && (is_wide(of.basic) ? value < high : value <= high)) return;
-  tell_loss(of, fmt::format("{} does not fit in {}, which makes {} of it", real_of(before), type,
+  tell_loss(of, fmt::format("{} does not fit in {}, which makes {} of it", real_of(before), type(),
                             is_wide(of.basic) ? fmt::format("{}", static_cast<std::uint64_t>(result))
                                               : fmt::format("{}", result)));
 }
@@ -122,10 +122,10 @@ Cell Machine::text_value(const Instruction& of, const Bases& bases) {
   const int* const end = list + 2 + list[0];
   const bool wide = list[1] != 0;
   list += 2;
-  const auto next = [&] { return at(bases, unpacked(*list++)); };
-  const Cell target = op < TextOp::length ? next() : 0;
+  const auto value = [&](int operand) { return at(bases, unpacked(operand)); };
+  const Cell target = op < TextOp::length ? value(*list++) : 0;
   if (op == TextOp::from_value) {
-    put_string(text_of(of.basic, next()), target, longest_bytes());
+    put_string(text_of(of.basic, value(*list)), target, longest_bytes());
     return target;
   }
   const std::size_t texts = texts_of(op, static_cast<std::size_t>(end - list));
@@ -133,8 +133,8 @@ Cell Machine::text_value(const Instruction& of, const Bases& bases) {
   std::vector<std::string_view> parts;
   std::vector<Cell> numbers;
   std::size_t size = 0;
-  for (std::size_t i = 0; list != end; ++i) {
-    const Cell given = next();
+  for (std::size_t i = 0; list != end; ++i, ++list) {
+    const Cell given = value(*list);
     if (i >= texts) {
       numbers.push_back(given);
     } else {
