@@ -19,7 +19,7 @@
 namespace drycut::devices::plcopen::st {
 
 /// What a node of the tree (nodes.hpp) does; `a`, `b`, `c` are nodes unless it says otherwise. Instructions
-/// are of these too, and of those at the end: see Instruction.
+/// are of these too, and of those at the end: see StInstruction.
 enum class StOp : std::uint8_t {
   nothing,  ///< a statement
 
@@ -214,17 +214,19 @@ struct Choice {
 /// Where cells of operands are counted from.
 enum class Base : std::uint32_t { memory, own, temporary, constant };
 /// Where a value of the instructions is; or a number as it is, of the base `memory`.
-struct Operand {
+struct StOperand {
   std::uint32_t cells = 0;
   Base base = Base::memory;
 };
-inline bool operator==(const Operand& a, const Operand& b) { return a.cells == b.cells && a.base == b.base; }
+inline bool operator==(const StOperand& a, const StOperand& b) {
+  return a.cells == b.cells && a.base == b.base;
+}
 /// In one number, as lists have it.
 constexpr int base_shift = 28;
-constexpr int packed(const Operand& of) {
+constexpr int packed(const StOperand& of) {
   return static_cast<int>(of.cells | static_cast<std::uint32_t>(of.base) << base_shift);
 }
-constexpr Operand unpacked(int number) {
+constexpr StOperand unpacked(int number) {
   const auto bits = static_cast<std::uint32_t>(number);
   return {bits & ((1U << base_shift) - 1), static_cast<Base>(bits >> base_shift)};
 }
@@ -248,14 +250,14 @@ constexpr Operand unpacked(int number) {
 /// jump: on at d. jump_if, jump_unless: if the cell a holds, or does not; unless_...: unless b compares so
 /// with c. choose: where one of c Choices from b on says by the value a, else at d. multiplex: where list d
 /// says, of c. turn: a loop begins anew. leave_pou. nothing.
-struct Instruction {
+struct StInstruction {
   StOp op = StOp::nothing;
   Basic basic = Basic::unknown;
   bool statement = false;  ///< one begins here
   int d = 0;
-  Operand a;
-  Operand b;
-  Operand c;
+  StOperand a;
+  StOperand b;
+  StOperand c;
 };
 
 /// What the text has to an instruction.
@@ -294,7 +296,7 @@ struct Compiled {
   std::vector<Program::Name> tables;
 
   std::vector<std::unique_ptr<Type>> types;
-  std::vector<Instruction> code;
+  std::vector<StInstruction> code;
   std::vector<Origin> origins;  ///< one an instruction
   std::vector<Cell> constants;
   std::size_t temporaries = 0;  ///< cells that a body needs at most

@@ -12,9 +12,9 @@ namespace {
 
 bool compares(StOp op) { return op >= StOp::equal && op <= StOp::greater_equal_real; }
 
-class Instructions {
+class InstructionMaker {
  public:
-  Instructions(const Nodes& nodes, Compiled& code) : nodes_(nodes), code_(code) {}
+  InstructionMaker(const Nodes& nodes, Compiled& code) : nodes_(nodes), code_(code) {}
 
   void make() {
     for (Pou& pou : code_.pous) pou.body = body(pou.body);
@@ -34,7 +34,7 @@ class Instructions {
     for (const int jump : jumps) code_.code[static_cast<std::size_t>(jump)].d = to;
   }
 
-  int emit(StOp op, int number, Operand a = {}, Operand b = {}, Operand c = {}, int d = 0) {
+  int emit(StOp op, int number, StOperand a = {}, StOperand b = {}, StOperand c = {}, int d = 0) {
     const Node& of = node(number);
     const auto standard = [&](int one) { return static_cast<std::size_t>(one) >= nodes_.of_text; };
     Origin origin{number, of.line, of.column};
@@ -49,15 +49,17 @@ class Instructions {
     return here() - 1;
   }
 
-  static Operand operand(Base base, std::int64_t cells) { return {static_cast<std::uint32_t>(cells), base}; }
-  static Operand raw(std::int64_t number) { return operand(Base::memory, number); }
+  static StOperand operand(Base base, std::int64_t cells) {
+    return {static_cast<std::uint32_t>(cells), base};
+  }
+  static StOperand raw(std::int64_t number) { return operand(Base::memory, number); }
 
-  Operand temporary() {
+  StOperand temporary() {
     code_.temporaries = std::max(code_.temporaries, ++temporaries_);
     return operand(Base::temporary, static_cast<std::int64_t>(temporaries_ - 1));
   }
 
-  Operand constant(Cell value) {
+  StOperand constant(Cell value) {
     const auto [known, fresh] = constants_.emplace(value, static_cast<int>(code_.constants.size()));
     if (fresh) code_.constants.push_back(value);
     return operand(Base::constant, known->second);
@@ -98,37 +100,37 @@ class Instructions {
   }
 
   /// Where the value is, once it is computed; of a variable that is itself.
-  Operand value(int number) {
+  StOperand value(int number) {
     const Node& n = node(number);
     if (n.op == StOp::constant || n.op == StOp::address) return constant(n.imm);
     if (n.op == StOp::load) return operand(Base::memory, n.imm);
     if (n.op == StOp::load_own) return operand(Base::own, n.imm);
-    const Operand to = temporary();
+    const StOperand to = temporary();
     into(number, to);
     return to;
   }
 
   /// The same, which stays what it is while all of `later` are computed.
-  Operand value(int number, std::initializer_list<int> later) {
-    const Operand of = value(number);
+  StOperand value(int number, std::initializer_list<int> later) {
+    const StOperand of = value(number);
     const bool variable = of.base == Base::memory || of.base == Base::own;
     if (!variable || std::none_of(later.begin(), later.end(), [&](int one) { return acts(one); })) return of;
-    const Operand kept = temporary();
+    const StOperand kept = temporary();
     emit(StOp::move, number, kept, of);
     return kept;
   }
 
   /// The cell at the address that a node gives.
-  Operand cell_at(int number) {
+  StOperand cell_at(int number) {
     const Node& n = node(number);
     if (n.op == StOp::address) return operand(Base::memory, n.imm);
     if (n.op == StOp::address_own) return operand(Base::own, n.imm);
-    const Operand to = temporary();
+    const StOperand to = temporary();
     fetch(number, number, to);
     return to;
   }
 
-  void fetch(int number, int address, Operand to) {
+  void fetch(int number, int address, StOperand to) {
     const Node& n = node(address);
     if (n.op == StOp::follow)
       emit(StOp::fetch, number, to, cell_at(n.a), {}, static_cast<int>(n.imm));
@@ -137,10 +139,10 @@ class Instructions {
   }
 
   /// Computes the value and puts it there.
-  void into(int number, Operand to) {
+  void into(int number, StOperand to) {
     const std::size_t kept = temporaries_;
     const bool parts = puts_in_parts(node(number));
-    const Operand at = parts && to.base != Base::temporary ? temporary() : to;
+    const StOperand at = parts && to.base != Base::temporary ? temporary() : to;
     compute(number, at);
     if (!(at == to)) emit(StOp::move, number, to, at);
     temporaries_ = kept;
@@ -151,7 +153,7 @@ class Instructions {
            n.op == StOp::call_function || n.op == StOp::call_method;
   }
 
-  void compute(int number, Operand to) {
+  void compute(int number, StOperand to) {
     const Node& n = node(number);
     switch (n.op) {
       case StOp::constant:
@@ -183,14 +185,14 @@ class Instructions {
         emit(n.op, number, to);
         return;
       case StOp::select: {
-        const Operand on = value(n.b, {n.c, n.a});
-        const Operand off = value(n.c, {n.a});
+        const StOperand on = value(n.b, {n.c, n.a});
+        const StOperand off = value(n.c, {n.a});
         emit(n.op, number, to, on, off, packed(value(n.a)));
         return;
       }
       case StOp::passes: {
-        const Operand step = value(n.c, {n.a, n.b});
-        const Operand now = value(n.a, {n.b});
+        const StOperand step = value(n.c, {n.a, n.b});
+        const StOperand now = value(n.a, {n.b});
         emit(n.op, number, to, now, value(n.b), packed(step));
         return;
       }
@@ -212,8 +214,8 @@ class Instructions {
         return call(number, to);
       default: {
         const bool two = n.b >= 0;
-        const Operand a = two ? value(n.a, {n.b}) : value(n.a);
-        emit(n.op, number, to, a, two ? value(n.b) : Operand{});
+        const StOperand a = two ? value(n.a, {n.b}) : value(n.a);
+        emit(n.op, number, to, a, two ? value(n.b) : StOperand{});
       }
     }
   }
@@ -226,23 +228,23 @@ class Instructions {
   }
 
   /// The index is looked at before the array, which may be an element itself.
-  void element(int number, Operand to) {
+  void element(int number, StOperand to) {
     const Node& n = node(number);
-    const Operand index = value(n.b, {n.a});
+    const StOperand index = value(n.b, {n.a});
     const Node& array = node(n.a);
     if (array.op == StOp::address) {
       emit(n.op, number, to, constant(0), index, span(n.c, array.imm + n.imm));
       return;
     }
-    const Operand behind = temporary();
+    const StOperand behind = temporary();
     emit(n.op, number, behind, constant(0), index, span(n.c, n.imm));
     emit(StOp::add, number, to, value(n.a), behind);
     code_.code.back().basic = Basic::lint;
   }
 
-  void multiplex(int number, Operand to) {
+  void multiplex(int number, StOperand to) {
     const Node& n = node(number);
-    const Operand which = value(n.a);
+    const StOperand which = value(n.a);
     const auto list = code_.lists.size();
     code_.lists.resize(list + static_cast<std::size_t>(n.c));
     emit(n.op, number, which, {}, raw(n.c), static_cast<int>(list));
@@ -255,7 +257,7 @@ class Instructions {
     lead(over, here());
   }
 
-  void enabled(int number, Operand to) {
+  void enabled(int number, StOperand to) {
     const std::vector<int> list = listed(node(number).a, 5);
     const int off = emit(StOp::jump_unless, number, value(list[0]));
     into(list[1], to);
@@ -267,7 +269,7 @@ class Instructions {
     lead({over}, here());
   }
 
-  void text(int number, Operand to) {
+  void text(int number, StOperand to) {
     const Node& n = node(number);
     std::vector<int> list{n.b, n.c > 0 ? 1 : 0};
     const std::vector<int> parts = listed(n.a, n.b);
@@ -277,7 +279,7 @@ class Instructions {
   }
 
   /// A value that stays while each `step`th of `parts` from `next` on is computed.
-  Operand kept_for(int number, const std::vector<int>& parts, std::size_t next, std::size_t step) {
+  StOperand kept_for(int number, const std::vector<int>& parts, std::size_t next, std::size_t step) {
     for (; next < parts.size(); next += step)
       if (acts(parts[next])) return value(number, {parts[next]});
     return value(number);
@@ -288,7 +290,7 @@ class Instructions {
     return static_cast<int>(code_.lists.size() - list.size());
   }
 
-  void call(int number, Operand to) {
+  void call(int number, StOperand to) {
     const Node& n = node(number);
     std::vector<int> list;
     auto from = static_cast<std::size_t>(n.a);
@@ -306,7 +308,7 @@ class Instructions {
       list.push_back(packed(kept_for(triples[i], triples, i + 3, 3)));
       list.insert(list.end(), {triples[i + 1], triples[i + 2]});
     }
-    const Operand whole = n.b >= 0 ? value(n.b) : Operand{};
+    const StOperand whole = n.b >= 0 ? value(n.b) : StOperand{};
     emit(n.op, number, to, whole, raw(n.b >= 0 ? n.imm : 0), put_list(list));
     const std::size_t outputs = first + 1 + triples.size();
     for (const int output : listed(static_cast<int>(outputs) + 1, nodes_.lists[outputs])) statement(output);
@@ -344,11 +346,11 @@ class Instructions {
     } else if (compares(n.op)) {
       const auto jump = static_cast<StOp>(static_cast<int>(n.op) - static_cast<int>(StOp::equal) +
                                           static_cast<int>(StOp::unless_equal));
-      const Operand a = value(n.a, {n.b});
+      const StOperand a = value(n.a, {n.b});
       jumps.push_back(emit(jump, number, {}, a, value(n.b)));
     } else if (n.op == StOp::passes && node(n.c).op == StOp::constant && !is_wide(n.basic)) {
       const bool up = node(n.c).imm >= 0;
-      const Operand a = value(n.a, {n.b});
+      const StOperand a = value(n.a, {n.b});
       jumps.push_back(
           emit(up ? StOp::unless_less_equal : StOp::unless_greater_equal, number, {}, a, value(n.b)));
     } else if (n.op == StOp::bit_not && bits) {
@@ -385,8 +387,8 @@ class Instructions {
       case StOp::store_bits:
       case StOp::copy:
       case StOp::copy_string: {
-        const Operand stored = value(n.b, {n.a});
-        const Operand to = value(n.a);
+        const StOperand stored = value(n.b, {n.a});
+        const StOperand to = value(n.a);
         const int c = n.op == StOp::copy_string ? n.c + 1 : n.c;
         emit(n.op, number, to, stored, raw(c), static_cast<int>(n.imm));
         return;
@@ -420,7 +422,7 @@ class Instructions {
     const Node& n = node(number);
     const Node& address = node(n.a);
     if (address.op == StOp::address || address.op == StOp::address_own) return into(n.b, cell_at(n.a));
-    const Operand stored = value(n.b, {n.a});
+    const StOperand stored = value(n.b, {n.a});
     if (address.op == StOp::follow)
       emit(StOp::put, number, cell_at(address.a), stored, {}, static_cast<int>(address.imm));
     else
@@ -454,7 +456,7 @@ class Instructions {
 
   void choose(int number) {
     const Node& n = node(number);
-    const Operand selector = value(n.a);
+    const StOperand selector = value(n.a);
     const auto first = nodes_.choices.begin() + n.b;
     const std::size_t begin = code_.choices.size();
     code_.choices.insert(code_.choices.end(), first, first + n.c);
@@ -518,6 +520,6 @@ class Instructions {
 
 }  // namespace
 
-void make_instructions(const Nodes& nodes, Compiled& code) { Instructions(nodes, code).make(); }
+void make_instructions(const Nodes& nodes, Compiled& code) { InstructionMaker(nodes, code).make(); }
 
 }  // namespace drycut::devices::plcopen::st

@@ -51,11 +51,11 @@ void Machine::run(const Compiled::Instance& program, std::int64_t time_ms) {
   if (program.after >= 0) execute(program.after, program.cell);
 }
 
-void Machine::fail(const Instruction& at, const std::string& text) const {
+void Machine::fail(const StInstruction& at, const std::string& text) const {
   throw StError(origin(at).line, origin(at).column, text);
 }
 
-void Machine::exhausted(const Instruction& at) const {
+void Machine::exhausted(const StInstruction& at) const {
   fail(at, fmt::format("more than {} operations in one scan; a loop does not end, or there is more "
                        "to do than a scan can hold",
                        most_work));
@@ -97,18 +97,18 @@ void Machine::steps(int first, std::int64_t own) {
   if (code_.temporaries > few) more.resize(code_.temporaries);
   const Bases bases{memory_.data(), memory_.data() + own, more.empty() ? fewer.data() : more.data(),
                     constants_.data()};
-  const auto cell = [&](const Operand& of) -> Cell& { return at(bases, of); };
-  const auto real = [&](const Operand& of) { return real_of(at(bases, of)); };
-  const Instruction* const begin = code_.code.data();
-  const Instruction* next = begin + first;
+  const auto cell = [&](const StOperand& of) -> Cell& { return at(bases, of); };
+  const auto real = [&](const StOperand& of) { return real_of(at(bases, of)); };
+  const StInstruction* const begin = code_.code.data();
+  const StInstruction* next = begin + first;
   while (true) {
-    const Instruction& i = *next++;
+    const StInstruction& i = *next++;
     --work_;
     statements_ += static_cast<std::int64_t>(i.statement);
     if constexpr (watched)
       if (i.statement) note_statement(origin(i));
     const auto whole = [&](std::uint64_t result) { cell(i.a) = wrapped(i.basic, static_cast<Cell>(result)); };
-    const auto bits = [&](const Operand& of) { return static_cast<std::uint64_t>(cell(of)); };
+    const auto bits = [&](const StOperand& of) { return static_cast<std::uint64_t>(cell(of)); };
     const auto truth = [&](bool holds) { cell(i.a) = holds ? 1 : 0; };
     const auto number = [&](double result) {
       const Cell kept = cell_of(rounded(i.basic, result));

@@ -67,7 +67,7 @@ class Machine {
  private:
   /// Where operands are, by their Base.
   using Bases = std::array<Cell*, 4>;
-  static Cell& at(const Bases& bases, const Operand& of) {
+  static Cell& at(const Bases& bases, const StOperand& of) {
     return bases[static_cast<std::size_t>(of.base)][of.cells];
   }
   struct Motion {
@@ -80,11 +80,11 @@ class Machine {
 
   [[nodiscard]] Cell& at(std::int64_t place) { return memory_[static_cast<std::size_t>(place)]; }
   [[nodiscard]] std::int64_t place_of(const Cell& cell) const { return &cell - memory_.data(); }
-  [[nodiscard]] const Origin& origin(const Instruction& of) const {
+  [[nodiscard]] const Origin& origin(const StInstruction& of) const {
     return code_.origins[static_cast<std::size_t>(&of - code_.code.data())];
   }
-  [[noreturn]] void fail(const Instruction& at, const std::string& text) const;
-  [[noreturn]] void exhausted(const Instruction& at) const;
+  [[noreturn]] void fail(const StInstruction& at, const std::string& text) const;
+  [[noreturn]] void exhausted(const StInstruction& at) const;
 
   // machine.cpp
   /// Executes from instruction `first` on until it leaves the body; `own`: where the block's instance begins.
@@ -94,39 +94,40 @@ class Machine {
   /// Gives a POU's variables at `frame` that do not outlast a call their initial values.
   void reset(const Pou& pou, std::int64_t frame);
   void charge(std::int64_t work) { work_ -= work; }
-  void spend(const Instruction& on, std::int64_t work) {
+  void spend(const StInstruction& on, std::int64_t work) {
     if ((work_ -= work) < 0) exhausted(on);
   }
   void note(int line, char mark);
   void note_statement(const Origin& origin);
 
   // machine_values.cpp
-  Cell operation(const Instruction& of, Cell a, Cell b);
+  Cell operation(const StInstruction& of, Cell a, Cell b);
   /// Tells what was lost in an operation, if anything was.
-  void look_at(const Instruction& of, Cell before, Cell result);
-  void tell_loss(const Instruction& of, std::string text);
-  Cell element(const Instruction& of, Cell array, Cell index) const;
-  Cell in_range(const Instruction& of, Cell value) const;
-  Cell dereference(const Instruction& of, Cell value) const;
+  void look_at(const StInstruction& of, Cell before, Cell result);
+  void tell_loss(const StInstruction& of, std::string text);
+  Cell element(const StInstruction& of, Cell array, Cell index) const;
+  Cell in_range(const StInstruction& of, Cell value) const;
+  Cell dereference(const StInstruction& of, Cell value) const;
   /// The first of the cells that a value by a reference lies in, and how many bytes behind.
-  std::pair<const Referent*, Cell*> seen_by(const Instruction& by, Cell reference, std::int64_t& bytes);
+  std::pair<const Referent*, Cell*> seen_by(const StInstruction& by, Cell reference, std::int64_t& bytes);
   Cell compare(std::int64_t a, std::int64_t b);
-  Cell text_value(const Instruction& of, const Bases& bases);
+  Cell text_value(const StInstruction& of, const Bases& bases);
   /// Of what functions of texts give; a WSTRING has up to four a character.
   [[nodiscard]] std::size_t longest_bytes() const { return code_.longest_bytes; }
   [[nodiscard]] std::string_view text(std::int64_t place, std::size_t most) const;
   [[nodiscard]] std::string_view whole_text(std::int64_t place) const { return text(place, longest_bytes()); }
-  void store_bits(const Instruction& of, Cell& whole, Cell part) const;
-  void store_text(const Instruction& of, std::int64_t to, std::int64_t from);
+  void store_bits(const StInstruction& of, Cell& whole, Cell part) const;
+  void store_text(const StInstruction& of, std::int64_t to, std::int64_t from);
   void copy_string(std::int64_t from, std::int64_t to, std::size_t length);
   void put_string(std::string_view text, std::int64_t to, std::size_t length);
 
   // machine_calls.cpp
-  Cell call_function(const Instruction& of, const Bases& bases);
-  Cell call_method(const Instruction& of, const Bases& bases);
-  Cell call_framed(const Instruction& of, const Bases& bases, const int* list, int number, std::int64_t own);
-  void call_block(const Instruction& of, std::int64_t instance);
-  void call_motion(const Instruction& of, Cell* instance);
+  Cell call_function(const StInstruction& of, const Bases& bases);
+  Cell call_method(const StInstruction& of, const Bases& bases);
+  Cell call_framed(const StInstruction& of, const Bases& bases, const int* list, int number,
+                   std::int64_t own);
+  void call_block(const StInstruction& of, std::int64_t instance);
+  void call_motion(const StInstruction& of, Cell* instance);
 
   const Compiled& code_;
   MotionKernel& kernel_;

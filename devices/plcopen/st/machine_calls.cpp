@@ -9,12 +9,12 @@
 // Calls.
 namespace drycut::devices::plcopen::st {
 
-Cell Machine::call_function(const Instruction& of, const Bases& bases) {
+Cell Machine::call_function(const StInstruction& of, const Bases& bases) {
   const int* const list = code_.lists.data() + of.d;
   return call_framed(of, bases, list, list[0], bases[static_cast<std::size_t>(Base::own)] - memory_.data());
 }
 
-Cell Machine::call_method(const Instruction& of, const Bases& bases) {
+Cell Machine::call_method(const StInstruction& of, const Bases& bases) {
   const int* const list = code_.lists.data() + of.d;
   const std::int64_t instance = at(bases, unpacked(list[0]));
   int number = list[2];
@@ -32,7 +32,7 @@ Cell Machine::call_method(const Instruction& of, const Bases& bases) {
 
 /// The arguments are for the POU that the list begins with. Where another one runs that overrides it, that
 /// has the same pins at the same places.
-Cell Machine::call_framed(const Instruction& of, const Bases& bases, const int* list, int number,
+Cell Machine::call_framed(const StInstruction& of, const Bases& bases, const int* list, int number,
                           std::int64_t own) {
   const Pou& pou = code_.pous[static_cast<std::size_t>(number)];
   const Pou& named = code_.pous[static_cast<std::size_t>(*list++)];
@@ -61,7 +61,7 @@ Cell Machine::call_framed(const Instruction& of, const Bases& bases, const int* 
   return result;
 }
 
-void Machine::call_block(const Instruction& of, std::int64_t instance) {
+void Machine::call_block(const StInstruction& of, std::int64_t instance) {
   const Pou& pou = code_.pous[static_cast<std::size_t>(of.d)];
   spend(of, 0);
   reset(pou, instance);
@@ -76,7 +76,7 @@ const FunctionBlock* Machine::motion_at(int place) const {
   return nullptr;
 }
 
-void Machine::call_motion(const Instruction& of, Cell* instance) {
+void Machine::call_motion(const StInstruction& of, Cell* instance) {
   constexpr std::int64_t work_of_a_motion_block = 50;
   spend(of, work_of_a_motion_block);
   const Motion& motion = motions_[static_cast<std::size_t>(*instance)];

@@ -10,7 +10,7 @@
 // What takes more than a step's few operations: values that may be lost or refused, references, texts.
 namespace drycut::devices::plcopen::st {
 
-Cell Machine::operation(const Instruction& of, Cell a, Cell b) {
+Cell Machine::operation(const StInstruction& of, Cell a, Cell b) {
   if (const auto none = no_result(of.op, of.basic, a, b)) fail(of, none->what + "; " + none->remedy);
   const Cell result = apply(of.op, of.basic, a, b);
   // Real numbers overflow, conversions leave their type; whole numbers wrap.
@@ -20,7 +20,7 @@ Cell Machine::operation(const Instruction& of, Cell a, Cell b) {
   return result;
 }
 
-void Machine::look_at(const Instruction& of, Cell before, Cell result) {
+void Machine::look_at(const StInstruction& of, Cell before, Cell result) {
   const auto type = [&] { return type_of(of.basic)->name; };
   if (is_real(of.basic)) {
     if (std::isnan(real_of(result)))
@@ -48,26 +48,26 @@ void Machine::look_at(const Instruction& of, Cell before, Cell result) {
                                               : fmt::format("{}", result)));
 }
 
-void Machine::tell_loss(const Instruction& of, std::string text) {
+void Machine::tell_loss(const StInstruction& of, std::string text) {
   const Origin& at = origin(of);
   if (told_.insert(at.node).second) losses_.push_back({at.line, at.column, std::move(text)});
 }
 
-Cell Machine::element(const Instruction& of, Cell array, Cell index) const {
+Cell Machine::element(const StInstruction& of, Cell array, Cell index) const {
   const Span& span = code_.spans[static_cast<std::size_t>(of.d)];
   if (index < span.low || index > span.high)
     fail(of, fmt::format("the index {} is out of bounds; {} to {}", index, span.low, span.high));
   return array + (index - span.low) * span.cells + span.behind;
 }
 
-Cell Machine::in_range(const Instruction& of, Cell value) const {
+Cell Machine::in_range(const StInstruction& of, Cell value) const {
   const Span& span = code_.spans[static_cast<std::size_t>(of.d)];
   if (value < span.low || value > span.high)
     fail(of, fmt::format("{} is out of the range; {} to {}", value, span.low, span.high));
   return value;
 }
 
-Cell Machine::dereference(const Instruction& of, Cell value) const {
+Cell Machine::dereference(const StInstruction& of, Cell value) const {
   const Reference reference = reference_of(value);
   if (reference.referent < 0) fail(of, "the reference is NULL; test it before: p <> NULL");
   const Referent& wanted = code_.referents[of.c.cells];
@@ -78,7 +78,7 @@ Cell Machine::dereference(const Instruction& of, Cell value) const {
   return reference.place + of.d;
 }
 
-std::pair<const Referent*, Cell*> Machine::seen_by(const Instruction& by, Cell reference,
+std::pair<const Referent*, Cell*> Machine::seen_by(const StInstruction& by, Cell reference,
                                                    std::int64_t& bytes) {
   const Reference at = reference_of(reference);
   if (at.referent < 0) fail(by, "the reference is NULL; test it before: p <> NULL");
@@ -116,7 +116,7 @@ Cell Machine::compare(std::int64_t a, std::int64_t b) {
   return order < 0 ? -1 : order > 0 ? 1 : 0;
 }
 
-Cell Machine::text_value(const Instruction& of, const Bases& bases) {
+Cell Machine::text_value(const StInstruction& of, const Bases& bases) {
   const auto op = static_cast<TextOp>(of.b.cells);
   const int* list = code_.lists.data() + of.d;
   const int* const end = list + 2 + list[0];
@@ -157,13 +157,13 @@ Cell Machine::text_value(const Instruction& of, const Bases& bases) {
   return target;
 }
 
-void Machine::store_bits(const Instruction& of, Cell& whole, Cell part) const {
+void Machine::store_bits(const StInstruction& of, Cell& whole, Cell part) const {
   const std::uint64_t mask = ((std::uint64_t{1} << of.c.cells) - 1) << of.d;
   const std::uint64_t rest = static_cast<std::uint64_t>(whole) & ~mask;
   whole = wrapped(of.basic, static_cast<Cell>(rest | ((static_cast<std::uint64_t>(part) << of.d) & mask)));
 }
 
-void Machine::store_text(const Instruction& of, std::int64_t to, std::int64_t from) {
+void Machine::store_text(const StInstruction& of, std::int64_t to, std::int64_t from) {
   const bool wide = of.c.cells > 0;
   const auto most = static_cast<std::size_t>(of.d);
   const std::size_t most_characters = wide ? of.c.cells - 1 : most;
