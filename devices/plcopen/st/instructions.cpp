@@ -16,12 +16,16 @@ class InstructionMaker {
  public:
   InstructionMaker(const Nodes& nodes, Compiled& code) : nodes_(nodes), code_(code) {}
 
-  void make() {
+  /// False if they are too many.
+  bool make() try {
     for (Pou& pou : code_.pous) pou.body = body(pou.body);
     for (Compiled::Instance& instance : code_.instances) {
       if (instance.before >= 0) instance.before = body(instance.before);
       if (instance.after >= 0) instance.after = body(instance.after);
     }
+    return true;
+  } catch (const TooMany&) {
+    return false;
   }
 
  private:
@@ -34,7 +38,10 @@ class InstructionMaker {
     for (const int jump : jumps) code_.code[static_cast<std::size_t>(jump)].d = to;
   }
 
+  struct TooMany {};
   int emit(StOp op, int number, StOperand a = {}, StOperand b = {}, StOperand c = {}, int d = 0) {
+    // A node may stand in several places, and those in others.
+    if (code_.code.size() >= most_instructions) throw TooMany{};
     const Node& of = node(number);
     const auto standard = [&](int one) { return static_cast<std::size_t>(one) >= nodes_.of_text; };
     Origin origin{number, of.line, of.column};
@@ -67,6 +74,11 @@ class InstructionMaker {
 
   /// Whether computing it may change variables.
   bool acts(int number) {
+    signed char& known = acts_[static_cast<std::size_t>(number)];
+    if (known < 0) known = computes_by_acts(number) ? 1 : 0;
+    return known > 0;
+  }
+  bool computes_by_acts(int number) {
     const Node& n = node(number);
     const auto any = [&](const std::vector<int>& parts) {
       return std::any_of(parts.begin(), parts.end(), [&](int part) { return part >= 0 && acts(part); });
@@ -259,6 +271,11 @@ class InstructionMaker {
 
   void enabled(int number, StOperand to) {
     const std::vector<int> list = listed(node(number).a, 5);
+    if (list[1] == list[2]) {  // only ENO is asked for
+      into(list[1], to);
+      if (list[3] >= 0) statement(list[3]);
+      return;
+    }
     const int off = emit(StOp::jump_unless, number, value(list[0]));
     into(list[1], to);
     if (list[3] >= 0) statement(list[3]);
@@ -512,6 +529,7 @@ class InstructionMaker {
   const Nodes& nodes_;
   Compiled& code_;
   std::map<Cell, int> constants_;
+  std::vector<signed char> acts_ = std::vector<signed char>(nodes_.nodes.size(), -1);  ///< -1: not known yet
   std::size_t temporaries_ = 0;
   int statement_ = -1;       ///< whose first instruction comes next
   Jumps* leaves_ = nullptr;  ///< EXIT of the loop
@@ -520,6 +538,6 @@ class InstructionMaker {
 
 }  // namespace
 
-void make_instructions(const Nodes& nodes, Compiled& code) { InstructionMaker(nodes, code).make(); }
+bool make_instructions(const Nodes& nodes, Compiled& code) { return InstructionMaker(nodes, code).make(); }
 
 }  // namespace drycut::devices::plcopen::st

@@ -120,7 +120,12 @@ void Compiler::finish() {
     fill(*connections_[i].unit->type, code.instances[i].cell);
   code.image.insert(code.image.end(), pool_.begin(), pool_.end());
   if (!code.referents.empty()) find_kinds();
-  make_instructions(nodes_, code);
+  if (!make_instructions(nodes_, code)) {
+    complain("st.too-large"_code, {1, 1}, "the statements and operations are too many",
+             fmt::format("{} at most", most_instructions));
+    code.instances.clear();
+    return;
+  }
 
   for (std::size_t i = 0; i < code.instances.size(); ++i) {
     // One program's variables need no name before them.

@@ -27,7 +27,8 @@ struct Nodes {
   [[nodiscard]] const Node& node(int number) const { return nodes[static_cast<std::size_t>(number)]; }
 };
 
-/// Makes the instructions of all bodies, which are nodes until then.
-void make_instructions(const Nodes& nodes, Compiled& code);
+inline constexpr std::size_t most_instructions = 1'000'000;
+/// Makes the instructions of all bodies, which are nodes until then; false if they are more than that.
+bool make_instructions(const Nodes& nodes, Compiled& code);
 
 }  // namespace drycut::devices::plcopen::st

@@ -275,9 +275,9 @@ TEST(StOrder, OperandsAreComputedFromTheLeft) {
       "FUNCTION Weighed : INT VAR_INPUT a, b, c : INT; END_VAR Weighed := a + 2 * b + 4 * c; END_FUNCTION ";
   EXPECT_EQ(run("x : INT;", "x := g + F() + g;", functions), 1 + 100 + 11);
   EXPECT_EQ(run("x : INT;", "x := Weighed(g, F(), g);", functions), 1 + 200 + 44);
-  EXPECT_EQ(
-      run("x : INT; many : ARRAY [0..20] OF INT;", "many[11] := 3; many[g + 0 * F()] := g; x := many[1];", functions),
-      1);
+  EXPECT_EQ(run("x : INT; many : ARRAY [0..20] OF INT;",
+                "many[11] := 3; many[g + 0 * F()] := g; x := many[1];", functions),
+            1);
   EXPECT_EQ(run("x : INT;", "IF g < F() - 98 THEN x := g; END_IF", functions), 11);
   EXPECT_EQ(run("x : INT; s : STRING := 'abc';",
                 "s := CONCAT(INT_TO_STRING(g), INT_TO_STRING(F() + g)); "
@@ -332,6 +332,19 @@ TEST(StOrder, LoopsLeaveAndGoOn) {
   EXPECT_EQ(run("x : INT; i : INT; step : INT := -2;", "FOR i := 6 TO 1 BY step DO x := 10 * x + i; END_FOR"),
             642);
   EXPECT_EQ(run("x : INT; i : INT;", "FOR i := 6 TO 1 BY -3 DO x := 10 * x + i; END_FOR"), 63);
+}
+
+TEST(StInstructions, AreCountedWhereAValueStandsInSeveralPlaces) {
+  // What is left of a DT without its seconds: each takes the value before twice.
+  const auto program = [](int times) {
+    std::string value = "now";
+    for (int i = 0; i < times; ++i) value = "DATE_TO_DT(DT_TO_DATE(" + value + "))";
+    return "PROGRAM p VAR now, x : DT := DT#2024-02-29-06:30:00; END_VAR x := " + value + "; END_PROGRAM";
+  };
+  Bench bench(program(10));
+  bench.scan();
+  EXPECT_EQ(bench["x"], bench["now"] - 6.5 * 3600);
+  expect_problems(program(30), {"1:1: the statements and operations are too many; 1000000 at most$"});
 }
 
 }  // namespace
