@@ -344,7 +344,7 @@ TEST(StInstructions, AreCountedWhereAValueStandsInSeveralPlaces) {
   Bench bench(program(10));
   bench.scan();
   EXPECT_EQ(bench["x"], bench["now"] - 6.5 * 3600);
-  expect_problems(program(30), {"1:1: the statements and operations are too many; 1000000 at most$"});
+  expect_problems(program(24), {"1:1: the statements and operations are too many; 1000000 at most$"});
 }
 
 }  // namespace
