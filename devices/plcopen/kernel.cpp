@@ -65,27 +65,19 @@ std::pair<double, double> range_of(const CamCurve& curve) {
 }  // namespace
 
 AxisRef MotionKernel::add_axis(std::string name, const AxisParameters& parameters) {
-  axes_.emplace_back(std::move(name), parameters);
+  axes_.push_back(std::make_unique<Axis>(std::move(name), parameters));
   return {static_cast<int>(axes_.size()) - 1};
 }
 
 AxisRef MotionKernel::find_axis(std::string_view name) const {
   for (std::size_t i = 0; i < axes_.size(); ++i)
-    if (same_word(axes_[i].name(), name)) return {static_cast<int>(i)};
+    if (same_word(axes_[i]->name(), name)) return {static_cast<int>(i)};
   return {};
 }
 
-Axis* MotionKernel::axis(AxisRef ref) {
-  return ref.number < 0 || ref.number >= axes() ? nullptr : &axes_[static_cast<std::size_t>(ref.number)];
-}
-
-const Axis* MotionKernel::axis(AxisRef ref) const {
-  return ref.number < 0 || ref.number >= axes() ? nullptr : &axes_[static_cast<std::size_t>(ref.number)];
-}
-
 bool MotionKernel::locked(std::uint16_t table) const {
-  return std::any_of(axes_.begin(), axes_.end(), [&](const Axis& axis) {
-    return axis.coupling() != nullptr && axis.link().locks_table && axis.link().table == table;
+  return std::any_of(axes_.begin(), axes_.end(), [&](const auto& axis) {
+    return axis->coupling() != nullptr && axis->link().locks_table && axis->link().table == table;
   });
 }
 
@@ -255,8 +247,8 @@ Order MotionKernel::gear_in(const GearInRequest& request, std::uint64_t ticket) 
 ErrorId MotionKernel::set_position(AxisRef ref, double position, bool relative) {
   Axis* moved = axis(ref);
   if (moved == nullptr) return ErrorId::no_such_axis;
-  const auto follows_it = [&](const Axis& slave) {
-    return slave.coupling() != nullptr && slave.link().master == ref;
+  const auto follows_it = [&](const auto& slave) {
+    return slave->coupling() != nullptr && slave->link().master == ref;
   };
   if (std::any_of(axes_.begin(), axes_.end(), follows_it)) return ErrorId::in_synchronized_motion;
   return moved->set_position(position, relative);
@@ -294,7 +286,7 @@ void MotionKernel::refresh(Axis& slave) {
 void MotionKernel::set_points(std::size_t number) {
   if (moved_[number]) return;
   moved_[number] = true;
-  Axis& axis = axes_[number];
+  Axis& axis = *axes_[number];
   const double dt = static_cast<double>(cycle_ns_) * 1e-9;
   if (axis.coupling() == nullptr) {
     axis.move(dt);
@@ -310,14 +302,14 @@ void MotionKernel::set_points(std::size_t number) {
 
 void MotionKernel::cycle() {
   const double dt = static_cast<double>(cycle_ns_) * 1e-9;
-  for (Axis& axis : axes_) axis.latch(dt);
+  for (const auto& axis : axes_) axis->latch(dt);
   moved_.assign(axes_.size(), false);
   for (std::size_t i = 0; i < axes_.size(); ++i) set_points(i);
-  for (Axis& axis : axes_) axis.regulate();
+  for (const auto& axis : axes_) axis->regulate();
 }
 
 void MotionKernel::visit(StateArchive& archive) {
-  for (Axis& axis : axes_) archive.named(axis.name(), axis);
+  for (const auto& axis : axes_) archive.named(axis->name(), *axis);
   STATE(archive, tables_);
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "devices/plcopen/axis.hpp"
 #include "devices/plcopen/cam_table.hpp"
@@ -22,8 +23,14 @@ class MotionKernel {
   [[nodiscard]] AxisRef find_axis(std::string_view name) const;
   [[nodiscard]] int axes() const { return static_cast<int>(axes_.size()); }
   /// nullptr if the reference is not one of this kernel's.
-  Axis* axis(AxisRef ref);
-  [[nodiscard]] const Axis* axis(AxisRef ref) const;
+  Axis* axis(AxisRef ref) {
+    return ref.number < 0 || ref.number >= axes() ? nullptr
+                                                  : axes_[static_cast<std::size_t>(ref.number)].get();
+  }
+  [[nodiscard]] const Axis* axis(AxisRef ref) const {
+    return ref.number < 0 || ref.number >= axes() ? nullptr
+                                                  : axes_[static_cast<std::size_t>(ref.number)].get();
+  }
 
   /// Adds or replaces a table; see CamTables::add. 240010 if a coupling locks the one that is there.
   ErrorId add_table(McCamTable table);
@@ -66,7 +73,7 @@ class MotionKernel {
   void set_points(std::size_t number);
 
   std::int64_t cycle_ns_;
-  std::deque<Axis> axes_;
+  std::vector<std::unique_ptr<Axis>> axes_;  ///< which stay where they are
   std::vector<bool> moved_;
   CamTables tables_;
 };

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstring>
 #include <tuple>
+#include <type_traits>
 
 #include "base/text.hpp"
 #include "devices/plcopen/function_blocks.hpp"
@@ -28,6 +31,33 @@ constexpr BoundPin<B, T> bind(
   return {{name, type, direction, meaning}, static_cast<T B::*>(member)};
 }
 
+template <typename T>
+constexpr std::size_t cells_of = std::is_same_v<T, CamRef> ? cam_file_cells + 1 : 1;
+
+template <typename T>
+void take(T& pin, const PinCell* cells) {
+  if constexpr (std::is_same_v<T, AxisRef>) {
+    pin.number = static_cast<int>(*cells);
+  } else if constexpr (std::is_same_v<T, CamRef>) {
+    const auto* const text = reinterpret_cast<const char*>(cells);
+    const std::string_view file(text, strnlen(text, cam_file_length));
+    if (pin.file != file) pin.file = file;
+    pin.id = static_cast<std::uint16_t>(cells[cam_file_cells]);
+  } else if constexpr (std::is_same_v<T, double>) {
+    pin = std::bit_cast<double>(*cells);
+  } else {
+    pin = static_cast<T>(*cells);
+  }
+}
+
+template <typename T>
+void give(const T& pin, PinCell& cell) {
+  if constexpr (std::is_same_v<T, double>)
+    cell = std::bit_cast<PinCell>(pin);
+  else if constexpr (std::is_integral_v<T>)
+    cell = static_cast<PinCell>(pin);
+}
+
 template <typename B, const auto& bounds>
 BlockType block_type(std::string_view name, std::string_view meaning) {
   static constexpr auto pins =
@@ -39,7 +69,23 @@ BlockType block_type(std::string_view name, std::string_view meaning) {
     };
     return std::apply(values, bounds).at(number);
   };
-  return {name, meaning, pins, make, value};
+  const auto take_inputs = [](FunctionBlock& block, const PinCell* cells) {
+    const auto one = [&](const auto& bound) {
+      auto& pin = static_cast<B&>(block).*bound.member;
+      if (bound.pin.direction != PinDirection::output) take(pin, cells);
+      cells += cells_of<std::remove_cvref_t<decltype(pin)>>;
+    };
+    std::apply([&](const auto&... bound) { (one(bound), ...); }, bounds);
+  };
+  const auto give_outputs = [](const FunctionBlock& block, PinCell* cells) {
+    const auto one = [&](const auto& bound) {
+      const auto& pin = static_cast<const B&>(block).*bound.member;
+      if (bound.pin.direction == PinDirection::output) give(pin, *cells);
+      cells += cells_of<std::remove_cvref_t<decltype(pin)>>;
+    };
+    std::apply([&](const auto&... bound) { (one(bound), ...); }, bounds);
+  };
+  return {name, meaning, pins, make, value, take_inputs, give_outputs};
 }
 
 }  // namespace

@@ -53,6 +53,12 @@ class FunctionBlock {
   AxisRef about;
 };
 
+/// What a program keeps a pin's value in: BOOL, numbers and the number of an AXIS_REF as they are, LREAL by
+/// its bits. An MC_CAM_REF has several: the file's name, with a 0 behind it, and the id.
+using PinCell = std::int64_t;
+inline constexpr std::size_t cam_file_length = 80;
+inline constexpr std::size_t cam_file_cells = cam_file_length / sizeof(PinCell) + 1;
+
 /// A kind of function block: its name, its pins in the order of declaration, how to make one, and where the
 /// value of its pin `number` is.
 struct BlockType {
@@ -61,6 +67,9 @@ struct BlockType {
   std::span<const Pin> pins;
   std::unique_ptr<FunctionBlock> (*make)();
   PinValue (*pin)(FunctionBlock& block, std::size_t number);
+  /// All inputs at once, and all outputs; the cells are those of all pins in their order.
+  void (*take_inputs)(FunctionBlock& block, const PinCell* cells);
+  void (*give_outputs)(const FunctionBlock& block, PinCell* cells);
 };
 
 /// All function blocks. A Structured Text front finds "MC_CamIn" here, makes an instance for each declared

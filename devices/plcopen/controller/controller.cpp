@@ -362,7 +362,7 @@ void PlcopenController::tell_axes() {
 // Once for each rising Error pin, and why the program stands.
 void PlcopenController::tell_blocks() {
   for (ErrorPins& block : blocks_) {
-    const bool now = runtime_.read(block.error) != 0;
+    const bool now = runtime_.holds(block.error);
     if (now && !block.seen) {
       const auto id = static_cast<ErrorId>(static_cast<std::uint32_t>(runtime_.read(block.id)));
       const FunctionBlock* motion = runtime_.block(block.error);
@@ -371,7 +371,7 @@ void PlcopenController::tell_blocks() {
           {block.instance, "block_error", error_text(id) + (about == nullptr ? "" : ": " + about->name())});
     }
     block.seen = now;
-    if (!block.commanded && block.command) block.commanded = runtime_.read(*block.command) != 0;
+    if (!block.commanded && block.command) block.commanded = runtime_.holds(*block.command);
   }
   for (const auto& loss : runtime_.take_losses())
     events_.push_back(

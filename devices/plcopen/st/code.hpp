@@ -13,13 +13,16 @@
 #include "devices/plcopen/st/runtime.hpp"
 #include "devices/plcopen/st/types.hpp"
 
-// A compiled program: a tree of typed nodes over a flat memory of cells. Variables are places in that memory:
-// those of the PROGRAM, of VAR_GLOBAL and of FUNCTIONs (which cannot call themselves) at fixed places, those
-// of a function block from the beginning of its instance on.
+// A compiled program: instructions over a flat memory of cells. Variables are places in that memory: those of
+// VAR_GLOBAL and of FUNCTIONs (which cannot call themselves) at fixed places, those of a PROGRAM or a
+// function block from the beginning of its instance on.
 namespace drycut::devices::plcopen::st {
 
-/// What a node does; `a`, `b`, `c` are nodes unless it says otherwise.
+/// What a node of the tree (nodes.hpp) does; `a`, `b`, `c` are nodes unless it says otherwise. Instructions
+/// are of these too, and of those at the end: see StInstruction.
 enum class StOp : std::uint8_t {
+  nothing,  ///< a statement
+
   // Values.
   constant,  ///< imm
   load,      ///< the cell at imm
@@ -125,7 +128,6 @@ enum class StOp : std::uint8_t {
   passes,           ///< FOR: a is not yet beyond b with step c
 
   // Statements.
-  nothing,
   evaluate,     ///< a value that nobody wants
   store,        ///< value a to the cell at imm
   store_own,    ///< value a to the cell at imm of the own instance
@@ -142,7 +144,31 @@ enum class StOp : std::uint8_t {
   leave_loop,
   next_turn,
   leave_pou,
+
+  // Of instructions only.
+  move,
+  fetch,
+  put,
+  place,
+  call_motion,
+  turn,
+  jump,
+  jump_if,
+  jump_unless,
+  unless_equal,  ///< from here on in the order of the comparisons
+  unless_not_equal,
+  unless_less,
+  unless_less_equal,
+  unless_greater,
+  unless_greater_equal,
+  unless_equal_real,
+  unless_not_equal_real,
+  unless_less_real,
+  unless_less_equal_real,
+  unless_greater_real,
+  unless_greater_equal_real,
 };
+inline constexpr StOp last_op = StOp::unless_greater_equal_real;
 
 /// Functions of texts. A text is an address; where the result is one, the first node is where it goes.
 enum class TextOp : std::uint8_t {
@@ -164,22 +190,12 @@ constexpr std::size_t texts_of(TextOp op, std::size_t inputs) {
   return op == TextOp::insert || op == TextOp::replace || op == TextOp::find ? 2 : 1;
 }
 
-struct Node {
-  StOp op = StOp::nothing;
-  Basic basic = Basic::unknown;
-  int line = 0;
-  int column = 0;
-  int a = -1;
-  int b = -1;
-  int c = -1;
-  std::int64_t imm = 0;
-};
-
 /// Bounds of an array and the size of its elements.
 struct Span {
   std::int64_t low = 0;
   std::int64_t high = 0;
   int cells = 0;
+  std::int64_t behind = 0;  ///< in instructions: cells behind the array's beginning
 };
 
 /// What references are of: see references.hpp.
@@ -192,12 +208,73 @@ struct Referent {
 /// One label of a CASE.
 struct Choice {
   Subrange range;
-  int body = -1;
+  int body = -1;  ///< a node; in instructions where they go on
+};
+
+/// Where cells of operands are counted from.
+enum class Base : std::uint32_t { memory, own, temporary, constant };
+/// Where a value of the instructions is; or a number as it is, of the base `memory`.
+struct StOperand {
+  std::uint32_t cells = 0;
+  Base base = Base::memory;
+};
+inline bool operator==(const StOperand& a, const StOperand& b) {
+  return a.cells == b.cells && a.base == b.base;
+}
+/// In one number, as lists have it.
+constexpr int base_shift = 28;
+constexpr int packed(const StOperand& of) {
+  return static_cast<int>(of.cells | static_cast<std::uint32_t>(of.base) << base_shift);
+}
+constexpr StOperand unpacked(int number) {
+  const auto bits = static_cast<std::uint32_t>(number);
+  return {bits & ((1U << base_shift) - 1), static_cast<Base>(bits >> base_shift)};
+}
+
+/// One step of the machine. Most put into the cell `a` what comes of the cells `b` and `c`; of an operation
+/// without effects `op` is that itself. The others:
+///
+/// move, time_now: b, the time. place: the place of the cell b. fetch: the cell d behind the address b. put:
+/// b into the cell d behind the address a. follow: d behind the address b. element: element c of the array at
+/// the address b, d its Span. dereference: d behind what the reference b is of, Referent c. make_reference:
+/// to the address b, Referent d. load_by: by the reference b. store_by: b by the reference a. instance: what
+/// the interface b stands for. select: b if the cell d holds, else c. compare_strings, passes: as the node,
+/// its step in the cell d. in_range: b in Span d. text: TextOp b, whose texts and numbers stand in list d
+/// behind their number and whether they are WSTRINGs. store_bits: b into c bits from bit d on at the address
+/// a. copy: d cells from the address b to a. copy_string: from the address b to a, d bytes at most, and c - 1
+/// characters of a WSTRING. call_function, call_method: list d has the instance and the method's number of a
+/// method, then the POU, how many inputs, and for each its cell, its place and the cells to copy (as in the
+/// node); c cells of the result go to the address b, if any. call_block: POU d at the address a. call_motion:
+/// the block that begins at the cell a; with c the one at the address a.
+///
+/// jump: on at d. jump_if, jump_unless: if the cell a holds, or does not; unless_...: unless b compares so
+/// with c. choose: where one of c Choices from b on says by the value a, else at d. multiplex: where list d
+/// says, of c. turn: a loop begins anew. leave_pou. nothing.
+struct StInstruction {
+  StOp op = StOp::nothing;
+  Basic basic = Basic::unknown;
+  bool statement = false;  ///< one begins here
+  int d = 0;
+  StOperand a;
+  StOperand b;
+  StOperand c;
+};
+
+/// What the text has to an instruction.
+struct Origin {
+  int node = 0;
+  int line = 0;
+  int column = 0;
+  int statement = 0;      ///< line of the one that begins here; 0 in standard blocks
+  bool shown = false;     ///< that line has been come by then; it has no condition
+  bool standard = false;  ///< it is none of the text
+  /// It decides a condition: by its jump to FALSE, and as the last of several by going on to TRUE.
+  enum class Condition : std::uint8_t { none, part, last } condition = Condition::none;
 };
 
 /// A body: of a PROGRAM, a FUNCTION or a user's function block.
 struct Pou {
-  int body = -1;
+  int body = -1;                 ///< a node; then where its instructions begin
   int frame = 0;                 ///< where the variables of a FUNCTION are
   int result = 0;                ///< FUNCTION: offset of its result
   std::vector<Subrange> resets;  ///< offsets that get their initial values at each call, the last included
@@ -219,7 +296,10 @@ struct Compiled {
   std::vector<Program::Name> tables;
 
   std::vector<std::unique_ptr<Type>> types;
-  std::vector<Node> nodes;
+  std::vector<StInstruction> code;
+  std::vector<Origin> origins;  ///< one an instruction
+  std::vector<Cell> constants;
+  std::size_t temporaries = 0;  ///< cells that a body needs at most
   std::vector<int> lists;
   std::vector<Span> spans;
   std::vector<Choice> choices;
@@ -231,7 +311,7 @@ struct Compiled {
   struct Instance {
     int pou = -1;
     int cell = 0;     ///< where its variables are
-    int before = -1;  ///< statements that give its inputs, and take its outputs
+    int before = -1;  ///< statements that give its inputs, and take its outputs; as Pou::body
     int after = -1;
   };
   std::vector<Instance> instances;  ///< as Program::instances
@@ -265,7 +345,6 @@ struct Compiled {
   // For whoever watches it.
   std::vector<SourceFile> files;
   SourceLines lines;
-  std::size_t user_nodes = 0;  ///< so many are of the text, those behind them of standard blocks
   /// A PROGRAM or a block that runs, and what stands before the names of its variables: "", "Main.".
   struct Scope {
     std::string pou;

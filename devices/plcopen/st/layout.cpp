@@ -98,7 +98,7 @@ void Compiler::place_in_memory() {
 void Compiler::finish() {
   Compiled& code = *code_;
   place_located();
-  for (Node& node : code.nodes) {
+  for (Node& node : nodes_.nodes) {
     if (node.op != StOp::address_pool) continue;
     node.op = StOp::address;
     node.imm += memory_;
@@ -120,6 +120,12 @@ void Compiler::finish() {
     fill(*connections_[i].unit->type, code.instances[i].cell);
   code.image.insert(code.image.end(), pool_.begin(), pool_.end());
   if (!code.referents.empty()) find_kinds();
+  if (!make_instructions(nodes_, code)) {
+    complain("st.too-large"_code, {1, 1}, "the statements and operations are too many",
+             fmt::format("{} at most", most_instructions));
+    code.instances.clear();
+    return;
+  }
 
   for (std::size_t i = 0; i < code.instances.size(); ++i) {
     // One program's variables need no name before them.

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -12,8 +13,8 @@ namespace drycut::devices::plcopen::st {
 
 /// An error of a program while it runs; told as Runtime::fault.
 struct StError : std::runtime_error {
-  StError(const Node& at, const std::string& text)
-      : std::runtime_error(text), line(at.line), column(at.column) {}
+  StError(int in_line, int at_column, const std::string& text)
+      : std::runtime_error(text), line(in_line), column(at_column) {}
   int line;
   int column;
 };
@@ -29,8 +30,8 @@ struct Trace {
 /// The memory of a program and what runs on it.
 class Machine {
  public:
-  /// Work of one program in one scan above which it is taken for endless: each operation, statement and call
-  /// is 1, and so are eight cells or characters that are copied.
+  /// Work of one program in one scan above which it is taken for endless: each instruction is 1, and so are
+  /// eight cells or characters that are copied. Looked at where a loop begins anew, at calls and copies.
   static constexpr std::int64_t most_work = 10'000'000;
 
   Machine(const Compiled& code, MotionKernel& kernel);
@@ -64,7 +65,11 @@ class Machine {
   void visit(StateArchive& archive);
 
  private:
-  enum class Flow : std::uint8_t { next, leave_loop, next_turn, leave_pou };
+  /// Where operands are, by their Base.
+  using Bases = std::array<Cell*, 4>;
+  static Cell& at(const Bases& bases, const StOperand& of) {
+    return bases[static_cast<std::size_t>(of.base)][of.cells];
+  }
   struct Motion {
     std::unique_ptr<FunctionBlock> block;
     std::vector<PinValue> pins;
@@ -73,61 +78,65 @@ class Machine {
     void visit(StateArchive& archive);
   };
 
-  [[nodiscard]] const Node& node(int number) const { return code_.nodes[static_cast<std::size_t>(number)]; }
   [[nodiscard]] Cell& at(std::int64_t place) { return memory_[static_cast<std::size_t>(place)]; }
-  Cell value(int number);
-  Cell operation(const Node& node);
-  Cell multiplex(const Node& node);
-  /// Tells what was lost in an operation, if anything was.
-  void look_at(const Node& node, Cell before, Cell result);
-  void tell_loss(const Node& node, std::string text);
-  [[nodiscard]] std::string_view whole_text(std::int64_t place) const { return text(place, longest_bytes()); }
-  std::int64_t element(const Node& node);
-  std::int64_t dereference(const Node& node);
-  /// The first of the cells that a value of `node` by a reference lies in, and how many bytes behind.
-  std::pair<const Referent*, Cell*> seen_by(const Node& node, Cell reference, std::int64_t& bytes);
-  Cell call_function(const Node& node);
-  Cell call_method(const Node& node);
-  Cell call_framed(const Node& node, const int* list, int number, std::int64_t own);
-  Cell enabled(const Node& node);
-  Cell in_range(const Node& node);
-  Cell passes(const Node& node);
-  Cell text_value(const Node& node);
-  Cell compare(const Node& node);
+  [[nodiscard]] std::int64_t place_of(const Cell& cell) const { return &cell - memory_.data(); }
+  [[nodiscard]] const Origin& origin(const StInstruction& of) const {
+    return code_.origins[static_cast<std::size_t>(&of - code_.code.data())];
+  }
+  [[noreturn]] void fail(const StInstruction& at, const std::string& text) const;
+  [[noreturn]] void exhausted(const StInstruction& at) const;
+
+  // machine.cpp
+  /// Executes from instruction `first` on until it leaves the body; `own`: where the block's instance begins.
+  void execute(int first, std::int64_t own);
+  template <bool watched>
+  void steps(int first, std::int64_t own);
   /// Gives a POU's variables at `frame` that do not outlast a call their initial values.
   void reset(const Pou& pou, std::int64_t frame);
+  void charge(std::int64_t work) { work_ -= work; }
+  void spend(const StInstruction& on, std::int64_t work) {
+    if ((work_ -= work) < 0) exhausted(on);
+  }
+  void note(int line, char mark);
+  void note_statement(const Origin& origin);
+
+  // machine_values.cpp
+  Cell operation(const StInstruction& of, Cell a, Cell b);
+  /// Tells what was lost in an operation, if anything was.
+  void look_at(const StInstruction& of, Cell before, Cell result);
+  void tell_loss(const StInstruction& of, std::string text);
+  Cell element(const StInstruction& of, Cell array, Cell index) const;
+  Cell in_range(const StInstruction& of, Cell value) const;
+  Cell dereference(const StInstruction& of, Cell value) const;
+  /// The first of the cells that a value by a reference lies in, and how many bytes behind.
+  std::pair<const Referent*, Cell*> seen_by(const StInstruction& by, Cell reference, std::int64_t& bytes);
+  Cell compare(std::int64_t a, std::int64_t b);
+  Cell text_value(const StInstruction& of, const Bases& bases);
   /// Of what functions of texts give; a WSTRING has up to four a character.
   [[nodiscard]] std::size_t longest_bytes() const { return code_.longest_bytes; }
   [[nodiscard]] std::string_view text(std::int64_t place, std::size_t most) const;
-
-  void note(int number, char mark);
-  void note_turn(int number);
-  Flow execute(int number);
-  Flow sequence(const Node& node);
-  Flow branch(const Node& node);
-  Flow choose(const Node& node);
-  Flow loop(const Node& node, int number);
-  Flow repeat(const Node& node, int number);
-  void call_block(const Node& node);
-  void call_motion(std::int64_t instance);
-  void store_bits(const Node& node);
+  [[nodiscard]] std::string_view whole_text(std::int64_t place) const { return text(place, longest_bytes()); }
+  void store_bits(const StInstruction& of, Cell& whole, Cell part) const;
+  void store_text(const StInstruction& of, std::int64_t to, std::int64_t from);
   void copy_string(std::int64_t from, std::int64_t to, std::size_t length);
   void put_string(std::string_view text, std::int64_t to, std::size_t length);
-  /// Looked at by the next statement, so that it is statements that are told of.
-  void charge(std::int64_t work) { work_ -= work; }
-  void spend(const Node& node, std::int64_t work) {
-    if ((work_ -= work) < 0) exhausted(node);
-  }
-  [[noreturn]] static void exhausted(const Node& node);
+
+  // machine_calls.cpp
+  Cell call_function(const StInstruction& of, const Bases& bases);
+  Cell call_method(const StInstruction& of, const Bases& bases);
+  Cell call_framed(const StInstruction& of, const Bases& bases, const int* list, int number,
+                   std::int64_t own);
+  void call_block(const StInstruction& of, std::int64_t instance);
+  void call_motion(const StInstruction& of, Cell* instance);
 
   const Compiled& code_;
   MotionKernel& kernel_;
+  std::vector<Cell> constants_;
   std::vector<Cell> memory_;
   std::vector<Motion> motions_;
   std::vector<Loss> losses_;
   std::set<int> told_;        ///< nodes whose loss has been told
   std::vector<bool> active_;  ///< methods that run
-  std::int64_t own_ = 0;      ///< where the instance begins whose block runs
   std::int64_t time_ms_ = 0;
   std::int64_t work_ = 0;  ///< that is left in this scan
   std::int64_t statements_ = 0;

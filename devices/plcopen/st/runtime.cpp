@@ -170,6 +170,10 @@ double Runtime::read(std::size_t symbol) const {
                                : static_cast<double>(cell);
 }
 
+bool Runtime::holds(std::size_t symbol) const {
+  return state_->machine.cell(state_->program.compiled().places[symbol].cell) != 0;
+}
+
 const FunctionBlock* Runtime::block(std::size_t symbol) const {
   return state_->machine.motion_at(state_->program.compiled().places.at(symbol).cell);
 }

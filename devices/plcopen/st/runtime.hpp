@@ -79,6 +79,8 @@ class Runtime {
   /// A REAL that has overflowed as the largest there is, one that is no number as 0, BOOL as 0 and 1, TIME in
   /// s, TOD in s since midnight, DATE and DT in s since 1970, an enumeration as its number.
   [[nodiscard]] double read(std::size_t symbol) const;
+  /// The same of a BOOL.
+  [[nodiscard]] bool holds(std::size_t symbol) const;
   /// The motion block whose pin the symbol is; nullptr if it is none.
   [[nodiscard]] const FunctionBlock* block(std::size_t symbol) const;
   /// Its kind, "MC_CamIn"; "" if it is none.

@@ -298,8 +298,8 @@ int Statements::case_statement() {
     for (const Subrange& range : ranges) choices.push_back({range, body});
   }
   close(opened, "END_CASE");
-  const int first = static_cast<int>(code_->choices.size());
-  code_->choices.insert(code_->choices.end(), choices.begin(), choices.end());
+  const int first = static_cast<int>(nodes_.choices.size());
+  nodes_.choices.insert(nodes_.choices.end(), choices.begin(), choices.end());
   return add_node(StOp::choose, Basic::unknown, opened.place, selector, first,
                   static_cast<int>(choices.size()), otherwise);
 }

@@ -7,30 +7,9 @@
 namespace drycut::devices::plcopen::st {
 namespace {
 
-struct TypeRow {
-  Basic basic;
-  std::string_view name;
-  int bits;
-  bool sign;
-};
-// In the order of Basic.
-constexpr std::array<TypeRow, 22> rows{{
-    {Basic::unknown, "?", 64, true},     {Basic::boolean, "BOOL", 1, false},
-    {Basic::sint, "SINT", 8, true},      {Basic::int_, "INT", 16, true},
-    {Basic::dint, "DINT", 32, true},     {Basic::lint, "LINT", 64, true},
-    {Basic::usint, "USINT", 8, false},   {Basic::uint, "UINT", 16, false},
-    {Basic::udint, "UDINT", 32, false},  {Basic::ulint, "ULINT", 64, false},
-    {Basic::byte, "BYTE", 8, false},     {Basic::word, "WORD", 16, false},
-    {Basic::dword, "DWORD", 32, false},  {Basic::lword, "LWORD", 64, false},
-    {Basic::real, "REAL", 32, true},     {Basic::lreal, "LREAL", 64, true},
-    {Basic::time, "TIME", 32, false},    {Basic::tod, "TOD", 32, false},
-    {Basic::date, "DATE", 32, false},    {Basic::dt, "DT", 32, false},
-    {Basic::string, "STRING", 0, false}, {Basic::axis, "AXIS_REF", 32, true},
-}};
-
 std::vector<Type> make_elementary() {
   std::vector<Type> types;
-  for (const TypeRow& row : rows) {
+  for (const TypeRow& row : type_rows) {
     Type type;
     type.basic = row.basic;
     type.name = row.name;
@@ -57,25 +36,11 @@ const std::vector<Type>& elementary() {
   return types;
 }
 
-const TypeRow& row_of(Basic basic) {
-  return rows.at(basic == Basic::enumeration ? static_cast<std::size_t>(Basic::int_)
-                                             : static_cast<std::size_t>(basic));
-}
-
 }  // namespace
 
-bool is_integer(Basic basic) { return basic >= Basic::sint && basic <= Basic::lword; }
-bool is_wide(Basic basic) { return basic == Basic::ulint || basic == Basic::lword; }
-bool is_real(Basic basic) { return basic == Basic::real || basic == Basic::lreal; }
-bool is_number(Basic basic) { return is_integer(basic) || is_real(basic); }
-bool is_clock(Basic basic) { return basic >= Basic::time && basic <= Basic::dt; }
-bool is_whole(Basic basic) {
-  return is_integer(basic) || basic == Basic::boolean || is_clock(basic) || basic == Basic::enumeration;
-}
 bool is_single(Basic basic) {
   return is_elementary(basic) || basic == Basic::axis || basic == Basic::reference;
 }
-bool is_elementary(Basic basic) { return is_whole(basic) || is_real(basic); }
 
 int bits_of(Basic basic) { return row_of(basic).bits; }
 
@@ -94,18 +59,6 @@ Subrange range_of(const Type& type) {
 }
 
 int per_second(Basic basic) { return basic == Basic::time || basic == Basic::tod ? 1000 : 1; }
-
-std::int64_t wrapped(Basic basic, std::int64_t value) {
-  if (!is_whole(basic)) return value;
-  const TypeRow& row = row_of(basic);
-  const auto above = static_cast<unsigned>(64 - row.bits);
-  const std::uint64_t shifted = static_cast<std::uint64_t>(value) << above;
-  return row.sign ? static_cast<std::int64_t>(shifted) >> above : static_cast<std::int64_t>(shifted >> above);
-}
-
-double rounded(Basic basic, double value) {
-  return basic == Basic::real ? static_cast<double>(static_cast<float>(value)) : value;
-}
 
 bool widens(Basic from, Basic to) {
   // Structures, arrays, blocks and enumerations are alike by their names, not by their kinds.

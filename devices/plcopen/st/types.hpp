@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <optional>
@@ -48,6 +49,33 @@ enum class Basic : std::uint8_t {
   block,
   reference,  ///< REF_TO: see references.cpp; without an element it is NULL
 };
+
+/// An elementary type.
+struct TypeRow {
+  Basic basic;
+  std::string_view name;
+  int bits;
+  bool sign;
+};
+/// In the order of Basic.
+inline constexpr std::array<TypeRow, 22> type_rows{{
+    {Basic::unknown, "?", 64, true},     {Basic::boolean, "BOOL", 1, false},
+    {Basic::sint, "SINT", 8, true},      {Basic::int_, "INT", 16, true},
+    {Basic::dint, "DINT", 32, true},     {Basic::lint, "LINT", 64, true},
+    {Basic::usint, "USINT", 8, false},   {Basic::uint, "UINT", 16, false},
+    {Basic::udint, "UDINT", 32, false},  {Basic::ulint, "ULINT", 64, false},
+    {Basic::byte, "BYTE", 8, false},     {Basic::word, "WORD", 16, false},
+    {Basic::dword, "DWORD", 32, false},  {Basic::lword, "LWORD", 64, false},
+    {Basic::real, "REAL", 32, true},     {Basic::lreal, "LREAL", 64, true},
+    {Basic::time, "TIME", 32, false},    {Basic::tod, "TOD", 32, false},
+    {Basic::date, "DATE", 32, false},    {Basic::dt, "DT", 32, false},
+    {Basic::string, "STRING", 0, false}, {Basic::axis, "AXIS_REF", 32, true},
+}};
+
+/// An enumeration is kept as an INT.
+constexpr const TypeRow& row_of(Basic basic) {
+  return type_rows.at(static_cast<std::size_t>(basic == Basic::enumeration ? Basic::int_ : basic));
+}
 
 /// Smallest and largest value of a type of whole numbers, BOOL and times included; of ULINT and LWORD what is
 /// a LINT too.
@@ -104,13 +132,19 @@ struct Type {
   bool broken = false;    ///< a declaration was given up: what is missing has been told
 };
 
-bool is_integer(Basic basic);  ///< SINT..ULINT, BYTE..LWORD
-bool is_wide(Basic basic);     ///< ULINT, LWORD
-bool is_real(Basic basic);
-bool is_number(Basic basic);
-bool is_clock(Basic basic);  ///< TIME, TOD, DATE, DT
-bool is_whole(Basic basic);  ///< what is kept as a whole number: integers, BOOL, times, dates, enumerations
-bool is_elementary(Basic basic);
+/// SINT..ULINT, BYTE..LWORD
+constexpr bool is_integer(Basic basic) { return basic >= Basic::sint && basic <= Basic::lword; }
+/// ULINT, LWORD
+constexpr bool is_wide(Basic basic) { return basic == Basic::ulint || basic == Basic::lword; }
+constexpr bool is_real(Basic basic) { return basic == Basic::real || basic == Basic::lreal; }
+constexpr bool is_number(Basic basic) { return is_integer(basic) || is_real(basic); }
+/// TIME, TOD, DATE, DT
+constexpr bool is_clock(Basic basic) { return basic >= Basic::time && basic <= Basic::dt; }
+/// What is kept as a whole number: integers, BOOL, times, dates, enumerations.
+constexpr bool is_whole(Basic basic) {
+  return is_integer(basic) || basic == Basic::boolean || is_clock(basic) || basic == Basic::enumeration;
+}
+constexpr bool is_elementary(Basic basic) { return is_whole(basic) || is_real(basic); }
 bool is_single(Basic basic);  ///< of one cell, which is its value
 /// Of a type that is_whole.
 Subrange range_of(Basic basic);
@@ -119,9 +153,17 @@ Subrange range_of(const Type& type);
 int per_second(Basic basic);
 int bits_of(Basic basic);
 /// `value` in the width of the type, as a machine drops the bits above.
-std::int64_t wrapped(Basic basic, std::int64_t value);
+constexpr std::int64_t wrapped(Basic basic, std::int64_t value) {
+  if (!is_whole(basic)) return value;
+  const TypeRow& row = row_of(basic);
+  const auto above = static_cast<unsigned>(64 - row.bits);
+  const std::uint64_t shifted = static_cast<std::uint64_t>(value) << above;
+  return row.sign ? static_cast<std::int64_t>(shifted) >> above : static_cast<std::int64_t>(shifted >> above);
+}
 /// `value` as a REAL or LREAL keeps it.
-double rounded(Basic basic, double value);
+constexpr double rounded(Basic basic, double value) {
+  return basic == Basic::real ? static_cast<double>(static_cast<float>(value)) : value;
+}
 /// Whether every value of `from` is one of `to`: the conversions that IEC 61131-3 makes by itself.
 bool widens(Basic from, Basic to);
 bool same_type(const Type& a, const Type& b);

@@ -67,7 +67,7 @@ void Compiler::compile_bodies() {
       if (unit->pou < 0 || unit->state != Unit::State::done || !compiled.insert(unit->pou).second) continue;
       compile_body(*unit);
       more = true;
-      if (!unit->standard) code_->user_nodes = code_->nodes.size();
+      if (!unit->standard) nodes_.of_text = nodes_.nodes.size();
     }
   }
 }
@@ -226,7 +226,7 @@ void Compiler::check_programs() {
              "PROGRAM name ... END_PROGRAM is what the controller runs");
 }
 
-/// No call leads back to where it came from, and none goes deeper than the machine.
+/// No call leads back to where it came from, and none goes deeper than can be done.
 void Compiler::check_calls() {
   std::vector<Unit*> of_pou(code_->pous.size(), nullptr);
   for (const auto& unit : units_)
@@ -275,7 +275,8 @@ void Compiler::tell_recursion(const Unit& called, const Unit& caller) {
                                             in_quotes(caller.name.text)));
 }
 
-/// The machine calls itself for each call, statement and operation within another.
+/// What makes the instructions calls itself for each statement and operation within another, the machine for
+/// each call.
 void Compiler::check_depth() {
   constexpr int most_levels = 4000;
   for (const auto& unit : units_) {

@@ -12,7 +12,7 @@
 namespace drycut::devices::plcopen::st {
 namespace {
 
-/// Calls of the machine within each other for one statement in another.
+/// Of one statement in another.
 constexpr int levels_of_a_statement = 3;
 
 }  // namespace
@@ -44,19 +44,19 @@ TypedExpression Values::refuse(Code code, Place place, std::string what, std::st
 }
 
 int Values::add_node(StOp op, Basic basic, Place place, int a, int b, int c, std::int64_t imm) {
-  code_->nodes.push_back({op, basic, place.line, place.column, a, b, c, imm});
-  return static_cast<int>(code_->nodes.size()) - 1;
+  nodes_.nodes.push_back({op, basic, place.line, place.column, a, b, c, imm});
+  return static_cast<int>(nodes_.nodes.size()) - 1;
 }
 
 int Values::add_list(const std::vector<int>& items) {
-  const int first = static_cast<int>(code_->lists.size());
-  code_->lists.insert(code_->lists.end(), items.begin(), items.end());
+  const int first = static_cast<int>(nodes_.lists.size());
+  nodes_.lists.insert(nodes_.lists.end(), items.begin(), items.end());
   return first;
 }
 
 int Values::add_span(const Span& span) {
-  code_->spans.push_back(span);
-  return static_cast<int>(code_->spans.size()) - 1;
+  nodes_.spans.push_back(span);
+  return static_cast<int>(nodes_.spans.size()) - 1;
 }
 
 int Values::value_node(const TypedExpression& expression) {
@@ -98,8 +98,8 @@ int Values::address_plus(int address, std::int64_t offset) {
   if (offset == 0 || address < 0) return address;
   Node moved = node(address);
   moved.imm += offset;
-  code_->nodes.push_back(moved);
-  return static_cast<int>(code_->nodes.size()) - 1;
+  nodes_.nodes.push_back(moved);
+  return static_cast<int>(nodes_.nodes.size()) - 1;
 }
 
 int Values::in_pool(std::size_t cells) {

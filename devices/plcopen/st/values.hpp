@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "devices/plcopen/st/code.hpp"
+#include "devices/plcopen/st/nodes.hpp"
 #include "devices/plcopen/st/parser.hpp"
 
 namespace drycut::devices::plcopen::st {
@@ -52,7 +52,7 @@ struct Unit {
   [[nodiscard]] bool tells_kind() const {
     return extended || !methods.empty() || !interfaces.empty() || base != nullptr;
   }
-  int levels = 1;  ///< how deep the machine calls itself for its body; with those that it calls at the end
+  int levels = 1;  ///< how deep its statements and operations go; with those that it calls at the end
   int levels_below = 0;  ///< of what it calls
 };
 
@@ -152,10 +152,11 @@ class Values : public Parser {
   const Type* longest_string(bool wide);
 
  protected:
-  [[nodiscard]] const Node& node(int number) const { return code_->nodes[static_cast<std::size_t>(number)]; }
+  [[nodiscard]] const Node& node(int number) const { return nodes_.node(number); }
   [[nodiscard]] Pou& pou(const Unit& unit) { return code_->pous[static_cast<std::size_t>(unit.pou)]; }
 
   std::shared_ptr<Compiled> code_ = std::make_shared<Compiled>();
+  Nodes nodes_;
   std::vector<Cell> pool_;  ///< literals and scratch, placed last
   Unit* unit_ = nullptr;    ///< whose text is being read
 

@@ -269,5 +269,83 @@ TEST(StFault, EndlessLoopsAndMuxStopTheProgram) {
             "2:6: MUX has no value 2; 0 to 1");
 }
 
+TEST(StOrder, OperandsAreComputedFromTheLeft) {
+  const std::string functions =
+      "VAR_GLOBAL g : INT := 1; END_VAR FUNCTION F : INT g := g + 10; F := 100; END_FUNCTION "
+      "FUNCTION Weighed : INT VAR_INPUT a, b, c : INT; END_VAR Weighed := a + 2 * b + 4 * c; END_FUNCTION ";
+  EXPECT_EQ(run("x : INT;", "x := g + F() + g;", functions), 1 + 100 + 11);
+  EXPECT_EQ(run("x : INT;", "x := Weighed(g, F(), g);", functions), 1 + 200 + 44);
+  EXPECT_EQ(run("x : INT; many : ARRAY [0..20] OF INT;",
+                "many[11] := 3; many[g + 0 * F()] := g; x := many[1];", functions),
+            1);
+  EXPECT_EQ(run("x : INT;", "IF g < F() - 98 THEN x := g; END_IF", functions), 11);
+  EXPECT_EQ(run("x : INT; s : STRING := 'abc';",
+                "s := CONCAT(INT_TO_STRING(g), INT_TO_STRING(F() + g)); "
+                "x := STRING_TO_INT(s);",
+                functions),
+            1111);
+}
+
+TEST(StOrder, WhatIsAssignedIsReadBefore) {
+  EXPECT_EQ(run("x : BOOL := TRUE; t : BOOL := TRUE;", "x := t AND_THEN (NOT x OR_ELSE x);"), 1);
+  EXPECT_EQ(run("x : BOOL := TRUE; f : BOOL;", "x := f OR_ELSE (f OR_ELSE x);"), 1);
+  EXPECT_EQ(run("x : INT := 2;", "x := MUX(x, 5, 6, x + 7);"), 9);
+  EXPECT_EQ(
+      run("x : INT;", "x := Both(3, twice => x);",
+          "FUNCTION Both : INT VAR_INPUT a : INT; END_VAR VAR_OUTPUT twice : INT; END_VAR twice := 2 * a; "
+          "Both := a; END_FUNCTION"),
+      3)
+      << "the result is stored behind the outputs";
+}
+
+TEST(StOrder, AFunctionThatGivesATextRunsOnce) {
+  EXPECT_EQ(run("x : INT; s : STRING; w : WSTRING;", "s := Told(); w := ToldWide(); x := g;",
+                "VAR_GLOBAL g : INT; END_VAR FUNCTION Told : STRING g := g + 1; Told := 'a'; END_FUNCTION "
+                "FUNCTION ToldWide : WSTRING g := g + 10; ToldWide := \"a\"; END_FUNCTION"),
+            11);
+}
+
+TEST(StOrder, ABlockThatIsRunWithinItselfKeepsWhatItHasComputed) {
+  // By an interface another instance's body runs while the first one's expression waits.
+  Bench bench(
+      "INTERFACE I METHOD m : INT END_METHOD END_INTERFACE\n"
+      "FUNCTION_BLOCK A VAR_INPUT other : I; n : INT; deep : BOOL; END_VAR VAR_OUTPUT y : INT; END_VAR\n"
+      "IF deep THEN y := (n + 1) * (n + 2) + other.m() * (n + 3); ELSE y := (n + 4) * (n + 5); END_IF\n"
+      "END_FUNCTION_BLOCK\n"
+      "FUNCTION_BLOCK B IMPLEMENTS I VAR_INPUT p : REF_TO A; END_VAR\n"
+      "METHOD m : INT p^(n := 20); m := p^.y; END_METHOD END_FUNCTION_BLOCK\n"
+      "PROGRAM main VAR a1, a2 : A; b : B; END_VAR\n"
+      "b.p := REF(a2); a1.other := b; a1(n := 1, deep := TRUE); END_PROGRAM");
+  bench.scan();
+  bench.expect({{"a2.y", 24 * 25}, {"a1.y", 2 * 3 + 24 * 25 * 4}});
+}
+
+TEST(StOrder, LoopsLeaveAndGoOn) {
+  EXPECT_EQ(run("x, i, j : INT;",
+                "FOR i := 1 TO 5 DO FOR j := 1 TO 5 DO IF j = 2 THEN CONTINUE; END_IF "
+                "IF j = 4 THEN EXIT; END_IF x := x + j; END_FOR IF i = 3 THEN EXIT; END_IF END_FOR"),
+            3 * 4);
+  EXPECT_EQ(run("x, i : INT;",
+                "REPEAT i := i + 1; IF i MOD 2 = 0 THEN CONTINUE; END_IF x := x + i; UNTIL i >= 6 "
+                "END_REPEAT"),
+            1 + 3 + 5);
+  EXPECT_EQ(run("x : INT; i : INT; step : INT := -2;", "FOR i := 6 TO 1 BY step DO x := 10 * x + i; END_FOR"),
+            642);
+  EXPECT_EQ(run("x : INT; i : INT;", "FOR i := 6 TO 1 BY -3 DO x := 10 * x + i; END_FOR"), 63);
+}
+
+TEST(StInstructions, AreCountedWhereAValueStandsInSeveralPlaces) {
+  // What is left of a DT without its seconds: each takes the value before twice.
+  const auto program = [](int times) {
+    std::string value = "now";
+    for (int i = 0; i < times; ++i) value = "DATE_TO_DT(DT_TO_DATE(" + value + "))";
+    return "PROGRAM p VAR now, x : DT := DT#2024-02-29-06:30:00; END_VAR x := " + value + "; END_PROGRAM";
+  };
+  Bench bench(program(10));
+  bench.scan();
+  EXPECT_EQ(bench["x"], bench["now"] - 6.5 * 3600);
+  expect_problems(program(24), {"1:1: the statements and operations are too many; 1000000 at most$"});
+}
+
 }  // namespace
 }  // namespace drycut::devices::plcopen::st

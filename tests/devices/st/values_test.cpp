@@ -234,8 +234,9 @@ TEST(StBlocks, CountersCountEdges) {
   pulse("reset");
   bench.expect({{"a.CV", 0}, {"c.QD", 1}});
   pulse("load");
-  bench.expect({{"b.CV", 2}, {"b.Q", 0}});
+  bench.expect({{"b.CV", 2}, {"b.Q", 0}, {"c.CV", 2}});
   pulse("down");
+  bench.expect({{"b.CV", 1}, {"c.CV", 1}});  // not at the falling edge
   pulse("down");
   bench.expect({{"b.Q", 1}, {"c.CV", 0}});
   pulse("down");
