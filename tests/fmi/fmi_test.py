@@ -123,6 +123,10 @@ def line(program, there):
             system = re.match(r"(lib(c|m|stdc\+\+|gcc_s)\.so|linux-vdso|/lib64/ld-linux)", name)
             assert system or f"=> {fmu.binary.parent}/{name} " in needed, needed
             assert not re.search("GL|assimp|cairo", name), needed
+        part = r"(?:[A-Za-z_]\w*|'[^']+')"
+        for name in fmu.variables:
+            assert re.fullmatch(rf"{part}(?:\.{part})*", name), f"{name} is no structured name"
+        assert "'2.AN01'" in fmu.variables and "set.web.speed" in fmu.variables
         names = [output + ".channel" if output + ".channel" in fmu.variables else output for output in outputs]
         done = subprocess.run([replay, fmu.path, "1e-3", "2", str(len(names)), "switch:panel.start", "real:set.web.speed",
                                *("real:" + name for name in names)],
@@ -162,8 +166,8 @@ def line(program, there):
         assert shorter.set("set.web.speed", 1e6) == ERROR and "out of range" in shorter.said[-1]
         assert shorter.step(5.6, 1.5e-4) == ERROR and "whole multiple" in shorter.said[-1]
         bad = Instance(fmu)
-        assert bad.set("parameters.length", -1.0) == OK
-        assert bad.initialise() == ERROR and bad.said, "a length below 0 is no line"
+        assert bad.set("parameters.length", 1e9) == OK
+        assert bad.initialise() == ERROR and bad.said, "no variable of the program holds that length"
         for instance in (one, other, shorter, bad):
             instance.free()
     print("line: 6000 steps of 1 ms, 7 outputs, both versions: the same")
@@ -468,7 +472,9 @@ def bode(program, there):
                 found[number[1], bool(number[2])] = float(number[3])
         return found
 
-    told = margins("--fmi-step", "1 ms")
+    told = margins("--fmi-step", "1 ms", "--out", there / "bode")
+    report = (there / "bode" / "report.html").read_text()
+    assert report.count("behind an FMI step of 1 ms") >= 2, "the report does not say it"
     measured = margins("--set", "controller.qmove.compute_time=1 ms")
     assert len(told) == 4 and len(measured) == 2, (told, measured)
     for margin in ("phase", "gain"):

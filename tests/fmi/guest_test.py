@@ -305,39 +305,44 @@ def own(place):
 
 
 def foreign(place):
-    """The public reference FMUs, where DRYCUT_REFERENCE_FMUS names a folder with 2.0/*.fmu, 3.0/*.fmu and their published results."""
+    """The public reference FMUs, where DRYCUT_REFERENCE_FMUS names a folder with 2.0/*.fmu, 3.0/*.fmu, and NAME_out.csv, their
+    published results."""
     folder = os.environ.get("DRYCUT_REFERENCE_FMUS")
     if not folder:
         print("DRYCUT_REFERENCE_FMUS names no folder")
         sys.exit(SKIPPED)
-    for results in sorted(Path(folder).glob("*.csv")):
-        model = results.name.split("_ref")[0]
+    for fmu in sorted(Path(folder).glob("?.0/*.fmu")):
+        results = Path(folder) / f"{fmu.stem}_out.csv"
+        if not results.exists():
+            continue
         with open(results, newline="") as file:
             wanted = list(csv.DictReader(file))
         times = [float(row["time"]) for row in wanted]
         names = [name for name in wanted[0] if name != "time"]
-        for version in ("2.0", "3.0"):
-            fmu = Path(folder) / version / f"{model}.fmu"
-            if not fmu.exists():
+        step = min(b - a for a, b in zip(times, times[1:]) if b > a)
+        name = f"{fmu.stem}{fmu.parent.name[0]}"
+        shutil.copy(fmu, place.there / f"{name}.fmu")
+        text = f"""scene: {{step: {step:g} s, duration: {times[-1]:g} s}}
+plants: {{m: {{type: fmu, file: {name}.fmu}}}}
+record: {{every: {step:g} s, channels: [CHANNELS]}}
+"""
+        elements = [f"{one}[{n + 1}]" for one in names for n in range(len(wanted[0][one].split()))]  # of lists
+        shown = elements if len(elements) > len(names) else names
+        done = place.run(name, text.replace("CHANNELS", ", ".join(f'"m.{one}"' for one in shown)))
+        ends = fmu.stem == "Stair" and "asks to end the run" in done.stdout + done.stderr  # at the top of its stairs
+        assert done.returncode == (3 if ends else 0), done.stdout + done.stderr
+        rows = {round(float(row["time"]), 9): row for row in place.rows(name)}
+        compared, worst = 0, 0.0
+        for row in wanted:
+            mine = rows.get(round(float(row["time"]), 9))
+            if mine is None:
                 continue
-            step = min(b - a for a, b in zip(times, times[1:]) if b > a)
-            shutil.copy(fmu, place.there / fmu.name)
-            channels = ", ".join(f'"m.{name}"' for name in names)
-            done = place.run(f"{model}{version[0]}", f"""scene: {{step: {step:g} s, duration: {times[-1]:g} s}}
-plants: {{m: {{type: fmu, file: {fmu.name}}}}}
-record: {{every: {step:g} s, channels: [{channels}]}}
-""")
-            assert done.returncode == 0, done.stdout + done.stderr
-            rows = {round(float(row["time"]), 9): row for row in place.rows(f"{model}{version[0]}")}
-            worst = 0.0
-            for row in wanted:
-                mine = rows.get(round(float(row["time"]), 9))
-                if mine is None:
-                    continue
-                for name in names:
-                    worst = max(worst, abs(float(mine[f"m.{name}"]) - float(row[name])))
-            print(f"{model} {version}: {len(rows)} rows, furthest from the published one {worst:g}")
-            assert worst < 0.05, (model, version, worst)
+            numbers = [float(cell) for one in names for cell in row[one].split()]
+            for one, number in zip(shown, numbers, strict=True):
+                worst = max(worst, abs(float(mine[f"m.{one}"]) - number) / max(1.0, abs(number)))
+            compared += 1
+        print(f"{fmu.stem} {fmu.parent.name}: {compared} rows of {len(wanted)}, furthest from the published ones {worst:g}")
+        assert compared > 1 and worst < 1e-9, (name, compared, worst)
 
 
 def main():

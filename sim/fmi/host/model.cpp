@@ -297,6 +297,15 @@ void LoadedModel::find_unknown(const std::vector<SharedVariable>& variables) {
   }
 }
 
+// What 2.0 has for it, if the library has that.
+bool LoadedModel::asks_to_end() const {
+  void* const ask = dlsym(library_, "fmi2GetBooleanStatus");
+  constexpr int terminated = 3;
+  int answer = 0;
+  if (ask != nullptr) reinterpret_cast<int (*)(void*, int, int*)>(ask)(instance_, terminated, &answer);
+  return answer != 0;
+}
+
 void LoadedModel::step(double at, double size, std::span<const double> inputs) {
   for (auto& [kind, group] : inputs_) group->set(instance_, inputs.data());
   int status = ok;
@@ -312,8 +321,9 @@ void LoadedModel::step(double at, double size, std::span<const double> inputs) {
         instance_, at, size, !keeps_state_, &event, &terminated, &early, &reached);
     if (status <= warning && early) refuse("fmi3DoStep returns early, which was not allowed");
   }
+  if (status == discard && version_ == 2) terminated = asks_to_end();
+  if (terminated) refuse("it asks to end the run at " + std::to_string(at + size) + " s");
   if (status > warning) refuse("fmi" + std::to_string(version_) + "DoStep answers " + name_of(status));
-  if (terminated) refuse("it asks to end the run");
 }
 
 const std::vector<double>& LoadedModel::outputs() {

@@ -55,6 +55,7 @@ class LoadedModel {
   void make_instance(const LoadRequest& load);
   void set_parameters(const LoadRequest& load);
   void initialise();
+  [[nodiscard]] bool asks_to_end() const;
   void find_unknown(const std::vector<SharedVariable>& variables);
 
   int version_;

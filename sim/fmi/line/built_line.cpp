@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "base/state_archive.hpp"
 #include "sim/loop/known_events.hpp"
@@ -37,6 +36,19 @@ struct BuiltLine::Told {
 namespace {
 
 std::string unit_or_none(const std::string& unit) { return scenario::is_unit(unit) ? unit : ""; }
+
+/// As the standard's structured names allow: what is no chain of identifiers stands in quotes, '2.CNT01'.
+std::string structured(const std::string& name) {
+  bool begins = true;
+  bool legal = !name.empty() && name.back() != '.';
+  for (const char c : name) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+    const bool digit = c >= '0' && c <= '9';
+    legal = legal && (letter || (!begins && (digit || c == '.')));
+    begins = c == '.';
+  }
+  return legal ? name : "'" + name + "'";
+}
 
 bool is_list(const std::string& name) { return name.find('[') != std::string::npos; }
 
@@ -153,6 +165,7 @@ void BuiltLine::add_plants() {
       };
       variable.set = [](double) {};  // another line is built
       if (const auto live = row.live ? names.target(full) : std::nullopt) {
+        live_.insert(full);
         variable.get = live->read;
         variable.set = live->write;
       }
@@ -176,7 +189,7 @@ void BuiltLine::add_inputs() {
     return fmi_setting(full, meaning, unit, range.low, range.high, range.whole);
   };
   for (const auto& name : names.setting_names()) {
-    if (has_variable("parameters." + name)) continue;  // a live parameter
+    if (live_.contains(name)) continue;
     const auto target = names.target(name);
     if (!target) continue;
     const bool panel = name.starts_with("panel.");
@@ -205,10 +218,9 @@ void BuiltLine::add_inputs() {
 void BuiltLine::add_orders() {
   for (const auto& name : orders_) {
     const auto target = simulation_->names().target(name);
-    if (!target || has_variable(name) || has_variable("set." + name) || has_variable("parameters." + name))
-      continue;
-    FmiVariable variable{"set." + name, "value of the program; it acts when it changes", Type::real,
-                         Role::input};
+    if (!target || has_variable(name) || has_variable("set." + name) || live_.contains(name)) continue;
+    FmiVariable variable{structured("set." + name), "value of the program; it acts when it changes",
+                         Type::real, Role::input};
     told_.push_back(std::make_unique<Told>(Told{target->read()}));
     variable.get = [told = told_.back().get()] { return told->value; };
     variable.set = [told = told_.back().get(), write = target->write](double value) {
@@ -223,18 +235,18 @@ void BuiltLine::add_controller() {
   auto& names = simulation_->names();
   auto* const controller = simulation_->controller();
   for (const auto& name : names.reading_names()) {
-    if (is_list(name) || has_variable(name)) continue;
+    if (is_list(name) || has_variable(structured(name))) continue;
     const auto reading = names.reading(name);
     if (!reading) continue;
     const auto value = controller != nullptr ? controller->find(name) : std::nullopt;
     if (value && value->of_table) continue;
     const auto unit = unit_or_none(reading->unit);
-    add(fmi_output(name, unit == reading->unit ? "as a run records it" : "in " + reading->unit, Type::real,
-                   unit, reading->read));
+    add(fmi_output(structured(name), unit == reading->unit ? "as a run records it" : "in " + reading->unit,
+                   Type::real, unit, reading->read));
     if (!value || !value->write || name.find('.') == std::string::npos || has_variable("set." + name))
       continue;
-    FmiVariable variable{"parameters." + name, "of the controller; its program may set it, too", Type::real,
-                         Role::live_parameter};
+    FmiVariable variable{structured("parameters." + name), "of the controller; its program may set it, too",
+                         Type::real, Role::live_parameter};
     told_.push_back(std::make_unique<Told>(Told{value->read()}));
     variable.get = [told = told_.back().get()] { return told->value; };
     variable.set = [told = told_.back().get(), write = value->write](double number) {

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,7 @@ class BuiltLine : public FmiModel, private record::Observer {
   FileSet files_;
   scenario::Scenario scenario_;
   std::vector<std::string> orders_;
+  std::set<std::string> live_;  ///< parameters of plants that the timeline could set
   std::unique_ptr<loop::Simulation> simulation_;
   std::map<std::uint32_t, LineParameter> parameters_;
   std::vector<std::unique_ptr<Happening>> happenings_;
