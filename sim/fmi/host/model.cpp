@@ -307,6 +307,7 @@ bool LoadedModel::asks_to_end() const {
 }
 
 void LoadedModel::step(double at, double size, std::span<const double> inputs) {
+  if (ended_at_) refuse("it asked to end the run at " + std::to_string(*ended_at_) + " s");
   for (auto& [kind, group] : inputs_) group->set(instance_, inputs.data());
   int status = ok;
   bool terminated = false;
@@ -322,8 +323,9 @@ void LoadedModel::step(double at, double size, std::span<const double> inputs) {
     if (status <= warning && early) refuse("fmi3DoStep returns early, which was not allowed");
   }
   if (status == discard && version_ == 2) terminated = asks_to_end();
-  if (terminated) refuse("it asks to end the run at " + std::to_string(at + size) + " s");
-  if (status > warning) refuse("fmi" + std::to_string(version_) + "DoStep answers " + name_of(status));
+  if (terminated) ended_at_ = at + size;
+  if (status > warning && !terminated)
+    refuse("fmi" + std::to_string(version_) + "DoStep answers " + name_of(status));
 }
 
 const std::vector<double>& LoadedModel::outputs() {
@@ -344,6 +346,7 @@ std::vector<std::byte> LoadedModel::save() {
 }
 
 void LoadedModel::restore(std::span<const std::byte> bytes) {
+  ended_at_.reset();
   void* state = nullptr;
   require(state_name("DeserializeFMUState").c_str(), bytes.data(), bytes.size(), &state);
   require(state_name("SetFMUState").c_str(), state);

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -63,6 +64,7 @@ class LoadedModel {
   void* library_ = nullptr;
   void* instance_ = nullptr;
   bool begun_ = false;
+  std::optional<double> ended_at_ = {};  // [s], where it has asked for the end
   void* step_ = nullptr;
   Groups inputs_;
   Groups outputs_;
