@@ -16,7 +16,7 @@
 
 BUILD    ?= build
 JOBS     ?= $(shell nproc)
-PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev libdeflate-dev libcairo2-dev libassimp-dev libminizip-dev libeigen3-dev libyaml-cpp-dev \
+PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev libdeflate-dev libcairo2-dev libassimp-dev libminizip-dev libpugixml-dev libeigen3-dev libyaml-cpp-dev \
             libudunits2-dev libnlopt-cxx-dev libhdf5-dev zlib1g-dev libzstd-dev libcli11-dev libboost-dev libfmt-dev nlohmann-json3-dev \
             fonts-dejavu-core libjs-dygraphs libjs-three ffmpeg
 PYTHON_PACKAGES := pybind11-dev python3-dev python3-numpy

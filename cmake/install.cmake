@@ -59,4 +59,4 @@ set(CPACK_DEBIAN_PYTHON3-DRYCUT_PACKAGE_RECOMMENDS "drycut, python3-pandas")
 set(CPACK_DEBIAN_LIBDRYCUT-DEV_PACKAGE_NAME libdrycut-dev)
 set(CPACK_DEBIAN_LIBDRYCUT-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBDRYCUT-DEV_PACKAGE_DEPENDS
-    "pkg-config, libbullet-dev, libyaml-cpp-dev, libudunits2-dev, libfmt-dev, libeigen3-dev, nlohmann-json3-dev")
+    "pkg-config, libbullet-dev, libyaml-cpp-dev, libudunits2-dev, libminizip-dev, libpugixml-dev, libfmt-dev, libeigen3-dev, nlohmann-json3-dev")

@@ -1,6 +1,7 @@
 #include "plants/backlash_axis.hpp"
 #include "plants/bench.hpp"
 #include "plants/flying_saw.hpp"
+#include "plants/guest.hpp"
 #include "plants/ideal_axis.hpp"
 #include "plants/linear_axis.hpp"
 #include "plants/plant.hpp"
@@ -26,6 +27,8 @@ const std::vector<PlantType>& plant_types() {
        define<BenchDefinition>},
       {"flying_saw", "a saw on a carriage that clamps the running web, strip or tube, and cuts it",
        define<FlyingSawDefinition>},
+      {"fmu", "a foreign model as an FMU, in a process of its own: a drive, a load, a controller",
+       define<GuestDefinition>},
       {"ideal_axis", "an axis without mass: voltage is speed, exactly", define<IdealAxisDefinition>},
       {"linear_axis", "a carriage on a ball screw or belt with servo, end stops and switches",
        define<LinearAxisDefinition>},

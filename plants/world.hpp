@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "plants/plant.hpp"
 
@@ -100,6 +101,10 @@ class World {
   /// Why the simulation cannot go on ("knife.rotor: 9000 rad/s is more than an eighth of a turn in a step of
   /// 100 us; ..."), "" while all is well.
   [[nodiscard]] const std::string& failure() const { return failure_; }
+  /// What is no body cannot go on; the first reason stays.
+  void fail(std::string why) {
+    if (failure_.empty()) failure_ = std::move(why);
+  }
 
   /// Slow bodies (cut pieces) move in every slow_steps-th step, by slow_steps times h at once.
   static constexpr int slow_steps = 10;

@@ -144,8 +144,8 @@ std::optional<std::string> read_file(const fs::path& file, Problems& problems, s
   return read_file(file, problems, {file.string(), 1, 1}, largest);
 }
 
-std::optional<std::string> read_file(const fs::path& file, Problems& problems, const NamedAt& where,
-                                     std::uintmax_t largest) {
+std::optional<std::string> read_bytes(const fs::path& file, Problems& problems, const NamedAt& where,
+                                      std::uintmax_t largest) {
   const auto problem = [&](Code code, const std::string& what, const std::string& remedy) {
     problems.push_back({code, where.file, where.line, where.column, what, remedy});
     return std::nullopt;
@@ -169,7 +169,13 @@ std::optional<std::string> read_file(const fs::path& file, Problems& problems, c
     case FileSet::State::present:
       break;
   }
-  return plain(std::move(found.bytes), file, problems);
+  return std::move(found.bytes);
+}
+
+std::optional<std::string> read_file(const fs::path& file, Problems& problems, const NamedAt& where,
+                                     std::uintmax_t largest) {
+  auto bytes = read_bytes(file, problems, where, largest);
+  return bytes ? plain(std::move(*bytes), file, problems) : std::nullopt;
 }
 
 }  // namespace drycut::sim

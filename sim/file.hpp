@@ -70,5 +70,8 @@ std::optional<std::string> read_file(const std::filesystem::path& file, Problems
 /// The same for a file that the command line names: the place is the file's own beginning.
 std::optional<std::string> read_file(const std::filesystem::path& file, Problems& problems,
                                      std::uintmax_t largest = largest_input);
+/// The bytes of a file that is no text: an FMU.
+std::optional<std::string> read_bytes(const std::filesystem::path& file, Problems& problems,
+                                      const NamedAt& where, std::uintmax_t largest);
 
 }  // namespace drycut::sim

@@ -111,8 +111,10 @@ std::string judged_text(const Judged& judged) {
 /// All that was asked for; `folder` may be null.
 void write(const BodeOptions& options, const scenario::Scenario& scenario, const studies::LoopResult& result,
            const studies::LimitCycle* cycle, const record::Verdict& verdict,
-           const std::vector<record::CheckResult>& checks, OutputFolder* folder) {
-  if (folder != nullptr) studies::write_bode_report(result, cycle, verdict, checks, scenario, *folder);
+           const std::vector<record::CheckResult>& checks, const std::string& fmi_step,
+           OutputFolder* folder) {
+  if (folder != nullptr)
+    studies::write_bode_report(result, cycle, verdict, checks, fmi_step, scenario, *folder);
   if (folder != nullptr && !result.sweep.points.empty())
     write_file(folder->add("bode.csv"), bode_csv(result));
   if (folder != nullptr) record::write_verdict(verdict, *folder);
@@ -242,8 +244,10 @@ int measure_bode(const BodeOptions& options) {
   std::vector<std::string> faults;
   auto text = studies::bode_report(*result);
   if (cycle) text += '\n' + studies::limit_cycle_text(*cycle);
-  if (!options.fmi_step.empty())
-    text += studies::fmi_step_text(*result, *studies::fmi_step_of(options.fmi_step));
+  const auto fmi_step = options.fmi_step.empty()
+                            ? std::string()
+                            : studies::fmi_step_text(*result, *studies::fmi_step_of(options.fmi_step));
+  text += fmi_step;
   for (const auto& limit : limits) {
     text += fmt::format("{}: {}\n", limit.check.passed ? "PASS" : "FAIL", judged_text(limit));
     if (!limit.check.passed) faults.push_back(judged_text(limit));
@@ -260,7 +264,8 @@ int measure_bode(const BodeOptions& options) {
   auto verdict = studies::verdict_of(*result, faults, checks);
   verdict.found(found);
   verdict.scenarios = {options.scenario.generic_string()};
-  write(options, scenario, *result, cycle ? &*cycle : nullptr, verdict, checks, folder ? &*folder : nullptr);
+  write(options, scenario, *result, cycle ? &*cycle : nullptr, verdict, checks, fmi_step,
+        folder ? &*folder : nullptr);
   if (!options.out.empty())
     fmt::print(options.csv == "-" ? stderr : stdout, "report: {}\n", (options.out / "report.html").string());
   else if (options.png.empty() && options.csv.empty())

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <link.h>
 #include <minizip/zip.h>
+#include <udunits2.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,11 +15,15 @@
 #include <utility>
 
 #include "base/output_file.hpp"
+#include "sim/fmi/line/built_line.hpp"
+#include "sim/fmi/machine/built_machine.hpp"
 #include "sim/fmi/resolve.hpp"
 
-// The library of binary/, which the build puts into this program.
+// The libraries of binary/, of machine and line, which the build puts into this program.
 extern "C" const char drycut_fmu_begin[];
 extern "C" const char drycut_fmu_end[];
+extern "C" const char drycut_fmu_line_begin[];
+extern "C" const char drycut_fmu_line_end[];
 
 namespace drycut::sim::fmi {
 
@@ -82,32 +87,50 @@ class ScratchFile {
   std::string name_;
 };
 
-// Libraries that the machine needs and a bare Debian has not, as this very process has them loaded, which is
-// linked to them too.
-std::vector<fs::path> carried_libraries() {
-  std::vector<fs::path> found;
+// What libraries an FMU carries beside its own, by how their files' names begin, and the packages of their
+// licences. With a line the reader of scenarios comes.
+struct Carried {
+  std::vector<std::string_view> libraries = {"libBulletDynamics", "libBulletCollision", "libLinearMath",
+                                             "libfmt"};
+  std::vector<std::string_view> packages = {"libbullet", "libfmt"};
+};
+Carried carried_with_line() {
+  Carried carried;
+  for (const auto* library : {"libyaml-cpp", "libudunits2", "libexpat", "libpugixml", "libminizip", "libz."})
+    carried.libraries.emplace_back(library);
+  for (const auto* package : {"libyaml-cpp", "libudunits2", "libexpat", "libpugixml", "libminizip", "zlib1g"})
+    carried.packages.emplace_back(package);
+  return carried;
+}
+
+bool begins_with_one(const std::string& name, const std::vector<std::string_view>& beginnings) {
+  return std::ranges::any_of(beginnings, [&](std::string_view begin) { return name.starts_with(begin); });
+}
+
+// Libraries that a bare Debian has not, as this very process has them loaded, which is linked to them too.
+std::vector<fs::path> carried_libraries(const Carried& carried) {
+  std::vector<fs::path> loaded;
   dl_iterate_phdr(
       [](dl_phdr_info* info, std::size_t, void* all) {
-        const fs::path file = info->dlpi_name;
-        const auto name = file.filename().string();
-        for (const auto* begin : {"libBulletDynamics", "libBulletCollision", "libLinearMath", "libfmt"})
-          if (name.starts_with(begin)) static_cast<std::vector<fs::path>*>(all)->push_back(file);
+        static_cast<std::vector<fs::path>*>(all)->emplace_back(info->dlpi_name);
         return 0;
       },
-      &found);
-  std::ranges::sort(found);
-  return found;
+      &loaded);
+  std::erase_if(loaded, [&](const fs::path& file) {
+    return !begins_with_one(file.filename().string(), carried.libraries);
+  });
+  std::ranges::sort(loaded);
+  return loaded;
 }
 
 // As their packages have them.
-std::vector<fs::path> licences_of_carried() {
+std::vector<fs::path> licences_of(const Carried& carried) {
   std::vector<fs::path> found;
   std::error_code none;
   for (const auto& package : fs::directory_iterator("/usr/share/doc", none)) {
     const auto name = package.path().filename().string();
-    const bool carried =
-        (name.starts_with("libbullet") || name.starts_with("libfmt")) && !name.ends_with("-dev");
-    if (carried && fs::exists(package.path() / "copyright", none))
+    const bool is_carried = begins_with_one(name, carried.packages) && !name.ends_with("-dev");
+    if (is_carried && fs::exists(package.path() / "copyright", none))
       found.push_back(package.path() / "copyright");
   }
   if (found.empty())
@@ -127,29 +150,34 @@ std::string identifier_of(const fs::path& scenario) {
   return name;
 }
 
-}  // namespace
+// What an FMU is made of beside the standard.
+struct FmuParts {
+  std::string_view library;
+  std::string what;  // in a sentence
+  Carried carried;
+  std::vector<std::pair<std::string, std::string>>
+      resources;  // names and bytes; the first one makes the token
+};
 
-WrittenFmu write_fmu(const scenario::Scenario& scenario, Standard standard, const fs::path& out) {
-  const std::string_view binary(drycut_fmu_begin,
-                                static_cast<std::size_t>(drycut_fmu_end - drycut_fmu_begin));
-  const auto resolved = resolve(scenario, binary);
-  const auto text = machine_text(resolved);
-  const BuiltMachine machine(resolved);
-  const auto& variables = machine.variables();
-  const FmuHead head{identifier_of(scenario.file), scenario.scene.title, token_of(text),
-                     seconds(resolved.step), seconds(scenario.scene.duration)};
-
+WrittenFmu write_parts(const scenario::Scenario& scenario, Standard standard, const FmuParts& parts,
+                       const std::vector<FmiVariable>& variables, const fs::path& out) {
+  const FmuHead head{identifier_of(scenario.file),
+                     scenario.scene.title,
+                     token_of(parts.resources.front().second),
+                     seconds(scenario.scene.step),
+                     seconds(scenario.scene.duration),
+                     parts.what};
   const ScratchFile scratch;
   ZipFile zip(scratch.name());
   zip.add("modelDescription.xml", model_description(standard, head, variables),
           0);  // who wrote it is seen so
   const std::string folder = standard == Standard::fmi2 ? "binaries/linux64/" : "binaries/x86_64-linux/";
-  zip.add(folder + head.identifier + ".so", binary);
-  for (const auto& library : carried_libraries())
+  zip.add(folder + head.identifier + ".so", parts.library);
+  for (const auto& library : carried_libraries(parts.carried))
     zip.add(folder + library.filename().string(), bytes_of(library));
-  zip.add("resources/machine.json", text);
+  for (const auto& [name, bytes] : parts.resources) zip.add("resources/" + name, bytes);
   std::vector<std::string> licences;
-  for (const auto& licence : licences_of_carried()) {
+  for (const auto& licence : licences_of(parts.carried)) {
     licences.push_back("licenses/" + licence.parent_path().filename().string() + ".txt");
     zip.add("documentation/" + licences.back(), bytes_of(licence));
   }
@@ -166,6 +194,48 @@ WrittenFmu write_fmu(const scenario::Scenario& scenario, Standard standard, cons
       ++written.parameters;
   }
   return written;
+}
+
+std::string_view between(const char* begin, const char* end) {
+  return {begin, static_cast<std::size_t>(end - begin)};
+}
+
+// The table of units, which the system of the importer may lack.
+std::vector<std::pair<std::string, std::string>> unit_tables() {
+  ut_status status{};
+  const fs::path table = ut_get_path_xml(nullptr, &status);
+  std::vector<std::pair<std::string, std::string>> tables;
+  for (const auto& file : fs::directory_iterator(table.parent_path()))
+    if (file.path().extension() == ".xml")
+      tables.emplace_back("udunits/" + file.path().filename().string(), bytes_of(file.path()));
+  std::ranges::sort(tables);
+  return tables;
+}
+
+}  // namespace
+
+WrittenFmu write_machine(const scenario::Scenario& scenario, Standard standard, const fs::path& out) {
+  const auto library = between(drycut_fmu_begin, drycut_fmu_end);
+  const auto resolved = resolve(scenario, library);
+  const BuiltMachine machine(resolved);
+  return write_parts(scenario, standard,
+                     {library,
+                      "The machine of a Drycut line without its controller",
+                      {},
+                      {{"machine.json", machine_text(resolved)}}},
+                     machine.variables(), out);
+}
+
+WrittenFmu write_line(const scenario::Scenario& scenario, const FileSet& files, Standard standard,
+                      const fs::path& out) {
+  const auto library = between(drycut_fmu_line_begin, drycut_fmu_line_end);
+  const CarriedLine line{made_by(library), scenario.file.string(), scenario.overrides, files.files,
+                         files.folders};
+  const BuiltLine built(line, {});
+  FmuParts parts{
+      library, "A Drycut line with its controller", carried_with_line(), {{"line.cbor", line_bytes(line)}}};
+  for (auto& table : unit_tables()) parts.resources.push_back(std::move(table));
+  return write_parts(scenario, standard, parts, built.variables(), out);
 }
 
 }  // namespace drycut::sim::fmi

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <string>
 
+#include "sim/file.hpp"
 #include "sim/fmi/model_description.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -17,6 +18,11 @@ struct WrittenFmu {
 /// Writes the machine of a scenario, all its plants without the controller, as an FMU for co-simulation of
 /// 64-bit Linux; the same scenario gives the same bytes. The scenario must have no problems. Throws
 /// std::exception if it cannot be written.
-WrittenFmu write_fmu(const scenario::Scenario& scenario, Standard standard, const std::filesystem::path& out);
+WrittenFmu write_machine(const scenario::Scenario& scenario, Standard standard,
+                         const std::filesystem::path& out);
+
+/// The same of the line with its controller; `files`: all that was read for it.
+WrittenFmu write_line(const scenario::Scenario& scenario, const FileSet& files, Standard standard,
+                      const std::filesystem::path& out);
 
 }  // namespace drycut::sim::fmi

@@ -98,6 +98,32 @@ std::string unit_definitions(const std::vector<FmiVariable>& variables) {
   return text + "  </UnitDefinitions>\n";
 }
 
+// The type of numbers in a unit, as it is named.
+std::string type_name(const FmiVariable& variable) {
+  const auto unit = unit_of(variable);
+  if (unit.empty() || variable.type != Type::real) return "";
+  return variable.unit == unit ? "number in " + unit
+                               : fmt::format("number in {}, shown in {}", unit, variable.unit);
+}
+
+std::string type_definitions(Standard standard, const std::vector<FmiVariable>& variables) {
+  std::map<std::string, std::string> types;
+  for (const auto& variable : variables) {
+    const auto name = type_name(variable);
+    if (name.empty()) continue;
+    auto units = attribute("unit", unit_of(variable));
+    if (variable.unit != unit_of(variable)) units += attribute("displayUnit", variable.unit);
+    types[name] = units;
+  }
+  if (types.empty()) return "";
+  std::string text = "  <TypeDefinitions>\n";
+  for (const auto& [name, units] : types)
+    text += standard == Standard::fmi2
+                ? fmt::format("    <SimpleType{}><Real{}/></SimpleType>\n", attribute("name", name), units)
+                : fmt::format("    <Float64Type{}{}/>\n", attribute("name", name), units);
+  return text + "  </TypeDefinitions>\n";
+}
+
 std::string start_of(const FmiVariable& variable) {
   switch (variable.type) {
     case Type::word:
@@ -136,6 +162,7 @@ std::string meaning(const FmiVariable& variable) {
 // What stands in the element of its type, in both standards.
 std::string typed(const FmiVariable& variable, bool real) {
   std::string text;
+  if (const auto type = type_name(variable); !type.empty()) text += attribute("declaredType", type);
   if (real) {
     const auto unit = unit_of(variable);
     if (!unit.empty()) text += attribute("unit", unit);
@@ -222,7 +249,7 @@ std::string model_description(Standard standard, const FmuHead& head,
         "  <CoSimulation{} canHandleVariableCommunicationStepSize=\"true\" fixedInternalStepSize=\"{}\" "
         "canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" mightReturnEarlyFromDoStep=\"true\"/>\n",
         identifier, head.step);
-  text += unit_definitions(variables);
+  text += unit_definitions(variables) + type_definitions(standard, variables);
   text +=
       "  <LogCategories>\n    <Category name=\"logStatusError\" description=\"what is refused, and why\"/>\n"
       "  </LogCategories>\n";
@@ -239,7 +266,7 @@ std::string documentation(Standard standard, const FmuHead& head, const std::vec
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{0}</title>\n"
       "<style>body {{font: 15px sans-serif; max-width: 70em; margin: 2em auto}} td, th {{text-align: left; "
       "padding: 0.1em 1em 0.1em 0; vertical-align: top}}</style></head>\n<body>\n<h1>{0}</h1>\n<p>{1}</p>\n"
-      "<p>The machine of a Drycut line without its controller, for co-simulation by FMI {2}. It steps by {3} "
+      "<p>{4}, for co-simulation by FMI {2}. It steps by {3} "
       "s; a "
       "communication step is any whole multiple of that. Inputs are taken at the beginning of a step and "
       "hold, "
@@ -248,7 +275,8 @@ std::string documentation(Standard standard, const FmuHead& head, const std::vec
       "that "
       "is named. A fault acts when its value changes.</p>\n<table>\n"
       "<tr><th>variable</th><th>is</th><th>unit</th><th>start</th><th>meaning</th></tr>\n",
-      escaped(head.identifier), escaped(head.title), standard == Standard::fmi2 ? "2.0" : "3.0", head.step);
+      escaped(head.identifier), escaped(head.title), standard == Standard::fmi2 ? "2.0" : "3.0", head.step,
+      head.what);
   for (const auto& variable : variables)
     text += fmt::format("<tr><td>{}</td><td>{}{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                         escaped(variable.name), variable.role == Role::live_parameter ? "tunable " : "",

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/fmi/machine/built_machine.hpp"
+#include "sim/fmi/machine/fmi_model.hpp"
 
 namespace drycut::sim::fmi {
 
@@ -13,8 +13,9 @@ struct FmuHead {
   std::string identifier;  ///< of the model: a name in C
   std::string title;
   std::string token;
-  double step = 0;  ///< [s]
-  double stop = 0;  ///< [s]
+  double step = 0;        ///< [s]
+  double stop = 0;        ///< [s]
+  std::string what = {};  ///< "The machine of a Drycut line without its controller"
 };
 
 /// modelDescription.xml of either standard.

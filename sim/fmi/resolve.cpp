@@ -10,10 +10,13 @@
 
 namespace drycut::sim::fmi {
 
+std::string made_by(std::string_view binary) {
+  return fmt::format("Drycut {}, library {:016x}", DRYCUT_VERSION,
+                     StateArchive::sum_of(std::as_bytes(std::span(binary))));
+}
+
 ResolvedMachine resolve(const scenario::Scenario& scenario, std::string_view binary) {
-  ResolvedMachine machine{fmt::format("Drycut {}, library {:016x}", DRYCUT_VERSION,
-                                      StateArchive::sum_of(std::as_bytes(std::span(binary)))),
-                          scenario.scene.step, scenario.scene.seed};
+  ResolvedMachine machine{made_by(binary), scenario.scene.step, scenario.scene.seed};
   for (const auto& plant : scenario.plants) {
     auto& values = machine.plants.emplace_back();
     values.name = plant.name.text;

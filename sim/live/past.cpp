@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sim/live/line.hpp"
+#include "sim/loop/guests.hpp"
 
 namespace drycut::sim::live {
 
@@ -19,6 +20,7 @@ constexpr Time for_scans = 200 * millisecond;
 
 Past::Past(const scenario::Scenario& scenario, Problems& problems)
     : view_(std::make_unique<LineView>(scenario, problems)), step_(scenario.scene.step) {
+  loop::refuse_guests_without_state(scenario, problems);
   // The first state says which files the scenario has: they may be edited while it runs.
   if (problems.empty()) static_cast<void>(view_->simulation().save());
 }

@@ -6,6 +6,7 @@
 
 #include "base/state_archive.hpp"
 #include "base/text.hpp"
+#include "sim/loop/links.hpp"
 #include "sim/loop/names.hpp"
 
 namespace drycut::sim::loop {
@@ -363,7 +364,8 @@ void Bus::connect(const scenario::Scenario& scenario, devices::Controller& contr
   if (!scenario.filters.empty()) filters_ = std::make_unique<InputFilters>();
   Connector connector(*this, scenario, controller, plants, problems);
   for (const auto& filter : scenario.filters) connector.take(filter);
-  for (const auto& wire : scenario.wiring) connector.connect(wire);
+  for (const auto& wire : scenario.wiring)
+    if (!joins_plants(wire, scenario)) connector.connect(wire);
   connector.refuse_idle_filters();
   offer_cuts(connector.made());
 }

@@ -4,7 +4,9 @@
 
 #include "sim/file.hpp"
 #include "sim/loop/controller_loader.hpp"
+#include "sim/loop/guests.hpp"
 #include "sim/recordings/recording_file.hpp"
+#include "sim/scenario/guests.hpp"
 
 namespace drycut::sim::loop {
 
@@ -15,6 +17,11 @@ std::vector<std::pair<std::string, std::string>> read_files_of(const scenario::S
     files.emplace_back(name, read_file(path, ignored, largest_export).value_or(""));
   };
   for (const auto& name : controller_files(scenario)) add(name.text, scenario.file.parent_path() / name.text);
+  for (const auto& plant : scenario.plants)
+    if (const auto* const guest = guest_of(plant))
+      files.emplace_back(guest->file(), read_bytes(scenario.file.parent_path() / guest->file(), ignored, {},
+                                                   scenario::largest_guest)
+                                            .value_or(""));
   std::vector<std::string> known;
   for (const auto& input : scenario.inputs) {
     if (std::ranges::find(known, input.recording.text) != known.end()) continue;

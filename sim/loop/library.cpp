@@ -84,7 +84,8 @@ struct Simulation::Run : sim::record::Observer {
       throw BadInput(fmt::format("nothing called {} can be set; {}", in_quotes(name),
                                  simulation.names().suggest_target(name)));
     if (simulation.names().is_driven(name))
-      throw BadInput(fmt::format("{} is driven by a recording; leave it out of inputs", in_quotes(name)));
+      throw BadInput(fmt::format("{} is driven by {}; leave that out", in_quotes(name),
+                                 simulation.names().driven_by(name)));
     return targets.emplace(name, std::move(*found)).first->second;
   }
 

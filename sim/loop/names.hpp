@@ -75,8 +75,13 @@ class Names {
   };
   void stand_in(const std::string& name, StandIn in_place);
 
-  /// From now on a recording drives it, and nothing else sets it.
-  void drive(const std::string& name) { driven_.insert(name); }
+  /// From now on `by` drives it, a recording or the end of a wire, and nothing else sets it.
+  void drive(const std::string& name, const std::string& by = "a recording") { driven_.emplace(name, by); }
+  /// "" if nothing does.
+  [[nodiscard]] std::string driven_by(const std::string& name) const {
+    const auto found = driven_.find(name);
+    return found == driven_.end() ? "" : found->second;
+  }
   [[nodiscard]] bool is_driven(const std::string& name) const { return driven_.contains(name); }
 
   /// Remedies for an unknown name: the nearest one, or what there is.
@@ -112,8 +117,8 @@ class Names {
   std::map<std::pair<std::string, std::string>, std::size_t> fault_index_;  ///< component and fault
   std::vector<std::pair<std::string, plants::Fault>> of_wires_;
   std::set<std::string> plant_names_;
-  std::set<std::string> driven_;
-  mutable std::size_t suggestions_ = 0;  ///< made so far
+  std::map<std::string, std::string> driven_;  ///< by whom
+  mutable std::size_t suggestions_ = 0;        ///< made so far
 };
 
 }  // namespace drycut::sim::loop

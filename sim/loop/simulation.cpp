@@ -17,8 +17,10 @@
 #include "sim/loop/directions.hpp"
 #include "sim/loop/disturbances.hpp"
 #include "sim/loop/drive_judge.hpp"
+#include "sim/loop/guests.hpp"
 #include "sim/loop/hunting.hpp"
 #include "sim/loop/inputs.hpp"
+#include "sim/loop/links.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/loop/odd_parameters.hpp"
 #include "sim/loop/opcua_names.hpp"
@@ -54,7 +56,7 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
       open_(std::make_unique<OpenTerminals>()) {
   const auto before = problems.size();
   load_controller(problems);
-  build_plants();
+  build_plants(problems);
   if (controller_) {
     bus_.connect(scenario, *controller_, named_, problems);
     refuse_shared_names(scenario, *controller_, problems);
@@ -65,6 +67,7 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
   names_->offer(bus_.faults());
   if (!controller_ && scenario.controller) names_->assume_controller(scenario.wiring);
   check_panel(problems);
+  if (!scenario.wiring.empty()) links_ = std::make_unique<Links>(scenario, named_, *names_, problems);
   watch_ = std::make_unique<Watch>(*names_);
   if (!scenario.disturbances.empty())
     disturbances_ = std::make_unique<Disturbances>(scenario, *names_, problems);
@@ -114,6 +117,7 @@ bool Simulation::act(const scenario::Stimulus& stimulus, Problems& problems) {
 void Simulation::load_controller(Problems& problems) {
   for (const auto& plant : scenario_.plants)
     for (auto& note : scenario::notes_of_models(plant)) notes_of_setup_.push_back(std::move(note));
+  for (auto& note : notes_of_guests(scenario_)) notes_of_setup_.push_back(std::move(note));
   controller_ = loop::load_controller(scenario_, problems, &notes_of_setup_);
   for (auto& note : scenario::unused_variables(scenario_)) notes_of_setup_.push_back(std::move(note));
 }
@@ -152,14 +156,18 @@ void Simulation::look_after_program() {
   });
 }
 
-void Simulation::build_plants() {
+void Simulation::build_plants(Problems& problems) {
   std::unordered_map<std::string_view, plants::Plant*> built;
   const auto find = [&](std::string_view name) -> plants::Plant* {
     const auto found = built.find(name);
     return found == built.end() ? nullptr : found->second;
   };
   for (const auto& entry : scenario_.plants) {
+    const auto failed = !world_.failure().empty();
     plants_.push_back(entry.definition->build(world_, find));
+    if (!failed && !world_.failure().empty())
+      problems.push_back(problem_of_guest("fmu.refused"_code, scenario_, entry, world_.failure(),
+                                          "look at the FMU in the tool that wrote it"));
     named_.push_back({entry.name.text, plants_.back().get()});
     built.emplace(entry.name.text, plants_.back().get());
   }
@@ -253,6 +261,7 @@ void Simulation::step() {
     if (cams_) cams_->step();
     bus_.outputs_to_plants();
   }
+  if (links_) links_->run();
 
   for (auto& plant : plants_) plant->drive(h_);
   world_.step(h_);

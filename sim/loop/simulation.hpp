@@ -25,6 +25,7 @@ class Checks;
 class Directions;
 class Disturbances;
 class Inputs;
+class Links;
 class DriveJudge;
 class Hunting;
 struct KnownEvent;
@@ -162,7 +163,7 @@ class Simulation {
 
  private:
   void load_controller(Problems& problems);
-  void build_plants();
+  void build_plants(Problems& problems);
   void check_periods(Problems& problems) const;
   void delay_outputs(Problems& problems);
   void check_panel(Problems& problems) const;
@@ -204,6 +205,7 @@ class Simulation {
   std::unique_ptr<Watch> watch_;
   std::unique_ptr<Disturbances> disturbances_;  ///< nullptr without any
   std::unique_ptr<Inputs> inputs_;              ///< likewise
+  std::unique_ptr<Links> links_;  ///< nullptr without any
   std::unique_ptr<Timeline> timeline_;
   std::unique_ptr<Checks> checks_;
   std::unique_ptr<DriveJudge> drives_;

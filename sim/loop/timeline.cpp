@@ -59,8 +59,9 @@ class Binder {
     auto found = names_.target(name.text);
     if (found && names_.is_driven(name.text)) {
       problem("input.driven-twice"_code, name.place,
-              fmt::format("{} is driven by a recording: what is set here would not last", name.text),
-              "leave it out here, or under inputs");
+              fmt::format("{} is driven by {}: what is set here would not last", name.text,
+                          names_.driven_by(name.text)),
+              "leave it out here, or what drives it");
       return {};
     }
     if (found) return found;

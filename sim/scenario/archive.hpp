@@ -55,6 +55,7 @@ struct ParameterTable {
   std::vector<Row> rows;
   std::string help;    ///< where a reader finds the names: "'drycut plants web' lists its parameters"
   bool nested = true;  ///< written as nested maps
+  std::string open = {};  ///< a group whose rows are known with the file only: editors take any
   /// What the file gives, and where: the value's place if `at_value`, else the key's.
   std::vector<std::pair<std::string, ScenePlace>>* places = nullptr;
   bool at_value = true;

@@ -51,6 +51,7 @@ class SchemaWriter final : public Archive {
       auto& one = (*level)[std::string(rest)] = or_computed(Json::parse(row.form.schema()));
       one["description"] = row.meaning();
     }
+    if (!table.open.empty()) properties_[table.open] = {{"type", "object"}};
     takes_dotted_ = true;
   }
 

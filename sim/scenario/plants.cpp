@@ -9,7 +9,9 @@
 #include <unordered_map>
 
 #include "base/text.hpp"
+#include "sim/file.hpp"
 #include "sim/scenario/archive.hpp"
+#include "sim/scenario/guests.hpp"
 #include "sim/scenario/motor_catalogue.hpp"
 #include "sim/scenario/parameter_text.hpp"
 
@@ -49,6 +51,34 @@ std::optional<PlantEntry> read_plant(const YamlNode::Entry& entry, std::span<con
     return {};
   }
   return PlantEntry{entry.key, wanted, known->define(), {}};
+}
+
+// A foreign FMU says itself which parameters it has. False, and told, where it cannot be asked.
+bool open_guest_of(const YamlNode& node, PlantEntry& plant, const std::filesystem::path& folder,
+                   Findings& findings) {
+  auto* const guest = dynamic_cast<plants::GuestDefinition*>(plant.definition.get());
+  if (guest == nullptr) return true;
+  const auto* const file = child(node, "file");
+  if (file == nullptr || file->kind != YamlNode::Kind::scalar || file->text.text.empty()) {
+    findings.add("scenario.missing-key"_code, plant.name.place,
+                 fmt::format("plants.{}.file is missing: which FMU is it?", plant.name.text),
+                 "file: drive.fmu");
+    return false;
+  }
+  guest->file() = findings.path_from(file->text);
+  Problems unread;
+  auto bytes = read_bytes(folder / guest->file(), unread, {}, largest_guest);
+  for (const auto& problem : unread)
+    findings.add(problem.code, file->text.place, problem.what, problem.remedy);
+  if (!bytes) return false;
+  try {
+    guest->open(open_guest(std::move(*bytes), guest->file()));
+  } catch (const GuestRefused& refused) {
+    findings.add(refused.code(), file->text.place, fmt::format("{}: {}", guest->file(), refused.what()),
+                 refused.remedy());
+    return false;
+  }
+  return true;
 }
 
 ScenePlace place_of(const PlantEntry& plant, const std::string& parameter) {
@@ -318,6 +348,7 @@ void visit(Archive& archive, PlantEntry& plant) {
   const auto parameters = plant.definition->parameters();
   ParameterTable table{{}, fmt::format("'drycut plants {}' lists its parameters", plant.type.text)};
   table.places = &plant.places;
+  if (dynamic_cast<plants::GuestDefinition*>(plant.definition.get()) != nullptr) table.open = "parameters";
   for (const auto& parameter : parameters)
     table.rows.push_back({parameter.name, [&parameter] { return described(parameter); },
                           motor_kind(parameter.name).empty() ? form(parameter) : model_form(parameter)});
@@ -342,9 +373,12 @@ std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants
     if (entry.is_repeated()) continue;
     auto plant = read_plant(entry, types, findings);
     if (!plant) continue;
+    if (!open_guest_of(entry.value, *plant, folder, findings)) continue;
     MapReader reader(entry.value, "plants." + name, findings);
     take_models(entry.value, *plant, catalogue, findings);
     visit(reader, *plant);
+    if (auto* const guest = dynamic_cast<plants::GuestDefinition*>(plant->definition.get()))
+      guest->file() = findings.path_from(child(entry.value, "file")->text);
     take_presets(*plant);
     object_to_mains(*plant, findings);
     // An objection to a default would only be an echo.

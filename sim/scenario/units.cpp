@@ -14,6 +14,7 @@
 #include <mutex>
 
 #include "sim/scenario/everyday_units.hpp"
+#include "sim/scenario/unit_table.hpp"
 
 namespace drycut::sim::scenario {
 
@@ -86,12 +87,17 @@ std::string with_forces(std::string_view text) {
                      text.substr(pound_end));
 }
 
+std::string& carried_units() {
+  static std::string file;
+  return file;
+}
+
 // The table of UDUNITS, loaded once (5 ms). UDUNITS is not safe for several threads, hence one lock over all.
 class UnitTable {
  public:
   UnitTable() {
     ut_set_error_message_handler(ut_ignore);
-    system_ = ut_read_xml(nullptr);
+    system_ = ut_read_xml(carried_units().empty() ? nullptr : carried_units().c_str());
     if (system_ == nullptr) return;
     add("deg", "degree");
     add("rev", "revolution");
@@ -223,6 +229,12 @@ constexpr std::array<NamedUnit, 27> dimension_names = {{
 std::optional<Conversion> udunits_conversion(std::string_view unit) {
   static UnitTable table;
   return table.find(unit);
+}
+
+void read_units_from(const std::filesystem::path& xml) {
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  if (carried_units().empty()) carried_units() = xml.string();
 }
 
 bool is_unit(std::string_view unit) { return find(unit).has_value(); }

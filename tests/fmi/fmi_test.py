@@ -100,6 +100,79 @@ def native(program, there):
         print(f"{line}: {len(table)} steps, {len(outputs)} outputs, both versions: the same")
 
 
+def line(program, there):
+    """The line with its controller: at steps of 1 ms the channels of a run, both versions; its state in another instance; a
+    variable of the scenario as a parameter; nothing needed but what it carries."""
+    replay = build_example("replay", there)
+    outputs = ["AxisX.posit", "AxisX.follerr", "knife.angle", "knife.motor.torque", "web.speed", "panel.in_sync", "knife.cut.length"]
+    own = there / "line.yaml"
+    own.write_text(f"extends: {SCENES / 'rotary_knife.yaml'}\nscene: {{duration: 6 s}}\n"
+                   "timeline:\n  - {at: 2 s, set: {panel.start: 1}}\n  - {at: 4.5 s, set: {web.speed: 45 m/min}}\n"
+                   f"record: {{every: 1 ms, channels: [{', '.join(outputs)}]}}\nchecks: []\n")
+    run = subprocess.run([program, "run", own, "--no-pictures", "--out", there / "out"], capture_output=True, text=True)
+    assert run.returncode in (0, 1), run.stdout + run.stderr
+    with open(there / "out" / "line" / "trace.csv", newline="") as file:
+        rows = list(csv.reader(file))[1:]
+    assert len(rows) == 6001
+    table = [(1 if n >= 2000 else 0, repr(45 / 60) if n >= 4500 else repr(60.4 / 60)) for n in range(6000)]
+    for version in (2, 3):
+        fmu = write_fmu(program, own, version, there / f"line{version}.fmu", "--part", "line")
+        shown = subprocess.run(["ldd", fmu.binary], check=True, capture_output=True, text=True).stdout
+        for needed in shown.splitlines():
+            name = needed.split()[0]
+            system = re.match(r"(lib(c|m|stdc\+\+|gcc_s)\.so|linux-vdso|/lib64/ld-linux)", name)
+            assert system or f"=> {fmu.binary.parent}/{name} " in needed, needed
+            assert not re.search("GL|assimp|cairo", name), needed
+        part = r"(?:[A-Za-z_]\w*|'[^']+')"
+        for name in fmu.variables:
+            assert re.fullmatch(rf"{part}(?:\.{part})*", name), f"{name} is no structured name"
+        assert "'2.AN01'" in fmu.variables and "set.web.speed" in fmu.variables
+        names = [output + ".channel" if output + ".channel" in fmu.variables else output for output in outputs]
+        done = subprocess.run([replay, fmu.path, "1e-3", "2", str(len(names)), "switch:panel.start", "real:set.web.speed",
+                               *("real:" + name for name in names)],
+                              input="\n".join(f"{on} {speed}" for on, speed in table), capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        answer = [[float(cell) for cell in row.split()] for row in done.stdout.splitlines()]
+        assert len(answer) == len(table)
+        for place, name in enumerate(outputs):
+            column = [float(row[place + 1]) for row in rows]
+            assert len(set(column)) > 1, f"{name} never changes: nothing is compared"
+            for n, row in enumerate(answer):
+                assert row[place] == column[n + 1], (version, name, n, row[place], column[n + 1])
+
+        def begun(**parameters):
+            instance = Instance(fmu)
+            assert instance.handle, instance.said
+            for parameter, value in parameters.items():
+                assert instance.set(f"parameters.{parameter}", value) == OK, instance.said
+            assert instance.initialise() == OK, instance.said
+            return instance
+
+        def go_on(instance, first, last):
+            for n in range(first, last):
+                assert instance.set("panel.start", n >= 2000) == OK and instance.step(n * 1e-3, 1e-3) == OK, instance.said
+
+        one, other, shorter = begun(), begun(), begun(length=0.5)
+        go_on(one, 0, 3000)
+        kept = one.save()
+        go_on(one, 3000, 3600)
+        assert other.restore(kept) == OK, other.said
+        go_on(other, 3000, 3600)
+        for name in names:
+            assert one.get(name) == other.get(name), name
+        go_on(shorter, 0, 5600)
+        assert abs(shorter.get("knife.cut.length") - 500) < 0.5 and shorter.get("knife.cut.count") > 2, shorter.get("knife.cut.length")
+        assert shorter.get("alarms.count") == 0
+        assert shorter.set("set.web.speed", 1e6) == ERROR and "out of range" in shorter.said[-1]
+        assert shorter.step(5.6, 1.5e-4) == ERROR and "whole multiple" in shorter.said[-1]
+        bad = Instance(fmu)
+        assert bad.set("parameters.length", 1e9) == OK
+        assert bad.initialise() == ERROR and bad.said, "no variable of the program holds that length"
+        for instance in (one, other, shorter, bad):
+            instance.free()
+    print("line: 6000 steps of 1 ms, 7 outputs, both versions: the same")
+
+
 def knife(program, there, version, *more):
     return write_fmu(program, SCENES / "rotary_knife.yaml", version, there / f"knife{version}.fmu", *more)
 
@@ -399,7 +472,9 @@ def bode(program, there):
                 found[number[1], bool(number[2])] = float(number[3])
         return found
 
-    told = margins("--fmi-step", "1 ms")
+    told = margins("--fmi-step", "1 ms", "--out", there / "bode")
+    report = (there / "bode" / "report.html").read_text()
+    assert report.count("behind an FMI step of 1 ms") >= 2, "the report does not say it"
     measured = margins("--set", "controller.qmove.compute_time=1 ms")
     assert len(told) == 4 and len(measured) == 2, (told, measured)
     for margin in ("phase", "gain"):
@@ -413,7 +488,7 @@ def bode(program, there):
 def main():
     program, kind = sys.argv[1:3]
     kinds = {"native": native, "functions": functions, "description": description, "scenes": scenes, "state": state,
-             "refusals": refusals, "instances": instances, "bode": bode}
+             "refusals": refusals, "instances": instances, "bode": bode, "line": line}
     with tempfile.TemporaryDirectory() as there:
         kinds[kind](program, Path(there))
 

@@ -15,14 +15,14 @@ include/drycut base
 devices devices/axis devices/cam devices/camming4 devices/epicpos devices/oopos2 devices/modbus devices/qmove
 devices/lx3vp devices/plcopen devices/plcopen/st devices/plcopen/controller
 plants renders renders/loaded
-sim sim/fmi/machine sim/fmi/binary sim/record sim/record/hdf5 sim/scenario sim/controllers sim/recordings sim/loop
+sim sim/fmi/machine sim/fmi/host sim/record sim/record/hdf5 sim/scenario sim/fmi/foreign sim/controllers sim/recordings sim/loop sim/fmi/line sim/fmi/binary
 sim/cams sim/cams/camming4 sim/cams/lx3vp sim/cams/mc_camin sim/studies sim/report
 sim/studies/cluster sim/studies/bode sim/studies/fit sim/studies/tune sim/studies/sweep sim/studies/size sim/studies/faults sim/studies/compare
 sim/studies/why sim/studies/design sim/live sim/live/modbus sim/fmi sim/cli python
 """.split()
 # Controllers, machines and pictures know nothing of each other, and the loop's library draws nothing.
 APART = ["devices", "plants", "renders"]
-DRAWS_NOTHING = ["sim", "sim/fmi/machine", "sim/fmi/binary", "sim/fmi", "sim/record", "sim/record/hdf5", "sim/scenario", "sim/controllers", "sim/recordings",
+DRAWS_NOTHING = ["sim", "sim/fmi/machine", "sim/fmi/line", "sim/fmi/binary", "sim/fmi/host", "sim/fmi/foreign", "sim/fmi", "sim/record", "sim/record/hdf5", "sim/scenario", "sim/controllers", "sim/recordings",
                  "sim/loop"]
 
 LONGEST_CHAIN = 13  # files, the first one included

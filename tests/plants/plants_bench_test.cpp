@@ -227,8 +227,8 @@ TEST(PlantTypes, TablesAreCompleteAndTheirDefaultsLegal) {
       }
     }
   }
-  EXPECT_THAT(names, testing::ElementsAre("backlash_axis", "bench", "flying_saw", "ideal_axis", "linear_axis",
-                                          "rotary_axis", "rotary_knife", "vertical_press", "web"));
+  EXPECT_THAT(names, testing::ElementsAre("backlash_axis", "bench", "flying_saw", "fmu", "ideal_axis",
+                                          "linear_axis", "rotary_axis", "rotary_knife", "vertical_press", "web"));
 }
 
 TEST(PlantTypes, EveryPlantOffersNamesOnceWithMeanings) {
@@ -236,7 +236,7 @@ TEST(PlantTypes, EveryPlantOffersNamesOnceWithMeanings) {
   std::vector<std::unique_ptr<Plant>> plants;
   std::map<std::string, Plant*> by_name;
   for (const char* name : {"backlash_axis", "bench", "ideal_axis", "linear_axis", "rotary_axis", "web",
-                           "rotary_knife", "flying_saw", "vertical_press"})
+                           "rotary_knife", "flying_saw", "vertical_press", "fmu"})
     for (const PlantType& type : plant_types())
       if (type.name == name) {
         plants.push_back(type.define()->build(

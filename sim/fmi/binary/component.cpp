@@ -50,15 +50,15 @@ void refuse_other_bullet() {
 
 Component::Component(const std::filesystem::path& resources, std::string_view token) {
   refuse_other_bullet();
-  const auto text = text_of(resources / "machine.json");
+  const auto text = text_of(resources / resource_name());
   token_ = token_of(text);
   if (token != token_)
     throw Refusal(
-        fmt::format("the description has the token {}, the machine in its resources {}: they are of "
+        fmt::format("the description has the token {}, what its resources have {}: they are of "
                     "two FMUs",
                     token, token_));
-  resolved_ = read_machine(text);
-  machine_ = std::make_unique<BuiltMachine>(resolved_);
+  source_ = source_of(text, resources);
+  machine_ = source_->build({});
 }
 
 const FmiVariable& Component::variable(std::uint32_t reference, Type type, Type or_type) const {
@@ -109,7 +109,7 @@ void Component::apply(std::uint32_t reference, const FmiValue& value) {
 
 // What has the values of its parameters now; the old one stays where they do not go together.
 void Component::rebuild() {
-  auto built = std::make_unique<BuiltMachine>(resolved_, parameters_);
+  auto built = source_->build(parameters_);
   const auto& now = built->variables();
   const auto& before = machine_->variables();
   bool same = now.size() == before.size();
@@ -152,7 +152,7 @@ void Component::terminate() {
 }
 
 void Component::reset() {
-  machine_ = std::make_unique<BuiltMachine>(resolved_);
+  machine_ = source_->build({});
   parameters_.clear();
   inputs_.clear();
   stale_ = false;
@@ -162,7 +162,7 @@ void Component::reset() {
 
 Component::Reached Component::step(double at, double size, bool early) {
   require(Phase::stepping, "step");
-  const double h = seconds(resolved_.step);
+  const double h = seconds(source_->step());
   if (!(std::abs(at - time()) < h / 2))
     throw Refusal(fmt::format("a step from {:.9g} s is asked for, and it is {:.9g} s", at, time()));
   const double steps = std::round(size / h);
@@ -204,13 +204,13 @@ void Component::restore(std::span<const std::byte> state) {
   std::string token;
   Phase phase{};
   double start = 0;
-  BuiltMachine::Given parameters;
-  BuiltMachine::Given inputs;
+  FmiModel::Given parameters;
+  FmiModel::Given inputs;
   STATE(archive, token);
   if (token != token_) throw BadState("the state is of another FMU");
   STATE(archive, phase, start, parameters, inputs);
   if (stale_ || parameters != parameters_) {
-    machine_ = std::make_unique<BuiltMachine>(resolved_, parameters);
+    machine_ = source_->build(parameters);
     stale_ = false;
   }
   STATE(archive, *machine_);

@@ -7,9 +7,16 @@
 #include <string_view>
 
 #include "base/state_archive.hpp"
-#include "sim/fmi/machine/built_machine.hpp"
+#include "sim/fmi/machine/fmi_model.hpp"
 
 namespace drycut::sim::fmi {
+
+// What the library is of, a machine or a line: in of_machine.cpp or of_line.cpp, of which each library has
+// one.
+/// The file in the folder of resources.
+std::string_view resource_name();
+/// From its bytes; `resources`: the folder. Throws std::exception if it is none.
+std::unique_ptr<FmiSource> source_of(const std::string& bytes, const std::filesystem::path& resources);
 
 /// An instance of the FMU, of either standard: what both ask of it, in their order of calls. Everything that
 /// cannot be done throws, a Refusal where the importer may go on; nothing of it is shared between instances.
@@ -57,13 +64,13 @@ class Component {
   void apply(std::uint32_t reference, const FmiValue& value);
 
   std::string token_;
-  ResolvedMachine resolved_;
+  std::unique_ptr<FmiSource> source_;
   Phase phase_ = Phase::instantiated;
   double start_ = 0;
-  BuiltMachine::Given parameters_ = {};  // in place of the resolved ones
-  BuiltMachine::Given inputs_ = {};      // set before the first step, for a machine that is built anew
-  bool stale_ = false;                   // a parameter was given since the machine was built
-  std::unique_ptr<BuiltMachine> machine_;
+  FmiModel::Given parameters_ = {};  // in place of the resolved ones
+  FmiModel::Given inputs_ = {};      // set before the first step, for a machine that is built anew
+  bool stale_ = false;               // a parameter was given since the machine was built
+  std::unique_ptr<FmiModel> machine_;
 };
 
 }  // namespace drycut::sim::fmi

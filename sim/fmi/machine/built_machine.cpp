@@ -72,13 +72,6 @@ void take(const plants::Parameter& row, const FmiValue& given) {
       row.value);
 }
 
-FmiVariable output(std::string name, std::string meaning, Type type, std::string unit,
-                   std::function<double()> get) {
-  FmiVariable made{std::move(name), std::move(meaning), type, Role::output, std::move(unit)};
-  made.get = std::move(get);
-  return made;
-}
-
 // Words that only say where values come from, or which plants there are, are no parameters of the machine.
 bool is_parameter(const plants::Parameter& row) {
   if (!std::holds_alternative<std::string*>(row.value)) return true;
@@ -90,9 +83,11 @@ bool is_parameter(const plants::Parameter& row) {
 BuiltMachine::~BuiltMachine() = default;
 
 BuiltMachine::BuiltMachine(const ResolvedMachine& resolved, const Given& given)
-    : step_(resolved.step), h_(seconds(resolved.step)), units_(resolved.units), world_(resolved.seed) {
-  add({"time", "time", Type::real, Role::time, "s"});
-  variables_.back().get = [this] { return seconds(time_); };
+    : step_(resolved.step), h_(seconds(resolved.step)), world_(resolved.seed) {
+  units_ = resolved.units;
+  FmiVariable time{"time", "time", Type::real, Role::time, "s"};
+  time.get = [this] { return seconds(time_); };
+  add(std::move(time));
   define(resolved);
   for (std::size_t plant = 0; plant < definitions_.size(); ++plant) add_parameters(plant);
   for (const auto& [reference, value] : given) {
@@ -110,8 +105,8 @@ BuiltMachine::BuiltMachine(const ResolvedMachine& resolved, const Given& given)
     add_plugs(name, *plants_[plant]);
     for (auto& channel : plants_[plant]->channels()) {
       const auto full = name + "." + channel.name;
-      add(output(names_.contains(full) ? full + ".channel" : full, channel.meaning, Type::real, channel.unit,
-                 channel.read));
+      add(fmi_output(has_variable(full) ? full + ".channel" : full, channel.meaning, Type::real, channel.unit,
+                     channel.read));
     }
     add_events(plant);
     add_settings(name, *plants_[plant]);
@@ -160,11 +155,6 @@ void BuiltMachine::build() {
   for (auto& definition : definitions_) plants_.push_back(definition.definition->build(world_, find));
 }
 
-void BuiltMachine::add(FmiVariable variable) {
-  if (!names_.emplace(variable.name, static_cast<std::uint32_t>(variables_.size())).second) return;
-  variables_.push_back(std::move(variable));
-}
-
 void BuiltMachine::add_parameters(std::size_t plant) {
   const auto& definition = definitions_[plant];
   for (const auto& row : definition.parameters) {
@@ -188,7 +178,7 @@ void BuiltMachine::add_parameters(std::size_t plant) {
 void BuiltMachine::bind_live_parameters(std::size_t plant) {
   auto& definition = definitions_[plant];
   for (const auto& live : plants_[plant]->live_parameters()) {
-    auto& variable = variables_.at(names_.at("parameters." + definition.name + "." + live.name));
+    auto& variable = variable_called("parameters." + definition.name + "." + live.name);
     const auto row = std::ranges::find(definition.parameters, live.name, &plants::Parameter::name);
     auto* const told = std::get<double*>(row->value);
     auto* const machine = std::get<double*>(live.value);
@@ -258,38 +248,28 @@ void BuiltMachine::add_signal(const std::string& name, const plants::Port& port,
   signals_.push_back(std::make_unique<Signal>(Signal{from, encoder}));
   auto* const signal = signals_.back().get();
   const auto full = name + "." + port.name;
-  add(output(full, port.meaning, Type::flag, "", [from] { return from->level ? 1.0 : 0.0; }));
-  add(output(full + ".rises", "rising edges since the start", Type::count, "",
-             [signal] { return static_cast<double>(signal->rises); }));
-  add(output(full + ".rise_time", "when it rose last, exactly, inside its step", Type::real, "s",
-             [signal] { return signal->rise_time; }));
+  add(fmi_output(full, port.meaning, Type::flag, "", [from] { return from->level ? 1.0 : 0.0; }));
+  add(fmi_output(full + ".rises", "rising edges since the start", Type::count, "",
+                 [signal] { return static_cast<double>(signal->rises); }));
+  add(fmi_output(full + ".rise_time", "when it rose last, exactly, inside its step", Type::real, "s",
+                 [signal] { return signal->rise_time; }));
   if (encoder != nullptr)
-    add(output(full + ".latch", "count of the encoder at that very moment", Type::count, "",
-               [signal] { return static_cast<double>(signal->latch); }));
+    add(fmi_output(full + ".latch", "count of the encoder at that very moment", Type::count, "",
+                   [signal] { return static_cast<double>(signal->latch); }));
 }
 
 void BuiltMachine::add_settings(const std::string& name, plants::Plant& plant) {
-  const auto input = [&](std::string full, std::string meaning, std::string_view unit,
-                         const plants::Range& range) {
-    const bool is_switch = unit.empty() && range.whole && range.min == 0 && range.max == 1;
-    FmiVariable made{std::move(full), std::move(meaning), is_switch ? Type::flag : Type::real, Role::input,
-                     std::string(unit)};
-    made.in_si = true;
-    made.ranged = !is_switch;
-    made.integral = range.whole && !is_switch;
-    made.min = range.min;
-    made.max = range.max;
-    return made;
-  };
   for (auto& setting : plant.settings()) {
-    auto variable = input("set." + name + "." + setting.name, setting.meaning, setting.unit, setting.range);
+    auto variable = fmi_setting("set." + name + "." + setting.name, setting.meaning, setting.unit,
+                                setting.range.min, setting.range.max, setting.range.whole);
     variable.get = setting.read;
     variable.set = setting.write;
     add(std::move(variable));
   }
   for (auto& fault : plant.faults()) {
-    auto variable = input("fault." + name + "." + fault.component + "." + fault.name,
-                          fault.meaning + "; it acts when the value changes", fault.unit, fault.range);
+    auto variable = fmi_setting("fault." + name + "." + fault.component + "." + fault.name,
+                                fault.meaning + "; it acts when the value changes", fault.unit,
+                                fault.range.min, fault.range.max, fault.range.whole);
     faults_.push_back(std::make_unique<double>(fault.without ? fault.without() : 0));
     variable.get = [acted = faults_.back().get()] { return *acted; };
     variable.set = [acted = faults_.back().get(), act = fault.act](double value) {
@@ -305,44 +285,15 @@ void BuiltMachine::add_events(std::size_t plant) {
     happenings_.push_back(std::make_unique<Happening>(Happening{plant, type}));
     auto* const event = happenings_.back().get();
     const auto full = fmt::format("{}.{}", definitions_[plant].name, type.name);
-    add(output(full + ".count", fmt::format("{}: how often since the start", type.meaning), Type::count, "",
-               [event] { return static_cast<double>(event->count); }));
-    add(output(full + ".time", "when it happened last, exactly, inside its step", Type::real, "s",
-               [event] { return event->time; }));
+    add(fmi_output(full + ".count", fmt::format("{}: how often since the start", type.meaning), Type::count,
+                   "", [event] { return static_cast<double>(event->count); }));
+    add(fmi_output(full + ".time", "when it happened last, exactly, inside its step", Type::real, "s",
+                   [event] { return event->time; }));
     for (std::size_t n = 0; n < type.values.size(); ++n)
-      add(output(fmt::format("{}.{}", full, type.values[n].name),
-                 fmt::format("{} of the last {}", type.values[n].name, type.name), Type::real,
-                 std::string(type.values[n].unit), [event, n] { return event->values[n]; }));
+      add(fmi_output(fmt::format("{}.{}", full, type.values[n].name),
+                     fmt::format("{} of the last {}", type.values[n].name, type.name), Type::real,
+                     std::string(type.values[n].unit), [event, n] { return event->values[n]; }));
   }
-}
-
-const FmiVariable& BuiltMachine::checked(std::uint32_t reference, const FmiValue& value) const {
-  if (reference >= variables_.size())
-    throw Refusal(fmt::format("there is no variable of value reference {}", reference));
-  const auto& variable = variables_[reference];
-  const auto& name = variable.name;
-  if (variable.role == Role::output || variable.role == Role::time)
-    throw Refusal(fmt::format("{} is an output and cannot be set", name));
-  if (const auto* word = std::get_if<std::string>(&value)) {
-    if (variable.type != Type::word) throw Refusal(fmt::format("{} takes no text", name));
-    if (std::ranges::find(variable.choices, *word) == variable.choices.end())
-      throw Refusal(fmt::format("{}: '{}' is none of: {}", name, *word, fmt::join(variable.choices, ", ")));
-    return variable;
-  }
-  const double number = std::get<double>(value);
-  if (variable.type == Type::word) throw Refusal(fmt::format("{} takes a text", name));
-  if (!std::isfinite(number)) throw Refusal(fmt::format("{}: {} is no finite number", name, number));
-  if (!variable.ranged) return variable;
-  const auto scale = variable.in_si && units_.contains(variable.unit) ? units_.at(variable.unit) : SiScale();
-  const double inside = (number - scale.offset) / scale.factor;
-  const double slack = 1e-12 * std::max(std::abs(variable.min), std::abs(variable.max));  // of the conversion
-  if (inside < variable.min - slack || inside > variable.max + slack)
-    throw Refusal(fmt::format("{}: {:.12g}{}{} is out of range; {:.12g} to {:.12g}{}{}", name, inside,
-                              variable.unit.empty() ? "" : " ", variable.unit, variable.min, variable.max,
-                              variable.unit.empty() ? "" : " ", variable.unit));
-  if (variable.integral && inside != std::round(inside))
-    throw Refusal(fmt::format("{}: {:.12g} is no whole number", name, inside));
-  return variable;
 }
 
 void BuiltMachine::step() {

@@ -298,8 +298,8 @@ record::Verdict verdict_of(const LoopResult& result, const std::vector<std::stri
 }
 
 void write_bode_report(const LoopResult& result, const LimitCycle* cycle, const record::Verdict& verdict,
-                       const std::vector<record::CheckResult>& checks, const scenario::Scenario& scenario,
-                       OutputFolder& folder) {
+                       const std::vector<record::CheckResult>& checks, const std::string& fmi_step,
+                       const scenario::Scenario& scenario, OutputFolder& folder) {
   std::vector<renders::Plot> plots;
   auto report = report::page_of(verdict);
   report.scenario = result.file;
@@ -307,6 +307,11 @@ void write_bode_report(const LoopResult& result, const LimitCycle* cycle, const 
   report.facts = {
       {{"measured", subject(result)}}, {{"reading", std::string(reading)}}, {{"drycut", DRYCUT_VERSION}}};
   if (!result.gains.empty()) report.facts.push_back({{"gains in force", result.gains}});
+  for (std::size_t at = 0; at < fmi_step.size();) {
+    const auto end = std::min(fmi_step.find('\n', at), fmi_step.size());
+    report.facts.push_back({{"under FMI", fmi_step.substr(at, end - at)}});
+    at = end + 1;
+  }
   if (const auto lost = heard(result).size() - known(result).size(); lost > 0)
     report.facts.push_back(
         {{"left out", fmt::format("{} where the answer is noise (error above {:.0f} %); bode.csv has "

@@ -23,11 +23,11 @@ inline const std::vector<std::string> bode_files = {"bode.csv", "report.html", "
 /// What came of it: `faults` are what fails it, `checks` the limits that it was judged by.
 record::Verdict verdict_of(const LoopResult& result, const std::vector<std::string>& faults,
                            const std::vector<record::CheckResult>& checks);
-/// Writes report.html and plots/ into `folder`; `cycle` may be null. Throws std::runtime_error if something
-/// cannot be written.
+/// Writes report.html and plots/ into `folder`; `cycle` may be null; `fmi_step`: fmi_step_text(), or "".
+/// Throws std::runtime_error if something cannot be written.
 void write_bode_report(const LoopResult& result, const LimitCycle* cycle, const record::Verdict& verdict,
-                       const std::vector<record::CheckResult>& checks, const scenario::Scenario& scenario,
-                       OutputFolder& folder);
+                       const std::vector<record::CheckResult>& checks, const std::string& fmi_step,
+                       const scenario::Scenario& scenario, OutputFolder& folder);
 inline constexpr std::string_view bode_csv_header =
     "frequency [Hz],open_loop.gain [dB],open_loop.phase [deg],closed_loop.gain [dB],closed_loop.phase "
     "[deg],sensitivity.gain [dB],error";

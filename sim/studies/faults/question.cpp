@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "base/text.hpp"
+#include "sim/loop/guests.hpp"
 #include "sim/scenario/units.hpp"
 #include "sim/studies/faults/bench.hpp"
 
@@ -257,6 +258,7 @@ std::string TriedFault::quantity() const {
 void prepare(FaultQuestion& question, Problems& problems) {
   auto read = std::make_shared<scenario::Scenario>(
       scenario::read_scenario_text(question.text, question.file, question.set, problems));
+  loop::refuse_guests_without_state(*read, problems);
   if (!problems.empty()) return;
   keep_product(*read);
   question.scenario = read;

@@ -1,0 +1,23 @@
+#pragma once
+#include <vector>
+
+#include "base/problem.hpp"
+#include "plants/guest.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace drycut::sim::loop {
+
+/// The definition of a plant that is a foreign FMU; nullptr of another plant.
+const plants::GuestDefinition* guest_of(const scenario::PlantEntry& plant);
+
+/// A problem where the FMU of `plant` stands in the scenario.
+Problem problem_of_guest(Code code, const scenario::Scenario& scenario, const scenario::PlantEntry& plant,
+                         const std::string& what, const std::string& remedy);
+
+/// What the report says of each foreign FMU: that it is a guest, and how it steps.
+std::vector<Finding> notes_of_guests(const scenario::Scenario& scenario);
+
+/// A problem for each foreign FMU that cannot keep its state, before moments of the line are kept.
+void refuse_guests_without_state(const scenario::Scenario& scenario, Problems& problems);
+
+}  // namespace drycut::sim::loop
