@@ -243,7 +243,7 @@ def failures(place):
         for name, how, said in (("crash", CRASH, "crashed"), ("hang", HANG, "limits.time"), ("eat", EAT, "limits.memory"),
                                 ("refuse", REFUSE, "cannot go on"), ("leave", LEAVE, "status 7"),
                                 ("nan", NOT_A_NUMBER, "finite")):
-            text = line(fmu, f"fail: {how}, fail_at: 20 ms", ", limits: {time: 500 ms, memory: 200}", rest="timeline: [{at: 0 s, set: {lag.u: 1 V}}]\n")
+            text = line(fmu, f"fail: {how}, fail_at: 20 ms", f", limits: {{time: {3 if how == HANG else 200} s, memory: 200}}", rest="timeline: [{at: 0 s, set: {lag.u: 1 V}}]\n")
             done = place.run(f"{name}{version}", text)
             assert done.returncode == 3, (name, done.returncode, done.stdout, done.stderr)
             told = done.stdout + done.stderr
