@@ -205,7 +205,7 @@ class Simulation {
   std::unique_ptr<Watch> watch_;
   std::unique_ptr<Disturbances> disturbances_;  ///< nullptr without any
   std::unique_ptr<Inputs> inputs_;              ///< likewise
-  std::unique_ptr<Links> links_;  ///< nullptr without any
+  std::unique_ptr<Links> links_;                ///< nullptr without any
   std::unique_ptr<Timeline> timeline_;
   std::unique_ptr<Checks> checks_;
   std::unique_ptr<DriveJudge> drives_;

@@ -53,8 +53,8 @@ struct ParameterTable {
     std::vector<std::string> covers = {};  ///< of one that stands for others, and is not written: these
   };
   std::vector<Row> rows;
-  std::string help;    ///< where a reader finds the names: "'drycut plants web' lists its parameters"
-  bool nested = true;  ///< written as nested maps
+  std::string help;       ///< where a reader finds the names: "'drycut plants web' lists its parameters"
+  bool nested = true;     ///< written as nested maps
   std::string open = {};  ///< a group whose rows are known with the file only: editors take any
   /// What the file gives, and where: the value's place if `at_value`, else the key's.
   std::vector<std::pair<std::string, ScenePlace>>* places = nullptr;

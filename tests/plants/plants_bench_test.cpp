@@ -227,8 +227,9 @@ TEST(PlantTypes, TablesAreCompleteAndTheirDefaultsLegal) {
       }
     }
   }
-  EXPECT_THAT(names, testing::ElementsAre("backlash_axis", "bench", "flying_saw", "fmu", "ideal_axis",
-                                          "linear_axis", "rotary_axis", "rotary_knife", "vertical_press", "web"));
+  EXPECT_THAT(names,
+              testing::ElementsAre("backlash_axis", "bench", "flying_saw", "fmu", "ideal_axis", "linear_axis",
+                                   "rotary_axis", "rotary_knife", "vertical_press", "web"));
 }
 
 TEST(PlantTypes, EveryPlantOffersNamesOnceWithMeanings) {

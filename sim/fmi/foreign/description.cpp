@@ -261,6 +261,7 @@ class Description {
       for (const auto& start : element.children("Start"))
         starts.emplace_back(start.attribute("value").value());
       if (count > 1) return;  // lists of texts
+      if (starts.empty()) starts.emplace_back();
     } else if (exchanged.kind == NumberKind::text) {
       starts.emplace_back(typed.attribute("start").value());
     } else {

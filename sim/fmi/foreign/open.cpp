@@ -104,6 +104,7 @@ class ForeignType : public plants::GuestType {
       auto folder = std::make_shared<OwnFolder>();
       FmuArchive(bytes_).unpack({fs::path(library()).parent_path().string() + "/", "resources/"},
                                 folder->path());
+      write_host(folder->path());
       unpacked_ = std::move(folder);
     }
     return unpacked_;

@@ -34,17 +34,7 @@ double clock_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Once for each unpacked FMU.
-void write_host(const fs::path& program) {
-  if (fs::exists(program)) return;
-  const auto part = program.string() + ".part";
-  const int file = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0700);
-  const auto size = static_cast<std::size_t>(drycut_fmu_host_end - drycut_fmu_host_begin);
-  const bool written = file >= 0 && write(file, drycut_fmu_host_begin, size) == static_cast<ssize_t>(size);
-  if (file >= 0) close(file);
-  if (!written) throw std::runtime_error(fmt::format("cannot write {}", part));
-  fs::rename(part, program);
-}
+constexpr std::string_view host_name = "host";
 
 class SpawnActions {
  public:
@@ -89,15 +79,22 @@ class SpawnActions {
 
 }  // namespace
 
+void write_host(const fs::path& folder) {
+  const auto program = folder / host_name;
+  const int file = open(program.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0700);
+  const auto size = static_cast<std::size_t>(drycut_fmu_host_end - drycut_fmu_host_begin);
+  const bool written = file >= 0 && write(file, drycut_fmu_host_begin, size) == static_cast<ssize_t>(size);
+  if (file >= 0) close(file);
+  if (!written) throw std::runtime_error(fmt::format("cannot write {}", program.string()));
+}
+
 GuestProcess::GuestProcess(std::shared_ptr<const OwnFolder> unpacked, std::string name,
                            const host::LoadRequest& load, double time_limit, std::span<double> outputs)
     : unpacked_(std::move(unpacked)), name_(std::move(name)), time_limit_(time_limit), memory_(load.memory) {
   auto folder = (unpacked_->path() / "work-XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr)
     throw std::runtime_error(fmt::format("cannot make the folder {}", folder));
-  const auto program = unpacked_->path() / "host";
-  write_host(program);
-  begin(program, folder);
+  begin(unpacked_->path() / host_name, folder);
   host::HostFrame message;
   host::each_member(load, [&](const auto& member) { message.put(member); });
   try {

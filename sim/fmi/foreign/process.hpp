@@ -14,13 +14,16 @@
 
 namespace drycut::sim::fmi {
 
+/// Writes the program that holds FMUs into the folder of an unpacked one, once.
+void write_host(const std::filesystem::path& folder);
+
 /// A foreign FMU in a process of its own, which the program of sim/fmi/host/ runs: no environment, a folder
 /// of its own, limits of memory and of the time for an answer. That keeps an FMU's crash from the run; it
 /// keeps no secret from the FMU and is no sandbox.
 class GuestProcess : public plants::GuestModel {
  public:
-  /// `unpacked`: the FMU's folder, in which the process has one for its files; `name`: of the FMU, in
-  /// messages. Throws std::exception with a sentence, as all that it does.
+  /// `unpacked`: the FMU's folder with write_host(), in which the process has one for its files; `name`: of
+  /// the FMU, in messages. Throws std::exception with a sentence, as all that it does.
   GuestProcess(std::shared_ptr<const OwnFolder> unpacked, std::string name, const host::LoadRequest& load,
                double time_limit, std::span<double> outputs);
   ~GuestProcess() override;
