@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "sim/loop/simulation.hpp"
+#include "tests/bench/fmi.hpp"
 #include "tests/bench/mechanism.hpp"
 #include "tests/bench/recording.hpp"
 
@@ -135,4 +136,5 @@ int main() {
   double recorded = 1e9;
   for (int round = 0; round < rounds; ++round) recorded = std::min(recorded, bench::write_hdf5());
   fmt::print("trace.h5, 10^6 rows of 30 channels: {:.2f} s of the processor, the bar is 1 s\n", recorded);
+  bench::print_fmi_cost(rounds);
 }
