@@ -16,11 +16,11 @@
 namespace drycut::plants {
 namespace {
 
-constexpr double radius = 0.64 / (2 * pi);
-constexpr double thickness = 4e-3;
+constexpr double drum_radius = 0.64 / (2 * pi);
+constexpr double web_thickness = 4e-3;
 constexpr double width = 2.5;
 constexpr double peak = 10e3;
-constexpr double work = 2.0 / 3 * peak * thickness;
+constexpr double work = 2.0 / 3 * peak * web_thickness;
 
 /// Sum of `value` over the middles of `n` parts of an interval, times their length.
 template <class Value>
@@ -32,37 +32,37 @@ double integral(double from, double to, int n, Value value) {
 }
 
 double straight_force(double theta) {
-  return theta > 0 ? 0 : shear_force(peak, thickness, penetration(radius, thickness, theta));
+  return theta > 0 ? 0 : shear_force(peak, web_thickness, penetration(drum_radius, web_thickness, theta));
 }
 
 TEST(HelicalCut, IsTheSumOfItsPoints) {
-  const double touch = engagement_angle(radius, thickness);
+  const double touch = engagement_angle(drum_radius, web_thickness);
   for (const double lag : {1e-4, 0.3 * touch, touch, 1.7 * touch, 1.0})
     for (double share = 0.05; share < 1; share += 0.1) {
       const double lead = -touch + share * (touch + lag);
       SCOPED_TRACE(testing::Message() << lag << " " << lead);
-      const auto cut = helical_cut(peak, radius, thickness, lead, lag);
+      const auto cut = helical_cut(peak, drum_radius, web_thickness, lead, lag);
       constexpr int points = 100000;
       const double force = integral(lead - lag, lead, points, straight_force) / lag;
       const double torque =
           integral(lead - lag, lead, points,
-                   [](double theta) { return straight_force(theta) * radius * std::sin(-theta); }) /
+                   [](double theta) { return straight_force(theta) * drum_radius * std::sin(-theta); }) /
           lag;
       EXPECT_NEAR(cut.force, force, 1e-6 * peak);
-      EXPECT_NEAR(cut.torque, torque, 1e-6 * peak * radius);
+      EXPECT_NEAR(cut.torque, torque, 1e-6 * peak * drum_radius);
     }
 }
 
 TEST(HelicalCut, DoesTheWorkOfAStraightOneWithLessTorque) {
-  const double touch = engagement_angle(radius, thickness);
+  const double touch = engagement_angle(drum_radius, web_thickness);
   double straight = 0;
   for (double theta = -touch; theta < 0; theta += touch / 1e4)
-    straight = std::max(straight, straight_force(theta) * radius * std::sin(-theta));
+    straight = std::max(straight, straight_force(theta) * drum_radius * std::sin(-theta));
   double before = straight;
   for (const double lag : {0.1, 0.2, 0.4, 0.8, 1.6}) {
     double largest = 0;
     const double done = integral(-touch, lag, 100000, [&](double lead) {
-      const double torque = helical_cut(peak, radius, thickness, lead, lag).torque;
+      const double torque = helical_cut(peak, drum_radius, web_thickness, lead, lag).torque;
       largest = std::max(largest, torque);
       return torque;
     });
@@ -79,21 +79,21 @@ TEST(HelicalCut, DoesTheWorkOfAStraightOneWithLessTorque) {
 TEST(Helix, AngleAndLagAreInverse) {
   for (const double degrees : {0.1, 1.0, 5.0, 30.0}) {
     const double helix = degrees / 180 * pi;
-    const double lag = helix_lag(radius, helix, width);
-    EXPECT_NEAR(helix_of_lag(radius, lag, width), helix, 1e-12);
+    const double lag = helix_lag(drum_radius, helix, width);
+    EXPECT_NEAR(helix_of_lag(drum_radius, lag, width), helix, 1e-12);
     // The blade on the developed drum, over the length of axis that covers the web.
-    EXPECT_NEAR(lag * radius, width / std::cos(helix) * std::tan(helix), 1e-12);
+    EXPECT_NEAR(lag * drum_radius, width / std::cos(helix) * std::tan(helix), 1e-12);
   }
-  EXPECT_EQ(helix_lag(radius, 0, width), 0);
-  EXPECT_EQ(helix_of_lag(radius, 0, width), 0);
+  EXPECT_EQ(helix_lag(drum_radius, 0, width), 0);
+  EXPECT_EQ(helix_of_lag(drum_radius, 0, width), 0);
 }
 
 /// A cutter on a bare drum.
 struct Helical {
-  CutterData data{.radius = radius,
+  CutterData data{.radius = drum_radius,
                   .blades = 1,
                   .helix = 1.0 / 180 * pi,
-                  .thickness = thickness,
+                  .thickness = web_thickness,
                   .peak_force = peak,
                   .coupling = 5000,
                   .grip = 2000,
@@ -114,8 +114,8 @@ struct Helical {
             {.name = "drum", .inertia = 1, .revolutions = start / (2 * pi), .speed = drum_speed})),
         web(world.add_slide({.name = "web", .mass = 100, .speed = web_speed})),
         cutter((data.width = width, data.helix = helix, data.counter_blades = counter_blades, data), drum) {}
-  double along() const { return radius * std::cos(data.helix); }
-  double lag() const { return helix_lag(radius, data.helix, width); }
+  double along() const { return drum_radius * std::cos(data.helix); }
+  double lag() const { return helix_lag(drum_radius, data.helix, width); }
   /// `acts`: the cut acts on the drum.
   void run(double seconds, double dt = h, bool acts = false) {
     for (long i = std::lround(seconds / dt); i > 0; --i) {
@@ -191,7 +191,7 @@ TEST(HelicalCutter, TakesTheWorkOfAStraightOneFromTheDrum) {
 
 TEST(HelicalCutter, CounterBladesCloseInTwiceAsFast) {
   Helical c(-1, 30, 3, 0, true);
-  const double touch = std::acos(1 - thickness / (2 * radius));
+  const double touch = std::acos(1 - web_thickness / (2 * drum_radius));
   c.run((1 - 1.02 * touch) / 30, 1e-5);
   EXPECT_FALSE(c.cutter.engaged());
   c.run(0.04 * touch / 30, 1e-5);
@@ -200,15 +200,15 @@ TEST(HelicalCutter, CounterBladesCloseInTwiceAsFast) {
   const auto load = c.cutter.load(c.drum, c.web);
   const double theta = c.cutter.theta();
   EXPECT_NEAR(load.dry.forward,
-              shear_force(peak, thickness, thickness - 2 * radius * (1 - std::cos(theta))) * 2 * radius *
-                  std::sin(-theta),
+              shear_force(peak, web_thickness, web_thickness - 2 * drum_radius * (1 - std::cos(theta))) * 2 *
+                  drum_radius * std::sin(-theta),
               1e-9);
 }
 
 TEST(HelicalCutter, PushesTheWebWithTheShareThatIsInIt) {
   // Long enough that the whole width of its touch is in the web: half of it cuts, half is through.
   Helical c(-1, 0, 3, 3.0 / 180 * pi);
-  const double touch = engagement_angle(radius, thickness);
+  const double touch = engagement_angle(drum_radius, web_thickness);
   ASSERT_GT(c.lag(), 2 * touch);
   c.drum.speed = 1.05 * 3 / c.along();
   c.run(1 / c.drum.speed);  // the middle is at the bottom
@@ -264,7 +264,8 @@ TEST(HelicalCutter, TooFastItTearsAndTooSlowItBuckles) {
     EXPECT_EQ(c.cuts, 1);
     EXPECT_EQ(c.faults, 1);
     EXPECT_NEAR(c.cut.mismatch,
-                std::abs(ratio - 1) * 10 / 3 + (ratio < 1 ? 0.9 * 10 / 3 * thickness / radius : 0), 2e-3);
+                std::abs(ratio - 1) * 10 / 3 + (ratio < 1 ? 0.9 * 10 / 3 * web_thickness / drum_radius : 0),
+                2e-3);
   }
 }
 
