@@ -220,7 +220,7 @@ TEST_F(InputsTest, NothingElseSetsWhatIsDriven) {
   EXPECT_EQ(
       to_string(problems.front()),
       "line.yaml:9:10: web.speed is driven by a recording: what is set here would not last; leave it out "
-      "here, or under inputs [input.driven-twice]");
+      "here, or what drives it [input.driven-twice]");
 }
 
 TEST_F(InputsTest, WhatDoesNotFitIsToldWithItsPlace) {
