@@ -8,6 +8,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <initializer_list>
 #include <map>
 #include <memory>
@@ -92,10 +93,22 @@ std::string& carried_units() {
   return file;
 }
 
+// Libraries of FMUs that lie in several folders have a table of their own each and share the one UDUNITS that
+// is loaded, whose reader of XML keeps its state in statics: a lock that all of them have, the C library's of
+// stderr.
+class UnitsOfProcess {
+ public:
+  UnitsOfProcess() { flockfile(stderr); }
+  ~UnitsOfProcess() { funlockfile(stderr); }
+  UnitsOfProcess(const UnitsOfProcess&) = delete;
+  UnitsOfProcess& operator=(const UnitsOfProcess&) = delete;
+};
+
 // The table of UDUNITS, loaded once (5 ms). UDUNITS is not safe for several threads, hence one lock over all.
 class UnitTable {
  public:
   UnitTable() {
+    const UnitsOfProcess alone;
     ut_set_error_message_handler(ut_ignore);
     system_ = ut_read_xml(carried_units().empty() ? nullptr : carried_units().c_str());
     if (system_ == nullptr) return;
@@ -126,11 +139,15 @@ class UnitTable {
   }
   UnitTable(const UnitTable&) = delete;
   UnitTable& operator=(const UnitTable&) = delete;
-  ~UnitTable() { ut_free_system(system_); }
+  ~UnitTable() {
+    const UnitsOfProcess alone;
+    ut_free_system(system_);
+  }
 
   std::optional<Conversion> find(std::string_view unit) {
     const std::scoped_lock lock(mutex_);
     if (const auto known = known_.find(unit); known != known_.end()) return known->second;
+    const UnitsOfProcess alone;
     auto conversion = convert(unit);
     if (conversion) known_.emplace(unit, *conversion);
     return conversion;

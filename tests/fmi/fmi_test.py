@@ -165,11 +165,30 @@ def line(program, there):
         assert shorter.get("alarms.count") == 0
         assert shorter.set("set.web.speed", 1e6) == ERROR and "out of range" in shorter.said[-1]
         assert shorter.step(5.6, 1.5e-4) == ERROR and "whole multiple" in shorter.said[-1]
+        # As a timeline would be refused, and not cut down to the bits that the device has.
+        assert shorter.set("parameters.AxisX.pgain", 1e9) == ERROR and "0 to 32767" in shorter.said[-1], shorter.said
+        assert shorter.set("parameters.AxisX.pgain", 40.0) == OK and shorter.get("parameters.AxisX.pgain") == 40
         bad = Instance(fmu)
         assert bad.set("parameters.length", 1e9) == OK
         assert bad.initialise() == ERROR and bad.said, "no variable of the program holds that length"
         for instance in (one, other, shorter, bad):
             instance.free()
+    # Unpacked twice: libraries of their own that share what is loaded once, begun in two threads at the same time.
+    for n in range(6):
+        folders = [Folder(shutil.copytree(fmu.path, there / f"copy{n}{side}")) for side in "ab"]
+        gate, handles = threading.Barrier(2), []
+
+        def begin(folder):
+            gate.wait()
+            instance = Instance(folder)
+            handles.append(bool(instance.handle) and instance.initialise() == OK)
+
+        threads = [threading.Thread(target=begin, args=(folder,)) for folder in folders]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        assert handles == [True, True], handles
     print("line: 6000 steps of 1 ms, 7 outputs, both versions: the same")
 
 
@@ -480,8 +499,13 @@ def bode(program, there):
     for margin in ("phase", "gain"):
         lost = told[margin, False] - measured[margin, False]
         assert lost > 0.5 and abs(told[margin, True] - measured[margin, False]) < 0.1 * lost, (margin, told, measured)
-    bad = subprocess.run([program, "bode", SCENES / "rotary_knife.yaml", "--fmi-step", "1 mm"], capture_output=True, text=True)
-    assert bad.returncode == 2 and "[option.out-of-range]" in bad.stderr
+    # Its crossover is near 4 Hz, and its phase margin less than a quarter of a turn: 100 ms are too long, and 300 ms no turn better.
+    for step in ("100 ms", "300 ms"):
+        slow = subprocess.run([program, "bode", SCENES / "rotary_knife.yaml", "--fmi-step", step], capture_output=True, text=True)
+        assert f"unstable behind an FMI step of {step}" in slow.stdout and "margin behind" not in slow.stdout, slow.stdout
+    for step in ("1 mm", "1"):
+        bad = subprocess.run([program, "bode", SCENES / "rotary_knife.yaml", "--fmi-step", step], capture_output=True, text=True)
+        assert bad.returncode == 2 and "[option.out-of-range]" in bad.stderr
     print("margins:", told)
 
 

@@ -50,6 +50,10 @@ std::string structured(const std::string& name) {
   return legal ? name : "'" + name + "'";
 }
 
+void refuse_misfit(const std::optional<devices::ValueFault>& fault) {
+  if (fault) throw Refusal(fmt::format("{}; {}", fault->what, fault->remedy));
+}
+
 bool is_list(const std::string& name) { return name.find('[') != std::string::npos; }
 
 }  // namespace
@@ -223,8 +227,10 @@ void BuiltLine::add_orders() {
                          Type::real, Role::input};
     told_.push_back(std::make_unique<Told>(Told{target->read()}));
     variable.get = [told = told_.back().get()] { return told->value; };
-    variable.set = [told = told_.back().get(), write = target->write](double value) {
-      write(value);
+    variable.set = [told = told_.back().get(), name, target = *target](double value) {
+      if (value == told->value) return;
+      if (target.range) refuse_misfit(devices::misfit(name, *target.range, value, target.unit));
+      target.write(value);
       told->value = value;
     };
     add(std::move(variable));
@@ -249,8 +255,11 @@ void BuiltLine::add_controller() {
                          Type::real, Role::live_parameter};
     told_.push_back(std::make_unique<Told>(Told{value->read()}));
     variable.get = [told = told_.back().get()] { return told->value; };
-    variable.set = [told = told_.back().get(), write = value->write](double number) {
-      write(number);
+    // What it starts with may lie outside of its range, and an importer may give it all starts back.
+    variable.set = [told = told_.back().get(), value = *value](double number) {
+      if (number == told->value) return;
+      refuse_misfit(value.misfit(number));
+      value.write(number);
       told->value = number;
     };
     add(std::move(variable));

@@ -11,8 +11,8 @@ namespace drycut::sim::studies {
 
 std::optional<double> fmi_step_of(const std::string& text) {
   const auto given = scenario::parse_quantity(text);
-  if (!given || (!given->unit.empty() && !scenario::same_dimension(given->unit, "s"))) return {};
-  const double step = given->unit.empty() ? given->number : scenario::to_si(given->number, given->unit);
+  if (!given || given->unit.empty() || !scenario::same_dimension(given->unit, "s")) return {};
+  const double step = scenario::to_si(given->number, given->unit);
   return step > 0 && step <= 1 ? std::optional(step) : std::nullopt;
 }
 
@@ -24,8 +24,19 @@ Margins margins_behind(std::vector<BodePoint> points, double dead_time) {
 
 std::string fmi_step_text(const LoopResult& result, double step) {
   const auto phase = result.known_phase();
-  if (!phase) return "";
-  const auto behind = margins_behind(result.sweep.points, step);
+  if (!phase || phase->value <= 0) return "";
+  // A dead time leaves the crossover where it is; the phase of what was measured would be read a turn too
+  // high.
+  constexpr double turn = 360;
+  const double left = phase->value - turn * phase->frequency * step;
+  if (left <= 0)
+    return fmt::format(
+        "unstable behind an FMI step of {:g} ms: {:.1f} deg are lost of a phase margin of {:.2f} deg at {}; "
+        "it swings from {:.3g} ms on\n",
+        step * 1e3, phase->value - left, phase->value, hertz_text(phase->frequency),
+        phase->value / turn / phase->frequency * 1e3);
+  auto behind = margins_behind(result.sweep.points, step);
+  behind.phase = AtFrequency{phase->frequency, left};
   std::string text;
   const auto line = [&](const char* margin, const std::optional<AtFrequency>& value, const char* unit) {
     text += value ? fmt::format("{} behind an FMI step of {:g} ms: {:.2f} {} at {}\n", margin, step * 1e3,
@@ -35,10 +46,8 @@ std::string fmi_step_text(const LoopResult& result, double step) {
   };
   line("phase margin", behind.phase, "deg");
   line("gain margin", behind.gain, "dB");
-  constexpr double turn = 360;
-  if (phase->value > 0)
-    text += fmt::format("a tenth of the phase margin goes with a step of {:.3g} ms\n",
-                        phase->value / 10 / turn / phase->frequency * 1e3);
+  text += fmt::format("a tenth of the phase margin goes with a step of {:.3g} ms\n",
+                      phase->value / 10 / turn / phase->frequency * 1e3);
   return text;
 }
 
