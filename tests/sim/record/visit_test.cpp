@@ -1,4 +1,7 @@
 // What came of a run goes through every archive and back.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include <random>
 
 #include "sim/cli/run_cache.hpp"
