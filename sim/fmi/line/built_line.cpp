@@ -144,29 +144,10 @@ void BuiltLine::add_plants() {
   auto& names = simulation_->names();
   for (const auto& plant : scenario_.plants) {
     for (const auto& row : plant.definition->parameters()) {
-      constexpr Type types[] = {Type::real, Type::whole, Type::flag, Type::word};
-      const auto type = types[row.value.index()];
-      if (type == Type::word && (!row.reference.empty() || row.presets != nullptr || row.choices.empty()))
-        continue;
+      const bool is_word = std::holds_alternative<std::string*>(row.value);
+      if (is_word && (!row.reference.empty() || row.presets != nullptr || row.choices.empty())) continue;
       const auto full = plant.name.text + "." + row.name;
-      FmiVariable variable{"parameters." + full, std::string(row.meaning), type,
-                           row.live ? Role::live_parameter : Role::parameter, std::string(row.unit)};
-      variable.in_si = true;
-      variable.ranged = type == Type::real || type == Type::whole;
-      variable.min = row.min;
-      variable.max = row.max;
-      variable.choices = row.choices;
-      if (auto* const* word = std::get_if<std::string*>(&row.value)) variable.word = *word;
-      variable.get = [row] {
-        return std::visit(
-            [](const auto* value) {
-              if constexpr (std::is_same_v<decltype(value), const std::string*>)
-                return 0.0;
-              else
-                return static_cast<double>(*value);
-            },
-            row.value);
-      };
+      auto variable = fmi_parameter(full, row);
       variable.set = [](double) {};  // another line is built
       if (const auto live = row.live ? names.target(full) : std::nullopt) {
         live_.insert(full);

@@ -44,17 +44,6 @@ struct BuiltMachine::Happening {
 
 namespace {
 
-double number_of(const plants::Parameter& row) {
-  return std::visit(
-      [](const auto* value) {
-        if constexpr (std::is_same_v<decltype(value), const std::string*>)
-          return 0.0;
-        else
-          return static_cast<double>(*value);
-      },
-      row.value);
-}
-
 void take(const plants::Parameter& row, const FmiValue& given) {
   if (auto* const* word = std::get_if<std::string*>(&row.value)) {
     **word = std::get<std::string>(given);
@@ -159,18 +148,8 @@ void BuiltMachine::add_parameters(std::size_t plant) {
   const auto& definition = definitions_[plant];
   for (const auto& row : definition.parameters) {
     if (!is_parameter(row)) continue;
-    constexpr Type types[] = {Type::real, Type::whole, Type::flag, Type::word};
-    const auto type = types[row.value.index()];
-    FmiVariable variable{"parameters." + definition.name + "." + row.name, std::string(row.meaning), type,
-                         row.live ? Role::live_parameter : Role::parameter, std::string(row.unit)};
-    variable.in_si = true;
-    variable.ranged = type == Type::real || type == Type::whole;
-    variable.min = row.min;
-    variable.max = row.max;
-    variable.choices = row.choices;
-    variable.get = [row] { return number_of(row); };
+    auto variable = fmi_parameter(definition.name + "." + row.name, row);
     variable.set = [row](double value) { take(row, value); };
-    if (auto* const* word = std::get_if<std::string*>(&row.value)) variable.word = *word;
     add(std::move(variable));
   }
 }

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 namespace drycut::sim::fmi {
 
@@ -16,6 +18,32 @@ FmiVariable fmi_output(std::string name, std::string meaning, FmiVariable::Type 
                        std::function<double()> get) {
   FmiVariable made{std::move(name), std::move(meaning), type, FmiVariable::Role::output, std::move(unit)};
   made.get = std::move(get);
+  return made;
+}
+
+FmiVariable fmi_parameter(const std::string& name, const plants::Parameter& row) {
+  using Type = FmiVariable::Type;
+  constexpr Type types[] = {Type::real, Type::whole, Type::flag, Type::word};
+  const auto type = types[row.value.index()];
+  FmiVariable made{"parameters." + name, std::string(row.meaning), type,
+                   row.live ? FmiVariable::Role::live_parameter : FmiVariable::Role::parameter,
+                   std::string(row.unit)};
+  made.in_si = true;
+  made.ranged = type == Type::real || type == Type::whole;
+  made.min = row.min;
+  made.max = row.max;
+  made.choices = row.choices;
+  made.get = [row] {
+    return std::visit(
+        [](const auto* value) {
+          if constexpr (std::is_same_v<decltype(value), const std::string*>)
+            return 0.0;
+          else
+            return static_cast<double>(*value);
+        },
+        row.value);
+  };
+  if (auto* const* word = std::get_if<std::string*>(&row.value)) made.word = *word;
   return made;
 }
 

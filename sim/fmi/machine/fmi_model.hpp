@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "plants/plant.hpp"
 #include "sim/fmi/machine/resolved.hpp"
 #include "sim/time.hpp"
 
@@ -97,6 +98,8 @@ class FmiModel {
 /// An output.
 FmiVariable fmi_output(std::string name, std::string meaning, FmiVariable::Type type, std::string unit,
                        std::function<double()> get);
+/// "parameters." + `name`, of this row: its number is in SI. Who sets it is not said yet.
+FmiVariable fmi_parameter(const std::string& name, const plants::Parameter& row);
 /// What the timeline sets, or a fault: in SI, a Boolean where it is on or off.
 FmiVariable fmi_setting(std::string name, std::string meaning, std::string_view unit, double min, double max,
                         bool whole);
