@@ -1,7 +1,9 @@
 #pragma once
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -39,5 +41,9 @@ class OutputFile {
 
 /// Writes a whole file so.
 void write_file(const std::filesystem::path& file, std::string_view text);
+
+/// Writes all bytes to an open descriptor, also where a signal comes in between. Throws std::runtime_error
+/// with the reason.
+void write_all(int descriptor, std::span<const std::byte> bytes);
 
 }  // namespace drycut

@@ -48,15 +48,6 @@ std::optional<StateArchive::Bytes> bytes_of(const fs::path& file, std::uint64_t 
 
 [[noreturn]] void fail() { throw std::runtime_error(std::strerror(errno)); }
 
-void write_all(int file, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const auto written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) fail();
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-  }
-}
-
 }  // namespace
 
 struct KeptStates::File {
