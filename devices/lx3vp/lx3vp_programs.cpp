@@ -68,6 +68,8 @@ ProgramPositions Lx3vpController::positions(std::int64_t) const {
   } else if (stopped_) {
     scan.doing = "stopped by the watchdog";
     if (const auto* step = step_at(stopped_at_)) scan.line = step->line;
+  } else if (halted_) {
+    scan.doing = "stopped by M8037";
   } else if (scanning_ && scanner_.line() > 0) {
     scan.doing = "runs";
     scan.line = scanner_.line();

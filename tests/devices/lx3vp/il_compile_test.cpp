@@ -30,7 +30,7 @@ TEST(IlCompile, NamesTheNearestInstruction) {
 
 // The real unit has them: no wrong suggestion.
 TEST(IlCompile, SaysWhatIsNotSimulated) {
-  for (const std::string name : {"PLSR", "dplsr", "WSFLP", "DFROMP", "WDTP", "DHSCS", "EI"})
+  for (const std::string name : {"PTO", "dabsd", "RCLP", "DFROMP", "ANRP", "DTKY", "IST"})
     EXPECT_THAT(faults("LD X0\n" + name + " K1 Y0\nOUT Y0\nEND"),
                 ElementsAre("2:1: " + name +
                             " is not simulated; `drycut devices LX3VP` lists what is [il.not-simulated]"));
@@ -55,24 +55,26 @@ void expect_operand_faults(std::vector<Refused> lines) {
 
 TEST(IlCompile, SpecialDevicesThatAreNotServedAreRefused) {
   const std::string relays =
-      "there are M8000 to M8004, M8011 to M8014, M8020 to M8022, M8029, M8061, M8067, M8145 to M8150, M8152 "
-      "to "
-      "M8153, M8200 to M8255 [il.not-simulated]";
-  const std::string words =
-      "there are D8010, D8061, D8067, D8069, D8140 to D8143, D8145 to D8148, D8150 to D8153 "
+      "there are M8000 to M8004, M8011 to M8014, M8020 to M8022, M8024, M8029, M8031 to M8034, M8036 to "
+      "M8037, "
+      "M8039 to M8040, M8046 to M8059, M8061, M8067, M8145 to M8150, M8152 to M8153, M8168, M8200 to M8255 "
       "[il.not-simulated]";
-  expect_operand_faults({{"OUT M8034", {"2:5: M8034 is not simulated; " + relays}},
-                         {"AND M8033\nOUT Y0", {"2:5: M8033 is not simulated; " + relays}},
-                         {"SET M8040", {"2:5: M8040 is not simulated; " + relays}},
-                         {"SET M8050", {"2:5: M8050 is not simulated; " + relays}},
+  const std::string words =
+      "there are D8000, D8010 to D8019, D8039 to D8047, D8049, D8061, D8067, D8069, D8140 to D8143, D8145 to "
+      "D8148, D8150 to D8153 "
+      "[il.not-simulated]";
+  expect_operand_faults({{"OUT M8035", {"2:5: M8035 is not simulated; " + relays}},
+                         {"AND M8041\nOUT Y0", {"2:5: M8041 is not simulated; " + relays}},
+                         {"SET M8045", {"2:5: M8045 is not simulated; " + relays}},
+                         {"SET M8160", {"2:5: M8160 is not simulated; " + relays}},
                          {"MOV K4M8000 D0", {"2:5: M8005 is not simulated; " + relays}},
                          {"MOV K1M8000 D0", {}},
                          {"MOV K1M8000Z0 D0", {}},
                          {"OUT M8200", {}},
                          {"AND M8255\nOUT Y0", {}},
-                         {"MOV D8000 D0", {"2:5: D8000 is not simulated; " + words}},
+                         {"MOV D8001 D0", {"2:5: D8001 is not simulated; " + words}},
                          {"MOV K1 D8120", {"2:8: D8120 is not simulated; " + words}},
-                         {"AND D8013.0\nOUT Y0", {"2:5: D8013 is not simulated; " + words}},
+                         {"AND D8020.0\nOUT Y0", {"2:5: D8020 is not simulated; " + words}},
                          {"DMOV K1 D8140", {}},
                          {"MOV D8141 D0", {}},
                          {"MOV D7999 D0", {}}});
