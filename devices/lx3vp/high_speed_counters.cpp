@@ -1,5 +1,6 @@
 #include "devices/lx3vp/high_speed_counters.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -72,8 +73,10 @@ void HighSpeedCounters::write(Registers& registers, const CounterCompare& compar
   bit = on;
 }
 
+// In the order in which the count comes to them.
 void HighSpeedCounters::judge(int number, std::int64_t before, std::int64_t after, Registers& registers) {
   using enum CounterCompare::Kind;
+  std::vector<const CounterCompare*> reached;
   for (const auto& [step, compare] : compares_) {
     if (compare.counter != number) continue;
     if (compare.kind == zone) {
@@ -82,16 +85,20 @@ void HighSpeedCounters::judge(int number, std::int64_t before, std::int64_t afte
       continue;
     }
     const bool upwards = before < compare.low && after >= compare.low;
-    if (!upwards && !(before > compare.low && after <= compare.low)) continue;
-    if (compare.letter == 'I') {
-      news_.interrupts.push_back(compare.number);
-    } else if (compare.letter == 'C') {
+    if (upwards || (before > compare.low && after <= compare.low)) reached.push_back(&compare);
+  }
+  std::ranges::stable_sort(reached, {},
+                           [&](const CounterCompare* compare) { return std::abs(compare->low - before); });
+  for (const CounterCompare* compare : reached) {
+    if (compare->letter == 'I') {
+      news_.interrupts.push_back(compare->number);
+    } else if (compare->letter == 'C') {
       // What comes behind it in this tick counts on from 0.
       auto& counter = registers.c[static_cast<std::size_t>(number)];
-      counter.value = static_cast<std::int32_t>(after - compare.low);
+      counter.value = static_cast<std::int32_t>(after - compare->low);
       counter.contact = false;
     } else {
-      write(registers, compare, 0, compare.kind == set);
+      write(registers, *compare, 0, compare->kind == set);
     }
   }
 }
@@ -116,8 +123,8 @@ void SpeedMeters::measure(int step, const SpeedMeasure& measure, bool powered, R
     return;
   }
   const auto [meter, begins] = meters_.try_emplace(step);
-  meter->second.measure = measure;
   if (!begins) return;
+  meter->second.measure = measure;
   meter->second.ticks_left = measure.period_ms * ticks_per_ms;
   registers.put(measure.result + 1, 0);
   show_measure(measure, meter->second.ticks_left, registers);
@@ -126,9 +133,10 @@ void SpeedMeters::measure(int step, const SpeedMeasure& measure, bool powered, R
 void SpeedMeters::tick(const std::array<bool, terminals>& inputs, Registers& registers) {
   for (auto& [step, meter] : meters_) {
     const bool level = inputs[static_cast<std::size_t>(meter.measure.input)];
-    const bool rises = level && !std::exchange(meter.level, level);
+    const bool was_on = std::exchange(meter.level, level);
     const auto present = static_cast<std::size_t>(meter.measure.result) + 1;
-    if (rises) registers.put(meter.measure.result + 1, static_cast<std::uint16_t>(registers.d[present] + 1));
+    if (level && !was_on)
+      registers.put(meter.measure.result + 1, static_cast<std::uint16_t>(registers.d[present] + 1));
     if (--meter.ticks_left <= 0) {
       registers.put(meter.measure.result, registers.d[present]);
       registers.put(meter.measure.result + 1, 0);

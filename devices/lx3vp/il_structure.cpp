@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "devices/lx3vp/il_operands.hpp"
 #include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp::il {
@@ -275,7 +276,7 @@ class Structure {
   void check_requests(const Step& step) {
     if (step.op() != Op::hscs || step.operands.size() < 3) return;
     const auto& asked = step.operands[2];
-    if (asked.kind != OperandType::interrupt) return;
+    if (asked.kind != OperandType::interrupt || !is_counter_interrupt(asked.number)) return;
     for (const auto& interrupt : interrupts_)
       if (interrupt.number == asked.number) return;
     tell_("il.jump"_code, {asked.line, asked.column}, fmt::format("there is no label {}", to_string(asked)),

@@ -121,7 +121,7 @@ class Instructions {
   /// DHSCS, DHSCR, DHSZ: compares from pulse to pulse while powered.
   virtual void compare_counter(int step, const CounterCompare& compare, bool powered) = 0;
 
-  /// SPD: measures while powered.
+  /// SPD: measures while powered, as it was asked when power came.
   virtual void measure_speed(int step, const SpeedMeasure& measure, bool powered) = 0;
 
   /// REF: takes the levels of inputs, or gives those of outputs, at once. `letter` is X or Y.

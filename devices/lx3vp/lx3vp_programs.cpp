@@ -1,4 +1,5 @@
-// What one sees of the program while it runs: its text, the registers that each line names, where a scan is.
+// What one sees of the program while it runs: its text, the registers that each line names, where a scan is
+// or why there is none.
 #include <optional>
 #include <string>
 #include <utility>

@@ -129,7 +129,7 @@ struct Registers {
 /// hour, minute, second, weekday (0 is Sunday).
 using ClockWords = std::array<int, 7>;
 ClockWords clock_of(const Registers& registers);
-/// Its second, 0 to 59.
+/// Its second, 0 to 59: tells cheaply whether it has gone on.
 int clock_second(const Registers& registers);
 /// Sets it; false, and nothing changed, if there is no such time. The weekday is not looked at.
 bool set_clock(Registers& registers, const ClockWords& words);

@@ -89,9 +89,9 @@ TEST(Lx3vpIlData, WordsShiftBothWays) {
   EXPECT_THAT(Done("WSFL D2 D2 K4 K1", words).words(2, 4), ElementsAre(1, 1, 2, 3)) << "S may lie in D";
   EXPECT_EQ(Done("MOV H21 K2M0\nWSFR K1M8 K1M0 K2 K1\nMOV K2M0 D0").d(0), 0x02) << "groups of four bits";
   EXPECT_EQ(Done("WSFR D0 D2 K2 K3").error(), "WSFR: 3 words of 2 are to be shifted");
-  EXPECT_EQ(Done("WSFR D0 D8250 K10 K1").error(), "WSFR: 10 values from D8250 on go beyond what there is");
+  EXPECT_EQ(Done("WSFR D0 D8150 K200 K1").error(), "WSFR: 200 values from D8150 on go beyond what there is");
   EXPECT_THAT(faults("LD X0\nWSFL K1M0 K2M20 K2 K1\nEND"),
-              ElementsAre("2:11: WSFL from K1M0 to K2M20; group as many bits in both [il.operand]"));
+              ElementsAre("2:20: WSFL from K1M0 to K2M20; group as many bits in both [il.operand]"));
 }
 
 TEST(Lx3vpIlData, AQueueGivesFirstWhatCameFirst) {
@@ -105,8 +105,8 @@ TEST(Lx3vpIlData, AQueueGivesFirstWhatCameFirst) {
     plc.scan();
     return input == 0 ? full : empty;
   };
-  for (const std::int16_t value : {11, 22, 33}) {
-    plc.registers.set_i16(0, value);
+  for (const int value : {11, 22, 33}) {
+    plc.registers.set_i16(0, static_cast<std::int16_t>(value));
     EXPECT_FALSE(pulse(0)) << value;
   }
   plc.registers.set_i16(0, 44);
@@ -134,7 +134,7 @@ TEST(Lx3vpIlData, BlocksOfBitsMoveInTheirGroups) {
   EXPECT_THAT(Done("MOV K7 T5\nBMOV T5 D0 K1\nFMOV K3 K1M0 K2\nMOV K2M0 D1").words(0, 2),
               ElementsAre(7, 0x33));
   EXPECT_THAT(faults("LD X0\nBMOV K2M0 K1M20 K2\nBMOV D0 K1X0 K1\nEND"),
-              ElementsAre("2:11: BMOV from K2M0 to K1M20; group as many bits in both [il.operand]",
+              ElementsAre("2:17: BMOV from K2M0 to K1M20; group as many bits in both [il.operand]",
                           "3:9: BMOV does not take K1X0 here; it takes D, T, C or bits (K4M0) of Y, M or S "
                           "[il.operand]"));
   covers({"M8024"});
