@@ -334,10 +334,30 @@ class IlCompiler : private Complaints {
   void add(Step step) {
     rungs_.add(step);
     if (needs_memory(step)) step.memory = program_.memories++;
+    step.route = route_of(step);
+    if (step.route == Route::bit) {
+      step.letter = letter_of(step.operands[0].kind);
+      step.bit = step.operands[0].number;
+    }
     step.number = program_.size;
     program_.size += steps_of(step);
     ended_ = step.op() == Op::end;
     program_.steps.push_back(std::move(step));
+  }
+
+  static Route route_of(const Step& step) {
+    const Op op = step.op();
+    const bool plain = !step.indexed && (step.spelling == nullptr || !step.spelling->pulse);
+    if (is_contact(op)) {
+      const bool level = (op == Op::on || op == Op::off) && plain && !step.operands.empty();
+      return level && step.operands[0].kind != OperandType::word_bit ? Route::bit : Route::contact;
+    }
+    if (op <= Op::inv) return Route::join;
+    if (op == Op::set || op == Op::rst) return plain ? Route::action : Route::coil;
+    if (op <= Op::plf) return Route::coil;
+    if (op >= Op::mc) return Route::flow;
+    const bool drives = op >= Op::plsv && op <= Op::decam;
+    return plain && !drives ? Route::action : Route::call;
   }
 
   static int steps_of(const Step& step) {
@@ -357,6 +377,11 @@ class IlCompiler : private Complaints {
       find_labels(program_, labels_, tell_);
     else
       join_structure(program_, labels_, tell_);
+    int next = static_cast<int>(program_.steps.size());
+    for (auto step = program_.steps.rbegin(); step != program_.steps.rend(); ++step) {
+      step->skip = next;
+      if (step->route != Route::action) next = static_cast<int>(program_.steps.rend() - step) - 1;
+    }
     std::ranges::sort(program_.interrupts, {}, &InterruptRoutine::number);
   }
 

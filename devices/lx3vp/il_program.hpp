@@ -186,12 +186,27 @@ struct Operand {
   static constexpr int first_z = 8;
 };
 
+/// How the scan carries a step out: the way is chosen when the program is compiled.
+enum class Route : std::uint8_t {
+  bit,      ///< a contact of a device that is no bit of a word, without edge and index
+  contact,  ///< any other
+  join,
+  coil,
+  action,  ///< does nothing without power: an action, SET or RST, not of the pulse form
+  call,
+  flow
+};
+
 /// One instruction.
 struct Step {
   const Spelling* spelling = nullptr;  ///< nullptr: a label
   // Of it, at hand for the scan:
   Op code = Op::label;
   Join join = Join::begins;
+  Route route = Route::flow;
+  char letter = 0;  ///< of Route::bit, with its number
+  int bit = 0;
+  int skip = 0;  ///< of Route::action: place of the next step that is none
   std::vector<Operand> operands;
   int line = 0;
   int column = 1;

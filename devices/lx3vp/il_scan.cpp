@@ -167,8 +167,20 @@ template <bool watched>
 bool ProgramScan::run_steps(Rung& rung, std::int64_t work) {
   while (!rung.over && rung.next < program_.steps.size()) {
     if (rung.work >= work) return false;
-    const auto& step = program_.steps[rung.next++];
-    execute(step, rung);
+    const Step& step = program_.steps[rung.next++];
+    if (step.route == Route::bit) {
+      const bool on = *bit_at(rung.registers, step.letter, step.bit);
+      rung.join(step, on == (step.code == Op::on));
+    } else if (!watched && step.route == Route::action && step_ns_ == 0 && !rung.power()) {
+      // All of its kind behind it do nothing either; each is an instruction for the watchdog.
+      const auto passed = static_cast<std::int64_t>(step.skip) - static_cast<std::int64_t>(rung.next);
+      if (rung.work + passed < rung.limit) {
+        rung.work += passed;
+        rung.next = static_cast<std::size_t>(step.skip);
+      }
+    } else {
+      execute(step, rung);
+    }
     if constexpr (watched) mark(step, rung);
     if (++rung.work <= rung.limit) continue;
     constexpr int watchdog = 6105;  // FX
@@ -252,32 +264,23 @@ void ProgramScan::join(Op op, Rung& rung) {
 }
 
 void ProgramScan::execute(const Step& step, Rung& rung) {
-  const Op op = step.op();
-  if (is_contact(op)) {
-    const bool on = contact(step, rung);
-    switch (step.join) {
-      case Join::begins:
-        if (step.opens_block)
-          rung.blocks.push_back(rung.flow);
-        else
-          rung.blocks.clear();
-        rung.flow = on;
-        break;
-      case Join::series:
-        rung.flow = rung.flow && on;
-        break;
-      case Join::parallel:
-        rung.flow = rung.flow || on;
-        break;
-    }
-  } else if (op <= Op::inv) {
-    join(op, rung);
-  } else if (op <= Op::plf) {
-    coil(step, rung);
-  } else if (op >= Op::mc) {
-    flow(step, rung);
-  } else {
-    call(step, rung);
+  switch (step.route) {
+    case Route::bit:
+    case Route::contact:
+      return rung.join(step, contact(step, rung));
+    case Route::join:
+      return join(step.op(), rung);
+    case Route::coil:
+      return coil(step, rung);
+    case Route::flow:
+      return flow(step, rung);
+    case Route::action:
+    case Route::call:
+      if (step.op() <= Op::plf)
+        coil(step, rung);
+      else
+        call(step, rung);
+      return;
   }
 }
 

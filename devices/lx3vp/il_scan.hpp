@@ -154,6 +154,20 @@ struct ProgramScan::Rung {
 
   void visit(StateArchive& archive);
 
+  /// A contact that is ON or OFF joins what is before it.
+  void join(const Step& step, bool on) {
+    if (step.join == Join::series) {
+      flow = flow && on;
+    } else if (step.join == Join::parallel) {
+      flow = flow || on;
+    } else {
+      if (step.opens_block)
+        blocks.push_back(flow);
+      else
+        blocks.clear();
+      flow = on;
+    }
+  }
   /// What reaches a coil.
   [[nodiscard]] bool power() const { return flow && supply; }
   void renew_supply() {

@@ -106,7 +106,7 @@ void Lx3vpController::run_devices(std::int64_t time_ns) {
   if (std::exchange(power_up_due_, false)) power_up_ns_ = time_ns;
   take_inputs();
   for (const auto& [number, counter] : counters_row_.of(cards_.counters))
-    counters_.count(number, counter->count, registers_);
+    counters_.count(static_cast<int>(number), counter->count, registers_);
   CamPort cams = port();
   pulses_.tick(cams);
   if (pulses_.has_notes()) tell_notes();
@@ -336,18 +336,17 @@ void Lx3vpController::reset_registers() {
 }
 
 void Lx3vpController::take_inputs() {
-  for (const auto& [number, input] : inputs_row_.of(cards_.inputs))
-    inputs_[static_cast<std::size_t>(number)] = input->level;
+  for (const auto& [number, input] : inputs_row_.of(cards_.inputs)) inputs_[number] = input->level;
 }
 
 void Lx3vpController::give_outputs() {
-  for (const auto& [number, output] : outputs_row_.of(cards_.outputs))
-    output->level = outputs_[static_cast<std::size_t>(number)] && !outputs_off_;
+  const bool on = !outputs_off_;
+  for (const auto& [number, output] : outputs_row_.of(cards_.outputs)) output->level = outputs_[number] && on;
   for (const auto& [number, train] : trains_row_.of(cards_.pulse_outputs)) {
-    auto& before = pulses_before_[static_cast<std::size_t>(number)];
+    const std::int64_t given = pulses_.pulses(static_cast<int>(number));
     // Pulses that stay inside are none of the terminal's.
-    if (outputs_off_) before = train->count - pulses_.pulses(number);
-    train->count = before + pulses_.pulses(number);
+    if (!on) pulses_before_[number] = train->count - given;
+    train->count = pulses_before_[number] + given;
   }
 }
 

@@ -140,15 +140,18 @@ class Lx3vpController : public Controller, private Instructions {
   template <typename Terminal>
   class Row {
    public:
-    using Terminals = std::vector<std::pair<int, Terminal*>>;
+    using Terminals = std::vector<std::pair<std::size_t, Terminal*>>;
     const Terminals& of(std::map<Address, Terminal>& all) {
-      if (row_.size() == all.size()) return row_;
-      row_.clear();
-      for (auto& [address, terminal] : all) row_.emplace_back(address.number, &terminal);
+      if (row_.size() != all.size()) walk(all);
       return row_;
     }
 
    private:
+    void walk(std::map<Address, Terminal>& all) {
+      row_.clear();
+      for (auto& [address, terminal] : all)
+        row_.emplace_back(static_cast<std::size_t>(address.number), &terminal);
+    }
     Terminals row_;
   };
   Row<Counter> counters_row_;

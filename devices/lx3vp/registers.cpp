@@ -64,31 +64,7 @@ bool read_suffix(std::string_view suffix, RegisterName& name) {
   return name.bit >= 0 && name.bit <= 15;
 }
 
-template <typename Bits>
-auto* bit_in(Bits& registers, char letter, int number) {
-  const auto at = static_cast<std::size_t>(number);
-  switch (letter) {
-    case 'X':
-      return &registers.x[at];
-    case 'Y':
-      return &registers.y[at];
-    case 'M':
-      return &registers.m[at];
-    case 'S':
-      return &registers.s[at];
-    case 'T':
-      return &registers.t[at].contact;
-    default:
-      return &registers.c[at].contact;
-  }
-}
-
 }  // namespace
-
-bool* bit_at(Registers& registers, char letter, int number) { return bit_in(registers, letter, number); }
-const bool* bit_at(const Registers& registers, char letter, int number) {
-  return bit_in(registers, letter, number);
-}
 
 void Timer::visit(StateArchive& archive) { STATE(archive, value, coil, contact); }
 void PlcCounter::visit(StateArchive& archive) { STATE(archive, value, coil, contact); }

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "devices/value_range.hpp"
 
@@ -137,8 +138,26 @@ bool set_clock(Registers& registers, const ClockWords& words);
 void show_clock(Registers& registers);
 
 /// A bit by its device's letter: X, Y, M, S, or the contact of T and C.
-bool* bit_at(Registers& registers, char letter, int number);
-const bool* bit_at(const Registers& registers, char letter, int number);
+inline const bool* bit_at(const Registers& registers, char letter, int number) {
+  const auto at = static_cast<std::size_t>(number);
+  switch (letter) {
+    case 'X':
+      return &registers.x[at];
+    case 'Y':
+      return &registers.y[at];
+    case 'M':
+      return &registers.m[at];
+    case 'S':
+      return &registers.s[at];
+    case 'T':
+      return &registers.t[at].contact;
+    default:
+      return &registers.c[at].contact;
+  }
+}
+inline bool* bit_at(Registers& registers, char letter, int number) {
+  return const_cast<bool*>(bit_at(std::as_const(registers), letter, number));
+}
 
 /// A value by its name in scenarios, recordings and register files: `D10` signed word, `DD10` (also `D10:L`)
 /// signed 32 bit of D10 and D11, `FD10` (also `D10:F`) float of both, `D10.A` bit 10 of D10 (hexadecimal),

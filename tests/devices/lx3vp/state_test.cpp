@@ -49,6 +49,7 @@ class Teller {
     controller_.offer({devices::Kind::counter, 0, 235});
     controller_.offer({devices::Kind::output, 0, 1});
     controller_.offer({devices::Kind::output, 0, 7});
+    controller_.offer({devices::Kind::output, 0, 2});
     axes_ = controller_.cam_axes();
     for (const auto kind : {RegisterName::Kind::x, RegisterName::Kind::y})
       for (int n = 0; n < 16; ++n)
@@ -438,7 +439,8 @@ const Story stopped{"stopped",
                     {{50, "X0", 1}, {2500, "X0", 0}, {2600, "power", 0}, {2650, "power", 1}, {2800, "X0", 1}},
                     3500};
 
-// Interrupts, compares, measures and pulses between scans, with relays that hold, hide and stop.
+// Interrupts, compares, measures and pulses between scans, with relays that hold, hide and stop. M30 only
+// marks moments at which a level or a compare is about to change before the next scan.
 const Story quick{"quick",
                   R"(
 LD M0
@@ -487,21 +489,22 @@ END
                   0,
                   [](Registers& registers) {
                     registers.set_i32(10, 1000);
-                    registers.set_i32(12, 500);
+                    registers.set_i32(12, 150);
                     registers.set_i32(14, 2500);
                     registers.put(20, 1);
                     registers.put(21, 3);
                     registers.put(24, 400);
                     registers.put(8039, 3);
                   },
-                  {{40, "X0", 1},   {51, "X0", 0},      {60, "M3", 1},   {63, "X1", 1},   {70, "M4", 1},
-                   {81, "X1", 0},   {85, "X1", 1},      {97, "M1", 1},   {97, "M2", 1},   {200, "M5", 1},
-                   {300, "M30", 1}, {304, "M30", 0},    {500, "M0", 1},  {505, "X0", 1},  {521, "X1", 0},
-                   {525, "X1", 1},  {560, "X0", 0},     {600, "M0", 0},  {640, "M6", 1},  {700, "M6", 0},
-                   {760, "M7", 1},  {820, "X0", 1},     {860, "X0", 0},  {900, "M7", 0},  {950, "M8037", 1},
-                   {1000, "X0", 1}, {1100, "M8036", 1}, {1150, "X0", 0}, {1160, "M1", 1}, {1160, "M2", 1},
-                   {1160, "M3", 1}, {1200, "M4", 1},    {1220, "M5", 1}, {1300, "M6", 1}, {1310, "M7", 1},
-                   {1500, "M6", 0}},
+                  {{40, "X0", 1},   {51, "X0", 0},     {60, "M3", 1},   {63, "X1", 1},      {70, "M4", 1},
+                   {81, "X1", 0},   {85, "X1", 1},     {97, "M1", 1},   {97, "M2", 1},      {103, "M30", 1},
+                   {131, "M30", 1}, {132, "M30", 0},   {133, "M30", 1}, {134, "M30", 0},    {200, "M5", 1},
+                   {301, "M30", 1}, {302, "M30", 0},   {303, "M30", 1}, {304, "M30", 0},    {500, "M0", 1},
+                   {505, "X0", 1},  {521, "X1", 0},    {525, "X1", 1},  {560, "X0", 0},     {600, "M0", 0},
+                   {640, "M6", 1},  {700, "M6", 0},    {760, "M7", 1},  {820, "X0", 1},     {860, "X0", 0},
+                   {900, "M7", 0},  {950, "M8037", 1}, {1000, "X0", 1}, {1100, "M8036", 1}, {1150, "X0", 0},
+                   {1160, "M1", 1}, {1160, "M2", 1},   {1160, "M3", 1}, {1200, "M4", 1},    {1220, "M5", 1},
+                   {1300, "M6", 1}, {1310, "M7", 1},   {1500, "M6", 0}},
                   1900};
 
 std::vector<Story> stories() { return {stopped, pulses, logic, quick_logic(), cams, quick}; }
