@@ -28,6 +28,10 @@ std::int64_t limited(Wide value) {
   constexpr Wide most = std::numeric_limits<std::int64_t>::max() / 4;
   return static_cast<std::int64_t>(std::clamp(value, -most, most));
 }
+std::int64_t limited(std::int64_t value) {
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max() / 4;
+  return std::clamp(value, -most, most);
+}
 
 }  // namespace
 
@@ -132,8 +136,13 @@ RowLaw::Slave RowLaw::slave_in(const Place& place) const {
   const auto pulses = [&](Integer numerator, Integer denominator) {
     return limited(nearest_to<Integer>(numerator * slave_.numerator, denominator * slave_.denominator));
   };
-  return {pulses(whole * length + in_cycle, length), pulses(whole, 1),
-          rows_.front().slave + static_cast<std::int64_t>(nearest_to<Integer>(in_cycle, length))};
+  const auto position = static_cast<std::int64_t>(nearest_to<Integer>(in_cycle, length));
+  // Without a zoom pulses are positions, and those of whole cycles need no rounding.
+  if (slave_.numerator == slave_.denominator) {
+    const std::int64_t before = limited(whole);
+    return {limited(whole + position), before, rows_.front().slave + position};
+  }
+  return {pulses(whole * length + in_cycle, length), pulses(whole, 1), rows_.front().slave + position};
 }
 
 RowLaw::Slave RowLaw::slave(const Place& place) const {

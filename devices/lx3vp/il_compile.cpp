@@ -83,8 +83,8 @@ class IlCompiler : private Complaints {
   }
 
   static bool is_label(std::string_view word) {
-    return word.size() > 1 && (word.front() == 'P' || word.front() == 'p') && word[1] >= '0' &&
-           word[1] <= '9';
+    return word.size() > 1 && std::string_view("PpIi").find(word.front()) != std::string_view::npos &&
+           is_digit(word[1]);
   }
 
   void read_label(const Statement& words) {
@@ -101,18 +101,50 @@ class IlCompiler : private Complaints {
       problem("il.jump"_code, words[1].place.column,
               fmt::format("{} stands behind a label", in_quotes(words[1].text)),
               "give a label a line of its own");
-    const auto [first, fresh] = labels_.emplace(operand->number, Label{line_, program_.steps.size()});
+    const bool interrupts = operand->kind == OperandType::interrupt;
+    if (interrupts && !is_interrupt_label(text, operand->number)) {
+      problem("il.jump"_code, words.front().place.column,
+              fmt::format("there is no interrupt {}", in_quotes(text)),
+              "X0 to X5 have I000 and I001 to I500 and I501, DHSCS I010 to I060, times of 10 to 99 ms I610, "
+              "I710 and I810 and up");
+      return;
+    }
+    if (interrupts)
+      for (const auto& other : program_.interrupts)
+        if (refuse_second_edge(*operand, other, words.front().place.column)) return;
+    auto& labels = interrupts ? interrupts_ : labels_;
+    const auto [first, fresh] = labels.emplace(operand->number, Label{line_, program_.steps.size()});
     if (!fresh) {
       problem("il.jump"_code, words.front().place.column,
               fmt::format("label {} is there twice", to_string(*operand)),
               fmt::format("it was first given in line {}", first->second.line));
       return;
     }
+    if (interrupts) program_.interrupts.push_back({operand->number, program_.steps.size()});
     Step step;
     step.line = line_;
     step.column = words.front().place.column;
     step.operands.push_back(*operand);
     add(std::move(step));
+  }
+
+  /// Three digits, as the family writes it.
+  static bool is_interrupt_label(std::string_view text, int number) {
+    constexpr std::size_t length = 4;
+    return text.size() == length && is_interrupt(number);
+  }
+
+  /// An input, and a timer, has one interrupt: I000 or I001, one of I610 to I699.
+  bool refuse_second_edge(const Operand& operand, const InterruptRoutine& other, int column) {
+    const auto source = [](int number) { return is_counter_interrupt(number) ? number : number / 100 * 100; };
+    const bool counters = is_counter_interrupt(operand.number) || is_counter_interrupt(other.number);
+    if (counters || operand.number == other.number || source(operand.number) != source(other.number))
+      return false;
+    problem("il.jump"_code, column,
+            fmt::format("I{:03} and I{:03} are of the same {}", operand.number, other.number,
+                        operand.number < 600 ? "input" : "timer"),
+            "it has one interrupt: keep one of them");
+    return true;
   }
 
   void refuse_mnemonic(const Word& word) {
@@ -238,6 +270,18 @@ class IlCompiler : private Complaints {
       if (!step.indexed && operands[0].number > operands[1].number)
         return ValueFault{"il.operand"_code, pair, "name the lower one first"};
     }
+    if (op == Op::block && operands[0].kind == OperandType::bits && operands[1].kind == OperandType::bits &&
+        operands[0].count != operands[1].count)
+      return ValueFault{"il.operand"_code,
+                        fmt::format("{} from {} to {}", step.spelling->text, to_string(operands[0]),
+                                    to_string(operands[1])),
+                        "group as many bits in both"};
+    if (op == Op::hscr && operands[2].kind == OperandType::C && operands[2].number != operands[1].number)
+      return ValueFault{"il.operand"_code,
+                        fmt::format("{} compares {} and resets {}", step.spelling->text,
+                                    to_string(operands[1]), to_string(operands[2])),
+                        "a counter resets itself, or Y, M or S"};
+    if (op == Op::ref) return misfit_of_refresh(step);
     if (op == Op::rotate) {
       const int width = step.wide() ? 32 : 16;
       const auto& count = operands[1];
@@ -262,6 +306,18 @@ class IlCompiler : private Complaints {
     return {};
   }
 
+  static std::optional<ValueFault> misfit_of_refresh(const Step& step) {
+    const auto& first = step.operands[0];
+    const auto& count = step.operands[1];
+    if (first.number % 8 != 0)
+      return ValueFault{"il.operand"_code, fmt::format("REF begins at {}", to_string(first)),
+                        "begin where a row of eight does: X0, X10, X20"};
+    if (count.kind != OperandType::constant) return {};
+    if (count.value >= 8 && count.value % 8 == 0 && first.number + count.value <= terminals) return {};
+    return ValueFault{"il.operand"_code, fmt::format("REF refreshes {} of {}", count.value, to_string(first)),
+                      "write K8, K16 and on, as many as there are"};
+  }
+
   static std::optional<ValueFault> misfit_of_shift(const Step& step) {
     constexpr int most = 1024;
     const auto& length = step.operands[2];
@@ -278,10 +334,30 @@ class IlCompiler : private Complaints {
   void add(Step step) {
     rungs_.add(step);
     if (needs_memory(step)) step.memory = program_.memories++;
+    step.route = route_of(step);
+    if (step.route == Route::bit) {
+      step.letter = letter_of(step.operands[0].kind);
+      step.bit = step.operands[0].number;
+    }
     step.number = program_.size;
     program_.size += steps_of(step);
     ended_ = step.op() == Op::end;
     program_.steps.push_back(std::move(step));
+  }
+
+  static Route route_of(const Step& step) {
+    const Op op = step.op();
+    const bool plain = !step.indexed && (step.spelling == nullptr || !step.spelling->pulse);
+    if (is_contact(op)) {
+      const bool level = (op == Op::on || op == Op::off) && plain && !step.operands.empty();
+      return level && step.operands[0].kind != OperandType::word_bit ? Route::bit : Route::contact;
+    }
+    if (op <= Op::inv) return Route::join;
+    if (op == Op::set || op == Op::rst) return plain ? Route::action : Route::coil;
+    if (op <= Op::plf) return Route::coil;
+    if (op >= Op::mc) return Route::flow;
+    const bool drives = op >= Op::plsv && op <= Op::decam;
+    return plain && !drives ? Route::action : Route::call;
   }
 
   static int steps_of(const Step& step) {
@@ -301,6 +377,12 @@ class IlCompiler : private Complaints {
       find_labels(program_, labels_, tell_);
     else
       join_structure(program_, labels_, tell_);
+    int next = static_cast<int>(program_.steps.size());
+    for (auto step = program_.steps.rbegin(); step != program_.steps.rend(); ++step) {
+      step->skip = next;
+      if (step->route != Route::action) next = static_cast<int>(program_.steps.rend() - step) - 1;
+    }
+    std::ranges::sort(program_.interrupts, {}, &InterruptRoutine::number);
   }
 
   std::string_view text_;
@@ -314,6 +396,7 @@ class IlCompiler : private Complaints {
   };
   Rungs rungs_{tell_};
   Labels labels_;
+  Labels interrupts_;
 };
 
 }  // namespace

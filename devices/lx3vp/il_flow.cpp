@@ -48,6 +48,14 @@ void ProgramScan::flow(const Step& step, Rung& rung) {
       rung.loops.resize(rung.frames.back().loops);
       rung.frames.pop_back();
       return;
+    case Op::ei:
+      interrupts_on_ = true;
+      rung.work += run_interrupts(rung.registers, rung.instructions);
+      return;
+    case Op::di:
+      interrupts_on_ = false;
+      return;
+    case Op::iret:
     case Op::fend:
     case Op::end:
       rung.over = true;
@@ -81,6 +89,8 @@ bool ProgramScan::transfers(const Operand& device, const Rung& rung) const {
 
 void ProgramScan::transfer(const Operand& device, Rung& rung) {
   const Step& from = program_.steps[static_cast<std::size_t>(rung.state)];
+  constexpr std::size_t no_transfer = 8040;  // M8040
+  if (rung.registers.m[no_transfer]) return;
   for (const auto& state : from.operands) write_bit(rung.registers, state, false);
   write_bit(rung.registers, device, true);
 }

@@ -61,8 +61,17 @@ constexpr Mnemonic pulses_and_flow[] = {
     {"DRVI", Op::drvi, "nnpy", nw, 9, 17, "S1 pulses at S2 Hz from D1, direction on D2"},
     {"DRVA", Op::drva, "nnpy", nw, 9, 17, "pulses to position S1 at S2 Hz from D1, direction on D2"},
     {"PLSY", Op::plsy, "nnp", nw, 7, 13, "S2 pulses (0: without end) at S1 Hz from D, no direction"},
+    {"PLSR", Op::plsr, "nnnp", nw, 9, 17, "S2 pulses at S1 Hz from D with ramps of S3 ms, no direction"},
+    {"PWM", Op::pwm, "nnp", n, 7, 0, "D is ON for S1 of every S2 ms"},
     {"ZRN", Op::zrn, "nngp", nw, 9, 17,
      "backwards at S1 Hz to the signal S3, at S2 Hz until it ends; position 0"},
+    {"HSCS", Op::hscs, "nHI", w, 13, 13,
+     "D goes ON, or its interrupt comes, at once as counter S2 comes to S1"},
+    {"HSCR", Op::hscr, "nHR", w, 13, 13, "D goes OFF, or S2 to 0, at once as counter S2 comes to S1"},
+    {"HSZ", Op::hsz, "nnHB", w, 17, 17,
+     "three devices from D on at once as counter S counts: below, within, above S1..S2"},
+    {"SPD", Op::spd, "Xn3", n, 7, 0,
+     "D = pulses of input S1 in S2 ms; behind it those of the present time, and what is left of it [ms]"},
     {"DECAM", Op::decam, "mdxpy", n, 21, 0, "electronic cam: master, block, start, pulses, direction"},
     {"ECAMTBX", Op::ecamtbx, "atdD", n, 17, 0, "makes a cam table: parameters, type, block, result"},
     {"MC", Op::mc, "Ne", n, 3, 0, "a master contact for all that follows, to MCR; its device shows it"},
@@ -74,6 +83,12 @@ constexpr Mnemonic pulses_and_flow[] = {
     {"CJ", Op::cj, "P", np, 3, 0, "goes on at a label; at END if it is P63 and not given"},
     {"CALL", Op::call, "P", np, 3, 0, "runs the subroutine at a label, behind FEND, to its SRET"},
     {"SRET", Op::sret, "", n, 1, 0, "ends a subroutine"},
+    {"IRET", Op::iret, "", n, 1, 0,
+     "ends an interrupt routine, which begins behind FEND with its label: I001"},
+    {"EI", Op::ei, "", n, 1, 0, "lets interrupts come; at power-up they do not"},
+    {"DI", Op::di, "", n, 1, 0, "lets interrupts wait for the next EI"},
+    {"WDT", Op::wdt, "", np, 1, 0, "gives the scan the watchdog's time anew"},
+    {"REF", Op::ref, "Ak", np, 5, 0, "takes n inputs, or gives n outputs, from X or Y on at once"},
     {"NOP", Op::nop, "", n, 1, 0, "does nothing"},
     {"FEND", Op::fend, "", n, 1, 0, "ends the scan before the end of the text"},
     {"END", Op::end, "", n, 1, 0, "ends the program"},
@@ -110,7 +125,7 @@ std::span<const Mnemonic> mnemonics() {
     std::vector<Mnemonic> rows;
     for (const std::span<const Mnemonic> part :
          {std::span<const Mnemonic>(contacts_and_coils), word_mnemonics(), shift_mnemonics(),
-          real_mnemonics(), std::span<const Mnemonic>(pulses_and_flow)})
+          data_mnemonics(), real_mnemonics(), std::span<const Mnemonic>(pulses_and_flow)})
       rows.insert(rows.end(), part.begin(), part.end());
     return rows;
   }();
@@ -142,8 +157,31 @@ std::span<const BlockReading> instruction_readings() {
        "backwards with the ramp of D8148, no direction output and no clear signal; zero where the dog "
        "ends; a start on the dog creeps"},
       {"6105",
-       "an instruction, and each word or bit that one moves, is 0.2 us of the watchdog's 200 ms; the PLC "
-       "then stops until power-up"},
+       "an instruction, and each word or bit that one moves, is 0.2 us of the watchdog's time (D8000); the "
+       "PLC then stops until power-up"},
+      {"interrupts",
+       "a routine runs in the tick of 100 us that brings its interrupt, between two instructions; one at a "
+       "time, as they came, of one tick the lower number first; X is the scan's image and Y is given at its "
+       "end, but for REF; I610 and its kind come at multiples of their time since power-up; what DI holds "
+       "back waits once, what M8050 to M8059 refuse is lost"},
+      {"DHSCS",
+       "also DHSCR and DHSZ: compared as the counter counts, not as a program writes it; a count that passes "
+       "S1 within a tick has come to it; any number of them; a counter that resets itself counts on from 0"},
+      {"SPD", "takes the input every 100 us: pulses shorter than that are lost"},
+      {"PWM", "in steps of 100 us; begins ON; counts no pulses; a change of the times acts at once"},
+      {"PLSR", "straight ramps of S3, 50 to 5000 ms, from standstill; D8140.. count forwards"},
+      {"BMOV",
+       "a word takes a group of fewer bits as a number, and a group the low bits of a word; two groups are "
+       "of as many bits"},
+      {"SFWR", "also SFRD: M8022 and M8020 go off again when the queue has room, or a value"},
+      {"clock",
+       "begins with each run at 2000-01-01, a Saturday, 0:00:00, goes on without power, and has the "
+       "calendar's weekday"},
+      {"M8034", "pulse outputs too give nothing, while D8140.. and the cams count on"},
+      {"M8037",
+       "stops with or without M8035, which is none of the relays here; pulses stop at once and high-speed "
+       "counters too; timers, counters and registers that are not retentive are cleared unless M8033 is on; "
+       "M8036, written from outside, lets the program begin anew with M8002"},
   };
   return readings;
 }
@@ -167,12 +205,10 @@ bool is_not_simulated(std::string_view text) {
   if (find_spelling(text) != nullptr) return false;
   // FX, and the pulse and CAN instructions of the LX3V series.
   static constexpr std::string_view names[] = {
-      "IRET", "WDT",  "EI",   "DI",   "DSZR", "DVIT", "TBL",  "ABS",  "PLSR", "PWM",  "PTO",  "SPD",  "HSCS",
-      "HSCR", "HSZ",  "WSFL", "WSFR", "SFWR", "SFRD", "RCL",  "RCR",  "TO",   "FROM", "RS",   "CCD",  "PRUN",
-      "ASCI", "HEX",  "PID",  "SMOV", "DECO", "ENCO", "SUM",  "BON",  "ANS",  "ANR",  "SQRT", "ESQR", "EBCD",
-      "EBIN", "SIN",  "COS",  "TAN",  "SWAP", "REF",  "REFF", "MTR",  "IST",  "SER",  "ABSD", "INCD", "TTMR",
-      "STMR", "RAMP", "ROTC", "SORT", "TKY",  "HKY",  "DSW",  "SEGD", "SEGL", "ARWS", "ASC",  "PR",   "VRRD",
-      "VRSC", "TCMP", "TZCP", "TADD", "TSUB", "TRD",  "TWR",  "HOUR", "GRY",  "GBIN", "CRC"};
+      "DSZR", "DVIT", "TBL",  "ABS",  "PTO",  "RCL",  "RCR",  "TO",   "FROM", "RS",  "CCD", "PRUN", "ASCI",
+      "HEX",  "PID",  "ANS",  "ANR",  "SQRT", "ESQR", "EBCD", "EBIN", "SIN",  "COS", "TAN", "REFF", "MTR",
+      "IST",  "SER",  "ABSD", "INCD", "TTMR", "STMR", "RAMP", "ROTC", "SORT", "TKY", "HKY", "DSW",  "SEGD",
+      "SEGL", "ARWS", "ASC",  "PR",   "VRRD", "VRSC", "HOUR", "GRY",  "GBIN", "CRC", "MEP", "MEF"};
   const auto told = upper(text);
   const auto is_name = [](std::string_view name) {
     return std::find(std::begin(names), std::end(names), name) != std::end(names);

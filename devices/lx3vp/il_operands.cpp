@@ -31,7 +31,7 @@ constexpr OperandFamily families[] = {
     {'T', false, {{0, 255}, {0, -1}}},       {'C', false, {{0, 255}, {0, -1}}},
     {'D', false, {{0, 8255}, {0, -1}}},      {'P', false, {{0, 127}, {0, -1}}},
     {'V', false, {{0, 7}, {0, -1}}},         {'Z', false, {{0, 7}, {0, -1}}},
-    {'N', false, {{0, 7}, {0, -1}}},
+    {'N', false, {{0, 7}, {0, -1}}},         {'I', false, {{0, 899}, {0, -1}}},
 };
 
 /// A kind of operand, by its letter in Mnemonic::operands.
@@ -50,7 +50,7 @@ constexpr OperandKind operand_kinds[] = {
     {'b', "X, Y, M, S, T, C or a bit of D (D10.F)", "XYMSTC.", 1, 1},
     {'o', "Y, M, S, T, C or a bit of D (D10.F)", "YMSTC.", 1, 1},
     {'s', "Y, M, S or a bit of D (D10.F)", "YMS.", 1, 1},
-    {'r', "Y, M, S, T, C, D or a bit of D (D10.F)", "YMSTCD.", 1, 1},
+    {'r', "Y, M, S, T, C, D, V, Z or a bit of D (D10.F)", "YMSTCDVZ.", 1, 1},
     {'e', "Y or M", "YM", 1, 1},
     {'l', "Y, M, S, T, C or D", "YMSTCD", 1, 1},
     {'g', "X, Y, M or S", "XYMS", 1, 1},
@@ -63,6 +63,19 @@ constexpr OperandKind operand_kinds[] = {
     {'n', "K, H, D, T, C, V, Z or bits (K4M0) of X, Y, M or S", "KDTCVZ#", 1, 2},
     {'w', "D, T, C, V, Z or bits (K4M0) of Y, M or S", "DTCVZ#", 1, 2},
     {'u', "D, T, C or bits (K4M0) of X, Y, M or S", "DTC#", 1, 2},
+    {'U', "D, T, C or bits (K4M0) of Y, M or S", "DTC#", 1, 2},
+    {'z', "K, H, D, T, C, V, Z, X, Y, M or S", "KDTCVZXYMS", 1, 1},
+    {'Z', "D, T, C, V, Z, X, Y, M or S", "DTCVZXYMS", 1, 1},
+    {'W', "D, T, C, V or Z", "DTCVZ", 1, 1},
+    {'O', "D, T, C, Y, M or S", "DTCYMS", 1, 1},
+    {'c', "D, T or C", "DTC", 3, 3},
+    {'7', "D, T or C", "DTC", 7, 7},
+    {'3', "D", "D", 3, 3},
+    {'A', "X or Y", "XY", 1, 1, false},
+    {'X', "X0 to X5", "X", 1, 1, false},
+    {'H', "C200 to C255", "C", 1, 1, false},
+    {'I', "Y, M, S or I010 to I060", "YMSI", 1, 1},
+    {'R', "Y, M, S or the same C", "YMSC", 1, 1},
     {'i', "D", "D", 1, 2},
     {'q', "D", "D", 2, 4},
     {'F', "D", "D", 2, 2},
@@ -142,7 +155,8 @@ class OperandReader {
     if (!operand) return std::nullopt;
     if (operand->kind == OperandType::V || operand->kind == OperandType::Z ||
         operand->kind == OperandType::real || operand->kind == OperandType::word_bit ||
-        operand->kind == OperandType::label || operand->kind == OperandType::nesting)
+        operand->kind == OperandType::label || operand->kind == OperandType::nesting ||
+        operand->kind == OperandType::interrupt)
       return refuse("il.index-register"_code, "takes no index register",
                     "index a device, bits or a number: D10Z0, K4M0Z0, K5V1");
     operand->index = number;
@@ -242,12 +256,17 @@ class OperandReader {
 
 /// Whether a kind of operand takes what the text named.
 bool takes(char kind, const Operand& operand) {
-  if (kind == 'w' && operand.kind == OperandType::bits && operand.of == OperandType::X) return false;
+  const bool writes = kind == 'w' || kind == 'U';
+  if (writes && operand.kind == OperandType::bits && operand.of == OperandType::X) return false;
   if (kind == 'p' && operand.number >= pulse_outputs) return false;
+  if (kind == 'X' && operand.number >= interrupt_inputs) return false;
+  if (kind == 'H' && operand.number < first_wide_counter) return false;
+  if (kind == 'I' && operand.kind == OperandType::interrupt && !is_counter_interrupt(operand.number))
+    return false;
   return operand_kind(kind).takes.find(letter_of(operand.kind)) != std::string_view::npos;
 }
 
-bool is_word(char kind) { return kind == 'n' || kind == 'w' || kind == 'u'; }
+bool is_word(char kind) { return std::string_view("nwuUzZWOc7").find(kind) != std::string_view::npos; }
 
 /// V and Z, as devices and as indexes.
 std::optional<ValueFault> misfit_of_index(const Operand& operand, char kind, const Spelling& spelling) {
@@ -287,6 +306,13 @@ std::optional<ValueFault> misfit_of_constant(const Operand& operand, char kind, 
 
 std::optional<Operand> read_operand(std::string_view text, ValueFault& fault) {
   return OperandReader(text, fault).read();
+}
+
+bool is_interrupt(int number) {
+  const int rest = number % 100;
+  if (number < 100 * interrupt_inputs && (rest == 0 || rest == 1)) return true;
+  if (number >= 600 && number <= 899) return rest >= 10;
+  return is_counter_interrupt(number);
 }
 
 std::string_view operand_text(char kind) { return operand_kind(kind).text; }
@@ -366,6 +392,8 @@ std::string to_string(const Operand& operand) {
       return fmt::format("K{}{}", operand.count, numbered(*family_of(operand.of), operand.number));
     case OperandType::word_bit:
       return fmt::format("D{}.{:X}", operand.number, operand.count);
+    case OperandType::interrupt:
+      return fmt::format("I{:03}", operand.number);
     default:
       return numbered(*family_of(operand.kind), operand.number);
   }

@@ -21,6 +21,14 @@ std::optional<ValueFault> misfit(const Operand& operand, char kind, const Spelli
 /// Whether there is such a device, or such bits; true for what is none.
 bool exists(const Operand& operand);
 
+/// I000, I001, I100 to I501: an edge of X0 to X5 comes, to OFF and to ON.
+inline constexpr int interrupt_inputs = 6;
+/// I010, I020 to I060: a DHSCS has come to its value.
+constexpr bool is_counter_interrupt(int number) { return number >= 10 && number <= 60 && number % 10 == 0; }
+/// Whether there is an interrupt of this number: one of those, or I610 to I699, I710 to I799, I810 to I899,
+/// which come every 10 to 99 ms.
+bool is_interrupt(int number);
+
 /// What an operand of a kind may be, for messages: "D", "X, Y, M, S, T or C".
 std::string_view operand_text(char kind);
 

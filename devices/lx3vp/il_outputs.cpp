@@ -124,7 +124,41 @@ void drive_outputs(const Registers& registers, const Step& step, bool powered, I
     return read;
   };
   const auto give = [&](const PulseOrder& order) { instructions.pulses(step.number, order, powered); };
+  const auto device = [&](std::size_t i) { return static_cast<char>(step.operands[i].kind); };
+  const auto compare = [&](CounterCompare::Kind kind, std::size_t counter) {
+    if (powered && !registers.counts_pulses[static_cast<std::size_t>(number(counter))])
+      throw IlError(bad_operand,
+                    fmt::format("C{} counts no pulses: wire it, or take C235 to C255", number(counter)));
+    instructions.compare_counter(
+        step.number,
+        {kind, number(counter), value(0), value(counter - 1), device(counter + 1), number(counter + 1)},
+        powered);
+  };
   switch (step.op()) {
+    case Op::hscs:
+      return compare(CounterCompare::Kind::set, 1);
+    case Op::hscr:
+      return compare(CounterCompare::Kind::reset, 1);
+    case Op::hsz:
+      return compare(CounterCompare::Kind::zone, 2);
+    case Op::spd:
+      return instructions.measure_speed(step.number, {number(0), number(2), value(1, 1, "the time S2")},
+                                        powered);
+    case Op::plsr: {
+      PulseOrder order{ramped, number(3), PulseOrder::no_direction, value(0, 1, "the frequency S1"),
+                       value(1, 1, "the number of pulses S2")};
+      order.ramp_ms = value(2, 1, "the ramp S3");
+      return give(order);
+    }
+    case Op::pwm: {
+      PulseOrder order{pwm, number(2)};
+      order.width_ms = value(0, 0, "the time S1");
+      order.period_ms = value(1, 1, "the period S2");
+      if (powered && order.width_ms > order.period_ms)
+        throw IlError(bad_operand, fmt::format("S1 is {}, more than the period S2 of {}", order.width_ms,
+                                               order.period_ms));
+      return give(order);
+    }
     case Op::plsv:
       return give({speed, number(1), number(2), value(0)});
     case Op::plsy: {

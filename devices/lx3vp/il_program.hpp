@@ -41,12 +41,21 @@ enum class Op : std::uint8_t {
   zrst,
   shift,
   rotate,
+  block,
+  wdt,
+  ref,
   // Pulses and cams.
   plsv,
   drvi,
   drva,
   plsy,
+  plsr,
+  pwm,
   zrn,
+  hscs,
+  hscr,
+  hsz,
+  spd,
   decam,
   ecamtbx,
   // Flow.
@@ -59,6 +68,9 @@ enum class Op : std::uint8_t {
   cj,
   call,
   sret,
+  iret,
+  ei,
+  di,
   label,
   nop,
   fend,
@@ -109,6 +121,7 @@ std::span<const Mnemonic> mnemonics();
 // Its parts that have actions, each with what they do.
 std::span<const Mnemonic> word_mnemonics();   ///< il_words.cpp
 std::span<const Mnemonic> shift_mnemonics();  ///< il_shifts.cpp
+std::span<const Mnemonic> data_mnemonics();   ///< il_data.cpp
 std::span<const Mnemonic> real_mnemonics();   ///< il_reals.cpp
 
 /// Where no manual of the unit is at hand and the FX family's conventions, or a choice of ours, stand in.
@@ -147,6 +160,7 @@ enum class OperandType : char {
   V = 'V',
   Z = 'Z',
   label = 'P',
+  interrupt = 'I',  ///< label of an interrupt routine: I001
   nesting = 'N',
   constant = 'K',
   real = 'E',
@@ -172,12 +186,27 @@ struct Operand {
   static constexpr int first_z = 8;
 };
 
+/// How the scan carries a step out: the way is chosen when the program is compiled.
+enum class Route : std::uint8_t {
+  bit,      ///< a contact of a device that is no bit of a word, without edge and index
+  contact,  ///< any other
+  join,
+  coil,
+  action,  ///< does nothing without power: an action, SET or RST, not of the pulse form
+  call,
+  flow
+};
+
 /// One instruction.
 struct Step {
   const Spelling* spelling = nullptr;  ///< nullptr: a label
   // Of it, at hand for the scan:
   Op code = Op::label;
   Join join = Join::begins;
+  Route route = Route::flow;
+  char letter = 0;  ///< of Route::bit, with its number
+  int bit = 0;
+  int skip = 0;  ///< of Route::action: place of the next step that is none
   std::vector<Operand> operands;
   int line = 0;
   int column = 1;
@@ -203,14 +232,21 @@ struct Step {
   [[nodiscard]] bool wide() const { return spelling != nullptr && spelling->wide; }
 };
 
+/// An interrupt routine.
+struct InterruptRoutine {
+  int number = 0;         ///< of its label: 1 of I001, 610 of I610
+  std::size_t place = 0;  ///< of the label
+};
+
 /// A compiled program: runs by `ProgramScan` (il_scan.hpp).
 struct IlProgram {
   std::string file;
   std::string text;
   std::vector<Step> steps;
-  int memories = 0;          ///< edge memories
-  int size = 0;              ///< steps of program memory
-  std::vector<bool> states;  ///< S0..S999: those that have an STL
+  int memories = 0;                          ///< edge memories
+  int size = 0;                              ///< steps of program memory
+  std::vector<bool> states;                  ///< S0..S999: those that have an STL
+  std::vector<InterruptRoutine> interrupts;  ///< by their labels' numbers
 };
 
 /// Compiles a text. Every fault becomes a problem; the program is only to be run if there was none.

@@ -36,6 +36,9 @@ RungPlace place_of(const Step& step) {
     case Op::for_:
     case Op::next:
     case Op::sret:
+    case Op::iret:
+    case Op::ei:
+    case Op::di:
     case Op::label:
     case Op::nop:
     case Op::fend:

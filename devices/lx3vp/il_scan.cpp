@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "base/state_archive.hpp"
@@ -15,7 +16,7 @@ namespace drycut::devices::lx3vp::il {
 
 namespace {
 
-constexpr std::int64_t watchdog_ns = 200'000'000;
+constexpr int watchdog_register = 8000;  ///< D8000 [ms]
 constexpr int count_down_flags = 8000;  ///< M8200..M8234: C200..C234 count down; M8000 + the counter's number
 
 /// Whether a comparison as a contact (LD=, ANDD>) holds.
@@ -57,7 +58,7 @@ std::int64_t work_of(const Registers& registers, const Step& step) {
 }  // namespace
 
 ProgramScan::ProgramScan(const IlProgram& program, std::int64_t step_ns)
-    : program_(program), step_ns_(step_ns), most_(step_ns > 0 ? watchdog_ns / step_ns : most_work) {
+    : program_(program), step_ns_(step_ns) {
   restart();
 }
 ProgramScan::~ProgramScan() = default;
@@ -68,6 +69,9 @@ void ProgramScan::restart() {
   timed_ns_.assign(timers, -1);
   last_scan_ns_ = 0;
   has_scanned_ = false;
+  interrupts_on_ = false;
+  waiting_.clear();
+  taken_ns_ = -1;
   rung_.reset();
   scanned_.clear();
 }
@@ -76,11 +80,12 @@ void ProgramScan::Rung::Loop::visit(StateArchive& archive) { STATE(archive, plac
 void ProgramScan::Rung::Frame::visit(StateArchive& archive) { STATE(archive, back, loops); }
 void ProgramScan::Rung::visit(StateArchive& archive) {
   STATE(archive, passed_ns, blocks, branches, loops, frames, open_masters, state, state_on, supply, flow,
-        work, next, over);
+        work, limit, next, over);
 }
 
 void ProgramScan::visit(StateArchive& archive, Registers& registers, Instructions& instructions) {
-  STATE(archive, memories_, fractions_, timed_ns_, last_scan_ns_, has_scanned_);
+  STATE(archive, memories_, fractions_, timed_ns_, last_scan_ns_, has_scanned_, interrupts_on_, waiting_,
+        levels_, taken_ns_);
   bool begun = rung_ != nullptr;
   STATE(archive, begun);
   if (archive.restores()) {
@@ -104,7 +109,7 @@ int ProgramScan::line() const {
 void ProgramScan::scan(Registers& registers, Instructions& instructions) {
   Rung rung{registers, instructions};
   start(rung);
-  run(rung, most_ + 1);
+  run(rung, std::numeric_limits<std::int64_t>::max());
 }
 
 void ProgramScan::begin(Registers& registers, Instructions& instructions) {
@@ -122,8 +127,22 @@ void ProgramScan::start(Rung& rung) {
   rung.passed_ns = has_scanned_ ? registers.time_ns - last_scan_ns_ : 0;
   last_scan_ns_ = registers.time_ns;
   has_scanned_ = true;
+  refresh_watchdog(rung);
   if (watched_)
     scanning_.assign(scanning_.empty() ? split_lines(program_.text).size() : scanning_.size(), ' ');
+}
+
+int ProgramScan::watchdog_ms(const Registers& registers) const {
+  constexpr int usual = 200;
+  const int wanted = registers.i16(watchdog_register);
+  return wanted > 0 ? wanted : usual;
+}
+
+void ProgramScan::refresh_watchdog(Rung& rung) const {
+  constexpr std::int64_t ns_per_ms = 1'000'000;
+  constexpr std::int64_t usual_step_ns = 200;
+  rung.limit =
+      rung.work + watchdog_ms(rung.registers) * ns_per_ms / (step_ns_ > 0 ? step_ns_ : usual_step_ns);
 }
 
 // An instruction has power if what is before it lets it through; those that need none are executed.
@@ -139,7 +158,7 @@ void ProgramScan::mark(const Step& step, const Rung& rung) {
 bool ProgramScan::run(Rung& rung, std::int64_t work) {
   if (!watched_) return run_steps<false>(rung, work);
   const bool done = run_steps<true>(rung, work);
-  if (done || rung.work > most_) scanned_ = scanning_;
+  if (done || rung.work > rung.limit) scanned_ = scanning_;
   return done;
 }
 
@@ -148,15 +167,27 @@ template <bool watched>
 bool ProgramScan::run_steps(Rung& rung, std::int64_t work) {
   while (!rung.over && rung.next < program_.steps.size()) {
     if (rung.work >= work) return false;
-    const auto& step = program_.steps[rung.next++];
-    execute(step, rung);
+    const Step& step = program_.steps[rung.next++];
+    if (step.route == Route::bit) {
+      const bool on = *bit_at(rung.registers, step.letter, step.bit);
+      rung.join(step, on == (step.code == Op::on));
+    } else if (!watched && step.route == Route::action && step_ns_ == 0 && !rung.power()) {
+      // All of its kind behind it do nothing either; each is an instruction for the watchdog.
+      const auto passed = static_cast<std::int64_t>(step.skip) - static_cast<std::int64_t>(rung.next);
+      if (rung.work + passed < rung.limit) {
+        rung.work += passed;
+        rung.next = static_cast<std::size_t>(step.skip);
+      }
+    } else {
+      execute(step, rung);
+    }
     if constexpr (watched) mark(step, rung);
-    if (++rung.work <= most_) continue;
+    if (++rung.work <= rung.limit) continue;
     constexpr int watchdog = 6105;  // FX
     rung.instructions.watchdog(
-        step.number, fmt::format("{}:{}: {}: the scan works longer than the watchdog's 200 ms; repeat "
+        step.number, fmt::format("{}:{}: {}: the scan works longer than the watchdog's {} ms; repeat "
                                  "less in a scan (CJ back, FOR, blocks)",
-                                 program_.file, step.line, watchdog));
+                                 program_.file, step.line, watchdog, watchdog_ms(rung.registers)));
     return false;
   }
   return true;
@@ -233,32 +264,23 @@ void ProgramScan::join(Op op, Rung& rung) {
 }
 
 void ProgramScan::execute(const Step& step, Rung& rung) {
-  const Op op = step.op();
-  if (is_contact(op)) {
-    const bool on = contact(step, rung);
-    switch (step.join) {
-      case Join::begins:
-        if (step.opens_block)
-          rung.blocks.push_back(rung.flow);
-        else
-          rung.blocks.clear();
-        rung.flow = on;
-        break;
-      case Join::series:
-        rung.flow = rung.flow && on;
-        break;
-      case Join::parallel:
-        rung.flow = rung.flow || on;
-        break;
-    }
-  } else if (op <= Op::inv) {
-    join(op, rung);
-  } else if (op <= Op::plf) {
-    coil(step, rung);
-  } else if (op >= Op::mc) {
-    flow(step, rung);
-  } else {
-    call(step, rung);
+  switch (step.route) {
+    case Route::bit:
+    case Route::contact:
+      return rung.join(step, contact(step, rung));
+    case Route::join:
+      return join(step.op(), rung);
+    case Route::coil:
+      return coil(step, rung);
+    case Route::flow:
+      return flow(step, rung);
+    case Route::action:
+    case Route::call:
+      if (step.op() <= Op::plf)
+        coil(step, rung);
+      else
+        call(step, rung);
+      return;
   }
 }
 
@@ -367,12 +389,24 @@ void ProgramScan::call(const Step& step, Rung& rung) {
       drive_outputs(rung.registers, *taken, power, rung.instructions);
     else if (op == Op::ecamtbx)
       make_cam_table(*taken, rung);
+    else if (op == Op::wdt)
+      refresh_watchdog(rung);
+    else if (op == Op::ref)
+      refresh_terminals(*taken, rung);
     else
       execute_action(rung.registers, *taken);
     rung.work += work_of(rung.registers, *taken);
   } catch (const IlError& error) {
     tell_error(step, error, rung);
   }
+}
+
+void ProgramScan::refresh_terminals(const Step& step, Rung& rung) const {
+  const auto& first = step.operands[0];
+  const int count = read_value(rung.registers, step.operands[1], false);
+  if (count < 8 || count % 8 != 0 || first.number + count > terminals)
+    throw IlError(bad_operand, fmt::format("{} from {} on are no rows of eight", count, to_string(first)));
+  rung.instructions.refresh(letter_of(first.kind), first.number, count);
 }
 
 void ProgramScan::make_cam_table(const Step& step, Rung& rung) {

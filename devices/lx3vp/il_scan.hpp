@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "devices/lx3vp/il_operands.hpp"
 #include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/il_values.hpp"
 #include "devices/lx3vp/instructions.hpp"
@@ -22,12 +23,8 @@ void drive_outputs(const Registers& registers, const Step& step, bool powered, I
 /// unit) is here; the program must outlive it.
 class ProgramScan {
  public:
-  /// Work that a scan may do before the watchdog (D8000, 200 ms) stops it, an instruction or a word that one
-  /// moves being 1. At 0.2 us each, which is the order of the real unit's, these are the 200 ms.
-  static constexpr std::int64_t most_work = 1'000'000;
-
-  /// `step_ns`: what an instruction takes, or a word that one moves; the watchdog goes by it then. 0: none of
-  /// them takes time.
+  /// `step_ns`: what an instruction takes, or a word that one moves; the watchdog (D8000) goes by it. 0: none
+  /// of them takes time; the watchdog counts 0.2 us for each, which is the order of the real unit's.
   explicit ProgramScan(const IlProgram& program, std::int64_t step_ns = 0);
   ~ProgramScan();
   ProgramScan(const ProgramScan&) = delete;
@@ -40,6 +37,13 @@ class ProgramScan {
   /// Executes what acts until `computed_ns` after the beginning, each instruction at its end. How long the
   /// whole scan took once that has passed [ns]; nothing before, and after a watchdog.
   std::optional<std::int64_t> go_on(std::int64_t computed_ns);
+  /// A tick of 100 us: takes what comes of the edges of X0..X5 and the time since power-up. Interrupt
+  /// routines that may run are run at once, between two instructions of the scan.
+  void take_interrupts(const std::array<bool, terminals>& inputs, std::int64_t time_ns, Registers& registers,
+                       Instructions& instructions);
+  /// A DHSCS asks for I010, I020 to I060; it is taken in the next of those.
+  void request(int interrupt, const Registers& registers);
+  [[nodiscard]] bool has_interrupts() const { return !program_.interrupts.empty(); }
   /// After power-up: nothing is remembered, a contact that is ON counts as an edge.
   void restart();
 
@@ -57,6 +61,9 @@ class ProgramScan {
  private:
   struct Rung;
   void start(Rung& rung);
+  [[nodiscard]] int watchdog_ms(const Registers& registers) const;
+  /// Gives the watchdog's time anew.
+  void refresh_watchdog(Rung& rung) const;
   bool run(Rung& rung, std::int64_t work);
   template <bool watched>
   bool run_steps(Rung& rung, std::int64_t work);
@@ -65,6 +72,9 @@ class ProgramScan {
   /// The step with its index registers applied; nullptr, and told, if it then names what there is not.
   const Step* indexed(const Step& step, Rung& rung) { return step.indexed ? with_index(step, rung) : &step; }
   const Step* with_index(const Step& step, Rung& rung);
+  // il_interrupts.cpp
+  void ask(std::size_t interrupt, const Registers& registers);
+  std::int64_t run_interrupts(Registers& registers, Instructions& instructions);
   void tell_error(const Step& step, const IlError& error, Rung& rung) const;
   // il_flow.cpp: what says where a program goes on and which power it has.
   void flow(const Step& step, Rung& rung);
@@ -82,6 +92,7 @@ class ProgramScan {
   bool executes(const Step& step, const Rung& rung);
   void call(const Step& step, Rung& rung);
   void make_cam_table(const Step& step, Rung& rung);
+  void refresh_terminals(const Step& step, Rung& rung) const;
   /// Whether `now` is ON and was not at this step in the scan before; keeps it.
   bool rises(const Step& step, bool now) { return turns(step, now, true); }
   bool falls(const Step& step, bool now) { return turns(step, now, false); }
@@ -95,7 +106,11 @@ class ProgramScan {
   std::int64_t last_scan_ns_ = 0;
   bool has_scanned_ = false;
   const std::int64_t step_ns_;
-  const std::int64_t most_;     ///< work of a scan
+  bool interrupts_on_ = false;        ///< EI
+  bool interrupted_ = false;          ///< an interrupt routine runs
+  std::vector<std::size_t> waiting_;  ///< interrupts, as they came, by their places in the program's table
+  std::array<bool, interrupt_inputs> levels_{};
+  std::int64_t taken_ns_ = -1;  ///< when interrupts were taken last; -1: not since the start
   std::unique_ptr<Rung> rung_;  ///< of the scan that go_on() goes on with
   bool watched_ = false;
   std::string scanning_;  ///< what the present scan has done so far
@@ -133,11 +148,26 @@ struct ProgramScan::Rung {
   bool supply = true;  ///< all master contacts and the state are ON
   bool flow = false;
   std::int64_t work = 0;
+  std::int64_t limit = 0;  ///< at which the watchdog comes
   std::size_t next = 0;
   bool over = false;
 
   void visit(StateArchive& archive);
 
+  /// A contact that is ON or OFF joins what is before it.
+  void join(const Step& step, bool on) {
+    if (step.join == Join::series) {
+      flow = flow && on;
+    } else if (step.join == Join::parallel) {
+      flow = flow || on;
+    } else {
+      if (step.opens_block)
+        blocks.push_back(flow);
+      else
+        blocks.clear();
+      flow = on;
+    }
+  }
   /// What reaches a coil.
   [[nodiscard]] bool power() const { return flow && supply; }
   void renew_supply() {

@@ -88,22 +88,9 @@ void from_decimal_digits(Call& call) {
 
 void average(Call& call) {
   const int count = call.count(2, most_averaged);
-  const Operand& first = call.operand(0);
-  const bool is_bits = first.kind == OperandType::bits;
-  const bool two_words =
-      call.wide() && !is_bits && !(first.kind == OperandType::C && first.number >= first_wide_counter);
-  const int stride = is_bits ? 4 * first.count : two_words ? 2 : 1;
-  Operand last = first;
-  last.number += stride * count - 1;
-  if (!exists(last))
-    throw IlError(bad_operand,
-                  fmt::format("{} values from {} on go beyond what there is", count, to_string(first)));
+  call.need_values(0, count);
   std::int64_t sum = 0;
-  for (int i = 0; i < count; ++i) {
-    Operand value = first;
-    value.number += stride * i;
-    sum += read_value(call.registers(), value, call.wide());
-  }
+  for (int i = 0; i < count; ++i) sum += read_value(call.registers(), call.nth(0, i), call.wide());
   call.set(1, static_cast<std::int32_t>(sum / count));
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "devices/lx3vp/il_operands.hpp"
 #include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp::il {
@@ -40,7 +41,11 @@ bool is_aimed(const Step& step) { return step.op() == Op::cj || step.op() == Op:
 class Structure {
  public:
   Structure(IlProgram& program, const Labels& labels, const TellLine& tell)
-      : steps_(program.steps), labels_(labels), tell_(tell), places_(steps_.size()) {
+      : steps_(program.steps),
+        interrupts_(program.interrupts),
+        labels_(labels),
+        tell_(tell),
+        places_(steps_.size()) {
     program.states.assign(states, false);
     states_ = &program.states;
   }
@@ -50,6 +55,8 @@ class Structure {
     if (!steps_.empty() && steps_.back().op() != Op::end) close_all("the end of the text");
     for (place_ = 0; place_ < steps_.size(); ++place_)
       if (is_aimed(steps_[place_])) aim(steps_[place_]);
+    for (const auto& interrupt : interrupts_) check_interrupt(interrupt);
+    for (const auto& step : steps_) check_requests(step);
   }
 
  private:
@@ -61,8 +68,10 @@ class Structure {
     std::size_t state = none;  ///< place of the STL
     std::size_t part = 0;      ///< of the program: FEND, SRET and END end one
   };
-  struct Part {
-    bool subroutine = false;  ///< it ends with SRET
+  enum class Part {
+    main,
+    subroutine,  ///< it ends with SRET
+    interrupts   ///< it ends with IRET
   };
   struct Master {
     int nesting = 0;
@@ -104,11 +113,17 @@ class Structure {
       case Op::sret:
         if (parts_.empty())
           tell("il.structure"_code, step, "SRET stands in the main program", "put subroutines behind FEND");
-        end_part(step, true);
+        end_part(step, Part::subroutine);
+        break;
+      case Op::iret:
+        if (parts_.empty())
+          tell("il.structure"_code, step, "IRET stands in the main program",
+               "put interrupt routines behind FEND");
+        end_part(step, Part::interrupts);
         break;
       case Op::fend:
       case Op::end:
-        end_part(step, false);
+        end_part(step, Part::main);
         break;
       default:
         break;
@@ -227,18 +242,45 @@ class Structure {
     if (!parts_.empty() && main_only_ == none) main_only_ = place_;
   }
 
-  void end_part(const Step& step, bool subroutine) {
-    if (subroutine && main_only_ != none)
+  void end_part(const Step& step, Part part) {
+    if (part != Part::main && main_only_ != none)
       tell("il.structure"_code, steps_[main_only_],
-           fmt::format("{} stands in a subroutine", steps_[main_only_].spelling->text),
+           fmt::format("{} stands in {}", steps_[main_only_].spelling->text,
+                       part == Part::subroutine ? "a subroutine" : "an interrupt routine"),
            "put master contacts and sequences into the main program");
     main_only_ = none;
     close_all(fmt::format("{} in line {}", step.spelling->text, step.line));
-    parts_.push_back({subroutine});
+    parts_.push_back(part);
   }
 
-  [[nodiscard]] bool is_subroutine(std::size_t part) const {
-    return part < parts_.size() && parts_[part].subroutine;
+  [[nodiscard]] Part kind_of(std::size_t part) const {
+    return part < parts_.size() ? parts_[part] : Part::main;
+  }
+
+  // Interrupts.
+
+  void check_interrupt(const InterruptRoutine& interrupt) {
+    const Step& label = steps_[interrupt.place];
+    const Place& place = places_[interrupt.place];
+    if (kind_of(place.part) != Part::interrupts)
+      tell("il.structure"_code, label, fmt::format("{} has no IRET behind it", to_string(label.operands[0])),
+           "put interrupt routines behind FEND and end each with IRET");
+    else if (place.loop != none)
+      tell("il.structure"_code, label,
+           fmt::format("{} stands between FOR in line {} and its NEXT", to_string(label.operands[0]),
+                       steps_[place.loop].line),
+           "begin an interrupt routine at its label");
+  }
+
+  /// A DHSCS asks for an interrupt.
+  void check_requests(const Step& step) {
+    if (step.op() != Op::hscs || step.operands.size() < 3) return;
+    const auto& asked = step.operands[2];
+    if (asked.kind != OperandType::interrupt || !is_counter_interrupt(asked.number)) return;
+    for (const auto& interrupt : interrupts_)
+      if (interrupt.number == asked.number) return;
+    tell_("il.jump"_code, {asked.line, asked.column}, fmt::format("there is no label {}", to_string(asked)),
+          "begin an interrupt routine with it, behind FEND");
   }
 
   // Jumps.
@@ -255,7 +297,7 @@ class Structure {
     const Place& from = places_[place_];
     const Place& to = places_[found->second.place];
     if (calls) {
-      if (!is_subroutine(to.part))
+      if (kind_of(to.part) != Part::subroutine)
         refuse("il.jump"_code,
                fmt::format("{} in line {} is no subroutine: it has no SRET", to_string(name),
                            found->second.line),
@@ -267,10 +309,17 @@ class Structure {
                "call a subroutine at its beginning");
       return;
     }
-    if (is_subroutine(from.part) != is_subroutine(to.part))
-      refuse("il.jump"_code,
-             fmt::format("CJ jumps {} a subroutine", is_subroutine(to.part) ? "into" : "out of"),
-             is_subroutine(to.part) ? "use CALL" : "leave it by SRET");
+    const bool to_subroutine = kind_of(to.part) == Part::subroutine;
+    const bool of_subroutine = to_subroutine || kind_of(from.part) == Part::subroutine;
+    if (kind_of(from.part) != kind_of(to.part) && of_subroutine)
+      refuse("il.jump"_code, fmt::format("CJ jumps {} a subroutine", to_subroutine ? "into" : "out of"),
+             to_subroutine ? "use CALL" : "leave it by SRET");
+    else if (kind_of(from.part) != kind_of(to.part))
+      refuse(
+          "il.jump"_code,
+          fmt::format("CJ jumps {} an interrupt routine",
+                      kind_of(to.part) == Part::interrupts ? "into" : "out of"),
+          kind_of(to.part) == Part::interrupts ? "it begins when its interrupt comes" : "leave it by IRET");
     else if (!is_around(to.loop, place_))
       refuse("il.jump"_code,
              fmt::format("CJ jumps between FOR in line {} and its NEXT", steps_[to.loop].line),
@@ -287,6 +336,7 @@ class Structure {
   }
 
   std::vector<Step>& steps_;
+  const std::vector<InterruptRoutine>& interrupts_;
   const Labels& labels_;
   const TellLine& tell_;
   std::vector<Place> places_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "devices/lx3vp/il_operands.hpp"
+
 namespace drycut::devices::lx3vp::il {
 
 namespace {
@@ -65,6 +67,10 @@ void reset(Registers& registers, const Operand& device) {
     registers.put(device.number, 0);
     return;
   }
+  if (device.kind == OperandType::V || device.kind == OperandType::Z) {
+    set_word(registers, device.kind, device.number, 0);
+    return;
+  }
   if (device.kind == OperandType::T) registers.t[place].value = 0;
   if (device.kind == OperandType::C) registers.c[place].value = 0;
   write_bit(registers, device, false);
@@ -117,6 +123,16 @@ void apply_index(const Registers& registers, Operand& operand, bool wide) {
   }
   constexpr std::int64_t beyond = 1'000'000;  // of every device: none has such a number
   operand.number = static_cast<int>(std::clamp(operand.number + index, -beyond, beyond));
+}
+
+void Call::need_values(std::size_t i, int count) const {
+  const Operand& first = operand(i);
+  Operand last = nth(i, count - 1);
+  last.number += stride(i) - 1;
+  const bool narrow_counter = first.kind == OperandType::C && first.number < first_wide_counter;
+  if (exists(last) && (!narrow_counter || last.number < first_wide_counter)) return;
+  throw IlError(bad_operand,
+                fmt::format("{} values from {} on go beyond what there is", count, to_string(first)));
 }
 
 float read_float(const Registers& registers, const Operand& operand) {

@@ -112,11 +112,20 @@ class Call {
       throw IlError(bad_operand, fmt::format("a count of {} is none of 1 to {}", count, most));
     return count;
   }
-  void need_words(std::size_t i, int words) const {
-    if (number(i) + words > data_words)
-      throw IlError(bad_operand,
-                    fmt::format("{} words from D{} on go beyond D{}", words, number(i), data_words - 1));
+  /// Of an operand that stands for several values: from one to the next, in its devices.
+  [[nodiscard]] int stride(std::size_t i) const {
+    const Operand& first = operand(i);
+    if (first.kind == OperandType::bits) return 4 * first.count;
+    const bool wide_counter = first.kind == OperandType::C && first.number >= first_wide_counter;
+    return wide_ && !wide_counter ? 2 : 1;
   }
+  /// The n-th of them, which has to be there: `need_values`.
+  [[nodiscard]] Operand nth(std::size_t i, int n) const {
+    Operand value = operand(i);
+    value.number += n * stride(i);
+    return value;
+  }
+  void need_values(std::size_t i, int count) const;
 
  private:
   /// Exactly one of three devices is ON.

@@ -50,32 +50,30 @@ void divide(Call& call) {
 }
 
 void move_block(Call& call) {
+  constexpr int backwards_flag = 8024;
   const int count = call.count(2);
-  call.need_words(0, count);
-  call.need_words(1, count);
-  auto& registers = call.registers();
-  const int from = call.number(0);
-  const int to = call.number(1);
-  const auto move = [&](int i) { registers.put(to + i, registers.d[static_cast<std::size_t>(from + i)]); };
+  call.need_values(0, count);
+  call.need_values(1, count);
+  const std::size_t from = call.flag(backwards_flag) ? 1 : 0;
+  const std::size_t to = 1 - from;
+  if (call.operand(to).kind == OperandType::bits && call.operand(to).of == OperandType::X)
+    throw IlError(bad_operand, "M8024 turns the move round, and inputs are not written");
+  const auto move = [&](int i) {
+    write_value(call.registers(), call.nth(to, i), false,
+                read_value(call.registers(), call.nth(from, i), false));
+  };
   // Blocks may overlap: nothing is overwritten before it was moved.
-  if (to <= from)
+  if (call.number(to) <= call.number(from))
     for (int i = 0; i < count; ++i) move(i);
   else
     for (int i = count; i-- > 0;) move(i);
 }
 
 void fill_block(Call& call) {
-  const int width = call.wide() ? 2 : 1;
   const int count = call.count(2);
-  call.need_words(1, count * width);
+  call.need_values(1, count);
   const auto value = call.value(0);
-  for (int i = 0; i < count; ++i) {
-    const int at = call.number(1) + i * width;
-    if (call.wide())
-      call.registers().set_i32(at, value);
-    else
-      call.registers().set_i16(at, static_cast<std::int16_t>(value));
-  }
+  for (int i = 0; i < count; ++i) write_value(call.registers(), call.nth(1, i), call.wide(), value);
 }
 
 constexpr Mnemonic word_rows[] = {
@@ -84,8 +82,8 @@ constexpr Mnemonic word_rows[] = {
     {"MOV", Op::action, "nw", nwp, 5, 9, "D = S", [](Call& c) { c.set(1, c.value(0)); }},
     {"CML", Op::action, "nw", nwp, 5, 9, "D = S with every bit inverted",
      [](Call& c) { c.set(1, ~c.value(0)); }},
-    {"BMOV", Op::action, "iik", np, 7, 0, "moves n words from S on to D on", move_block},
-    {"FMOV", Op::action, "nik", nwp, 7, 13, "writes S into n words (values) from D on", fill_block},
+    {"BMOV", Op::block, "uUk", np, 7, 0, "moves n words, or groups of bits, from S on to D on", move_block},
+    {"FMOV", Op::action, "nUk", nwp, 7, 13, "writes S into n words (values) from D on", fill_block},
     {"XCH", Op::action, "ww", nwp, 5, 9, "exchanges two values", exchange},
     {"ADD", Op::action, "nnw", nwp, 7, 13, "D = S1 + S2",
      [](Call& c) { c.set_sum(2, c.long_value(0) + c.value(1)); }},

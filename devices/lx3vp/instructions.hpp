@@ -47,8 +47,8 @@ struct DogSignal {
   void visit(StateArchive& archive);
 };
 
-/// What DPLSV, DDRVI, DDRVA, PLSY and ZRN ask of a pulse output. All but DPLSV begin on the rising edge of
-/// power, set M8029 when they are done, and stop as power goes off.
+/// What DPLSV, DDRVI, DDRVA, PLSY, PLSR, PWM and ZRN ask of a pulse output. All but DPLSV and PWM begin on
+/// the rising edge of power, set M8029 when they are done, and stop as power goes off.
 struct PulseOrder {
   enum class Kind : std::uint8_t {
     speed,  ///< DPLSV: at `frequency` at once, without ramp, backwards if negative, as long as it has power
@@ -56,6 +56,8 @@ struct PulseOrder {
     position,  ///< DDRVA: likewise to position `pulses`
     train,     ///< PLSY: `pulses` at once and without ramp, 0 = without end, counting forwards; the frequency
                ///< may change on the way
+    ramped,    ///< PLSR: a train with ramps of `ramp_ms`
+    pwm,       ///< PWM: no pulses, the output's level: on for `width_ms` of every `period_ms`
     zero       ///< ZRN: backwards, from the dog on at `creep`, to where the dog ends; the position is 0 then
   };
   Kind kind = Kind::speed;
@@ -66,6 +68,33 @@ struct PulseOrder {
   std::int32_t pulses = 0;
   std::int32_t creep = 0;  ///< [Hz]
   DogSignal dog = {};
+  std::int32_t ramp_ms = 0;
+  std::int32_t width_ms = 0;
+  std::int32_t period_ms = 0;
+  void visit(StateArchive& archive);
+};
+
+/// What DHSCS, DHSCR and DHSZ ask of a high-speed counter, pulse by pulse.
+struct CounterCompare {
+  enum class Kind : std::uint8_t {
+    set,    ///< DHSCS: the device goes on as the count comes to `low`, from either side
+    reset,  ///< DHSCR: off; the counter itself goes on from 0
+    zone    ///< DHSZ: three devices: below `low`, within, above `high`
+  };
+  Kind kind = Kind::set;
+  int counter = 0;
+  std::int32_t low = 0;
+  std::int32_t high = 0;
+  char letter = 'Y';  ///< Y, M or S; of DHSCR C; of DHSCS I, an interrupt
+  int number = 0;     ///< plain: Y10 is 8
+  void visit(StateArchive& archive);
+};
+
+/// What SPD asks of an input: how many pulses it gets in each `period_ms`.
+struct SpeedMeasure {
+  int input = 0;   ///< X0..X5
+  int result = 0;  ///< first of three D
+  std::int32_t period_ms = 0;
   void visit(StateArchive& archive);
 };
 
@@ -88,6 +117,15 @@ class Instructions {
   /// OUT of a high-speed counter: counts the pulses of its terminals while powered; the contact is on from
   /// `preset` on. Register and contact are the controller's work then; RST C sets both back in the registers.
   virtual void high_speed_counter(int number, std::int32_t preset, bool powered) = 0;
+
+  /// DHSCS, DHSCR, DHSZ: compares from pulse to pulse while powered.
+  virtual void compare_counter(int step, const CounterCompare& compare, bool powered) = 0;
+
+  /// SPD: measures while powered, as it was asked when power came.
+  virtual void measure_speed(int step, const SpeedMeasure& measure, bool powered) = 0;
+
+  /// REF: takes the levels of inputs, or gives those of outputs, at once. `letter` is X or Y.
+  virtual void refresh(char letter, int first, int count) = 0;
 
   /// An error of an instruction while it runs (M8067, D8067, D8069 = step); the scan goes on behind it.
   /// `text` says where and what: "saw.il:12: 6706: ...".

@@ -30,7 +30,8 @@ namespace drycut::devices::lx3vp {
 /// Y0..Y3 for pulses too. Inputs are taken into the registers at the start of a scan, outputs given at its
 /// end, which with `step_ns` comes as late as its instructions take, and the next scan after it; DECAM's
 /// start signal, its direction and its synchronous output go by the tick. An instruction that fails is told
-/// once and skipped. A scan that works too long (6105) stops program and outputs until the next power-up.
+/// once and skipped. A scan that works too long (6105) stops program and outputs until the next power-up;
+/// M8037 stops them until M8036. Interrupt routines run in the tick that brings their interrupt.
 class Lx3vpController : public Controller, private Instructions {
  public:
   /// `program` is free of problems; `scan_ns` > 0; `step_ns` >= 0: what an instruction takes, or a word that
@@ -92,6 +93,9 @@ class Lx3vpController : public Controller, private Instructions {
   void decam(int step, const DecamOperands& operands, bool powered) override;
   void pulses(int step, const PulseOrder& order, bool powered) override;
   void high_speed_counter(int number, std::int32_t preset, bool powered) override;
+  void compare_counter(int step, const CounterCompare& compare, bool powered) override;
+  void measure_speed(int step, const SpeedMeasure& measure, bool powered) override;
+  void refresh(char letter, int first, int count) override;
   void watchdog(int step, const std::string& text) override;
   void error(int step, int code, const std::string& text) override;
   void cam_table(int step, std::int32_t result, const std::string& text) override;
@@ -104,6 +108,11 @@ class Lx3vpController : public Controller, private Instructions {
   void add_used_terminals();
   void add_names();
   void reset_registers();
+  void clear_registers(bool retentive);
+  void obey_relays();
+  void stop_program();
+  [[nodiscard]] bool runs();
+  void stop_pulses();
   void stop_outputs();
   void take_inputs();
   void give_outputs();
@@ -124,21 +133,25 @@ class Lx3vpController : public Controller, private Instructions {
   std::int64_t scan_due_ns_ = 0;    ///< the next scan begins
   std::int64_t scan_begun_ns_ = 0;  ///< the present one began
   std::int64_t scan_took_ns_ = 0;   ///< the last one, with what it waited for the next
+  std::int64_t constant_ns_ = 0;    ///< least time of a scan (M8039, D8039)
   bool scanning_ = false;
   Cards cards_;
   /// Terminals of a map by their numbers, in a row that each tick walks; they may become more, never fewer.
   template <typename Terminal>
   class Row {
    public:
-    using Terminals = std::vector<std::pair<int, Terminal*>>;
+    using Terminals = std::vector<std::pair<std::size_t, Terminal*>>;
     const Terminals& of(std::map<Address, Terminal>& all) {
-      if (row_.size() == all.size()) return row_;
-      row_.clear();
-      for (auto& [address, terminal] : all) row_.emplace_back(address.number, &terminal);
+      if (row_.size() != all.size()) walk(all);
       return row_;
     }
 
    private:
+    void walk(std::map<Address, Terminal>& all) {
+      row_.clear();
+      for (auto& [address, terminal] : all)
+        row_.emplace_back(static_cast<std::size_t>(address.number), &terminal);
+    }
     Terminals row_;
   };
   Row<Counter> counters_row_;
@@ -147,6 +160,7 @@ class Lx3vpController : public Controller, private Instructions {
   Row<PulseTrain> trains_row_;
   Registers registers_;
   HighSpeedCounters counters_;
+  SpeedMeters speeds_;
   PulseUnit pulses_;
   std::array<bool, terminals> inputs_{};  ///< levels of the terminals
   std::array<bool, terminals> outputs_{};
@@ -154,8 +168,10 @@ class Lx3vpController : public Controller, private Instructions {
   bool powered_ = true;
   RegisterFace modbus_{powered_};
   bool first_scan_ = true;
-  bool stopped_ = false;  ///< by the watchdog, until power-up
-  int stopped_at_ = 0;    ///< step of program memory
+  bool stopped_ = false;      ///< by the watchdog, until power-up
+  int stopped_at_ = 0;        ///< step of program memory
+  bool halted_ = false;       ///< by M8037, until M8036 or power-up
+  bool outputs_off_ = false;  ///< M8034
   std::int64_t power_up_ns_ = 0;
   bool power_up_due_ = false;  ///< the next period is the first with power
   std::vector<std::string> names_;

@@ -1,4 +1,5 @@
-// What one sees of the program while it runs: its text, the registers that each line names, where a scan is.
+// What one sees of the program while it runs: its text, the registers that each line names, where a scan is
+// or why there is none.
 #include <optional>
 #include <string>
 #include <utility>
@@ -68,6 +69,8 @@ ProgramPositions Lx3vpController::positions(std::int64_t) const {
   } else if (stopped_) {
     scan.doing = "stopped by the watchdog";
     if (const auto* step = step_at(stopped_at_)) scan.line = step->line;
+  } else if (halted_) {
+    scan.doing = "stopped by M8037";
   } else if (scanning_ && scanner_.line() > 0) {
     scan.doing = "runs";
     scan.line = scanner_.line();

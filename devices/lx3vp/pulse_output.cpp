@@ -12,8 +12,12 @@ void StartSignal::visit(StateArchive& archive) { STATE(archive, is_input, number
 void DecamOperands::visit(StateArchive& archive) { STATE(archive, master, block, start, output, direction); }
 void DogSignal::visit(StateArchive& archive) { STATE(archive, letter, number); }
 void PulseOrder::visit(StateArchive& archive) {
-  STATE(archive, kind, output, direction, frequency, pulses, creep, dog);
+  STATE(archive, kind, output, direction, frequency, pulses, creep, dog, ramp_ms, width_ms, period_ms);
 }
+void CounterCompare::visit(StateArchive& archive) {
+  STATE(archive, kind, counter, low, high, letter, number);
+}
+void SpeedMeasure::visit(StateArchive& archive) { STATE(archive, input, result, period_ms); }
 void PulseOutput::visit(StateArchive& archive) { STATE(archive, position_, credit_, forwards_); }
 
 PulseTick PulseOutput::give(std::int64_t pulses, bool forwards) {

@@ -30,7 +30,9 @@ bool stopped(const Registers& registers, int output) {
 }  // namespace
 
 void PulseNote::visit(StateArchive& archive) { STATE(archive, step, code, text, owner); }
-void PulseUnit::Motion::visit(StateArchive& archive) { STATE(archive, step, order, target, speed, at_dog); }
+void PulseUnit::Motion::visit(StateArchive& archive) {
+  STATE(archive, step, order, target, speed, at_dog, ticks);
+}
 void PulseUnit::Line::visit(StateArchive& archive) { STATE(archive, output, motion, given); }
 void PulseUnit::visit(StateArchive& archive) { STATE(archive, lines_, cams_, drives_, refused_, notes_); }
 
@@ -98,7 +100,10 @@ bool PulseUnit::begins(int step, int output, bool powered, Registers& registers)
 void PulseUnit::pulses(int step, const PulseOrder& order, bool powered, Registers& registers) {
   using enum PulseOrder::Kind;
   Line& line = lines_[static_cast<std::size_t>(order.output)];
-  if (order.kind == speed) {
+  // The level goes with the power, at the end of the scan.
+  if (order.kind == pwm && !powered && line.motion.step == step)
+    registers.y[static_cast<std::size_t>(order.output)] = false;
+  if (order.kind == speed || order.kind == pwm) {
     if (!lets_go(line, step, powered) && take(line, step, order.output)) line.motion.order = order;
   } else if (begins(step, order.output, powered, registers)) {
     begin(line, order, registers);
@@ -118,10 +123,10 @@ void PulseUnit::begin(Line& line, const PulseOrder& order, const Registers& regi
   motion.target = line.output.position() + order.pulses;
   if (order.kind == position)
     motion.target -= registers.i32(position_registers[static_cast<std::size_t>(order.output)]);
-  if (order.kind == distance || order.kind == position)
+  if (order.kind == distance || order.kind == position || order.kind == ramped)
     motion.order.frequency =
         std::clamp(std::abs(std::max(frequency, -max_frequency_hz)), 1, max_frequency_hz);
-  if (order.kind == train) line.output.face(true);
+  if (order.kind == train || order.kind == ramped) line.output.face(true);
   if (order.kind != zero) return;
   motion.order.frequency = std::min(frequency, max_frequency_hz);
   motion.order.creep = std::min(order.creep, motion.order.frequency);
@@ -138,6 +143,11 @@ struct PulseRamp {
     const double ramp_s = std::clamp<double>(registers.d[ramp_register], 50, 5000) / 1000;
     slope = (top - bias) / ramp_s;
     least = std::max({bias, std::sqrt(slope / 2), 1.0});
+  }
+  /// PLSR: with ramps of its own.
+  explicit PulseRamp(const PulseOrder& order) : top(std::max(order.frequency, 10)) {
+    slope = top / (std::clamp<double>(order.ramp_ms, 50, 5000) / 1000);
+    least = std::max(std::sqrt(slope / 2), 1.0);
   }
   double top;        ///< [Hz]
   double slope = 0;  ///< [Hz/s]
@@ -156,7 +166,8 @@ bool is_on(const DogSignal& dog, const CamPort& port) {
 // A ramp, and a speed that still leaves the way to stop.
 PulseTick PulseUnit::move(Line& line, const Registers& registers) {
   Motion& motion = line.motion;
-  const PulseRamp ramp(registers);
+  const bool own_ramp = motion.order.kind == PulseOrder::Kind::ramped;
+  const PulseRamp ramp = own_ramp ? PulseRamp(motion.order) : PulseRamp(registers);
   const auto remaining = static_cast<double>(std::abs(motion.target - line.output.position()));
   const double most = std::max(ramp.least, std::min<double>(motion.order.frequency, ramp.top));
   motion.speed = std::clamp(motion.speed + ramp.slope / ticks_per_second, ramp.least, most);
@@ -197,6 +208,14 @@ PulseTick PulseUnit::seek(Line& line, const CamPort& port) {
   return line.output.run(-static_cast<std::int32_t>(std::lround(motion.speed)), max_frequency_hz);
 }
 
+void PulseUnit::modulate(Line& line, int output, CamPort& port) {
+  constexpr std::int64_t ticks_per_ms = ticks_per_second / 1000;
+  Motion& motion = line.motion;
+  if (motion.ticks >= motion.order.period_ms * ticks_per_ms) motion.ticks = 0;
+  const bool on = motion.ticks++ < motion.order.width_ms * ticks_per_ms;
+  port.give(output, on && !stopped(port.registers, output));
+}
+
 void PulseUnit::arrive(Line& line) {
   drives_[line.motion.step] = Progress::arrived;
   line.motion = {};
@@ -227,6 +246,7 @@ void PulseUnit::tick_motion(int output, CamPort& port) {
   const int direction = line.motion.order.direction;
   const bool stop = stopped(port.registers, output);
   PulseTick tick{0, line.output.forwards(), false};
+  if (line.motion.order.kind == PulseOrder::Kind::pwm) return modulate(line, output, port);
   if (line.motion.order.kind == PulseOrder::Kind::speed)
     tick = line.output.run(stop ? 0 : line.motion.order.frequency, max_frequency_hz);
   else if (stop)
@@ -268,7 +288,9 @@ std::vector<int> PulseUnit::held() const {
     if (cam.sync_output()) hold(*cam.sync_output());
   }
   for (const Line& line : lines_)
-    if (line.motion.step >= 0) hold(line.motion.order.direction);
+    if (line.motion.step >= 0)
+      hold(line.motion.order.kind == PulseOrder::Kind::pwm ? line.motion.order.output
+                                                           : line.motion.order.direction);
   return held;
 }
 

@@ -20,8 +20,9 @@ struct PulseNote {
   void visit(StateArchive& archive);
 };
 
-/// The pulse outputs Y0..Y3 with all that gives pulses on them: cams, DPLSV, DDRVI, DDRVA, PLSY and ZRN. One
-/// of them has an output at a time; who comes second is refused and told. Calls as in `Instructions`.
+/// The pulse outputs Y0..Y3 with all that gives pulses on them: cams, DPLSV, DDRVI, DDRVA, PLSY, PLSR, PWM
+/// and ZRN. One of them has an output at a time; who comes second is refused and told. Calls as in
+/// `Instructions`.
 class PulseUnit {
  public:
   void decam(int step, const DecamOperands& operands, bool powered, CamPort& port);
@@ -58,6 +59,7 @@ class PulseUnit {
     std::int64_t target = 0;  ///< of a distance, a position, a train
     double speed = 0;         ///< with ramps: present [Hz]
     bool at_dog = false;      ///< of a return to zero: the dog has come
+    std::int64_t ticks = 0;   ///< of PWM: into its period
 
     /// A train may be without end.
     [[nodiscard]] bool ends() const { return order.kind != PulseOrder::Kind::train || order.pulses != 0; }
@@ -87,6 +89,7 @@ class PulseUnit {
   PulseTick move(Line& line, const Registers& registers);
   PulseTick train(Line& line);
   PulseTick seek(Line& line, const CamPort& port);
+  void modulate(Line& line, int output, CamPort& port);
   void arrive(Line& line);
   void count(int output, const PulseTick& tick, Registers& registers);
   void tick_cam(int step, Decam& cam, CamPort& port);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -63,38 +64,14 @@ bool read_suffix(std::string_view suffix, RegisterName& name) {
   return name.bit >= 0 && name.bit <= 15;
 }
 
-template <typename Bits>
-auto* bit_in(Bits& registers, char letter, int number) {
-  const auto at = static_cast<std::size_t>(number);
-  switch (letter) {
-    case 'X':
-      return &registers.x[at];
-    case 'Y':
-      return &registers.y[at];
-    case 'M':
-      return &registers.m[at];
-    case 'S':
-      return &registers.s[at];
-    case 'T':
-      return &registers.t[at].contact;
-    default:
-      return &registers.c[at].contact;
-  }
-}
-
 }  // namespace
-
-bool* bit_at(Registers& registers, char letter, int number) { return bit_in(registers, letter, number); }
-const bool* bit_at(const Registers& registers, char letter, int number) {
-  return bit_in(registers, letter, number);
-}
 
 void Timer::visit(StateArchive& archive) { STATE(archive, value, coil, contact); }
 void PlcCounter::visit(StateArchive& archive) { STATE(archive, value, coil, contact); }
 
 // counts_pulses is wiring.
 void Registers::visit(StateArchive& archive) {
-  STATE(archive, d, m, x, y, s, t, c, v, z, time_ns);
+  STATE(archive, d, m, x, y, s, t, c, v, z, time_ns, now_ns, clock_offset_s);
   constexpr std::size_t bits = 8;
   std::array<std::uint8_t, data_words / bits> written_bits{};
   static_assert(written_bits.size() * bits == data_words);
@@ -107,6 +84,62 @@ void Registers::visit(StateArchive& archive) {
 
 float Registers::f32(int index) const { return std::bit_cast<float>(u32(index)); }
 void Registers::set_f32(int index, float value) { set_u32(index, std::bit_cast<std::uint32_t>(value)); }
+
+namespace {
+
+constexpr std::chrono::sys_days clock_begins{std::chrono::year{2000} / 1 / 1};
+
+std::chrono::sys_seconds clock_time(const Registers& registers) {
+  return clock_begins + std::chrono::seconds(registers.clock_offset_s) +
+         std::chrono::floor<std::chrono::seconds>(std::chrono::nanoseconds(registers.now_ns));
+}
+
+}  // namespace
+
+ClockWords clock_of(const Registers& registers) {
+  const auto time = clock_time(registers);
+  const auto day = std::chrono::floor<std::chrono::days>(time);
+  const std::chrono::year_month_day date{day};
+  const std::chrono::hh_mm_ss clock{time - day};
+  return {static_cast<int>(date.year()) % 100,
+          static_cast<int>(static_cast<unsigned>(date.month())),
+          static_cast<int>(static_cast<unsigned>(date.day())),
+          static_cast<int>(clock.hours().count()),
+          static_cast<int>(clock.minutes().count()),
+          static_cast<int>(clock.seconds().count()),
+          static_cast<int>(std::chrono::weekday{day}.c_encoding())};
+}
+
+// It begins with a whole minute.
+int clock_second(const Registers& registers) {
+  constexpr std::int64_t ns_per_s = 1'000'000'000;
+  constexpr int minute = 60;
+  return static_cast<int>(((registers.clock_offset_s + registers.now_ns / ns_per_s) % minute + minute) %
+                          minute);
+}
+
+bool set_clock(Registers& registers, const ClockWords& words) {
+  const auto [year, month, day, hour, minute, second, weekday] = words;
+  constexpr int first_of_the_last_century = 80;
+  if (std::any_of(words.begin(), words.end(), [](int word) { return word < 0 || word > 99; })) return false;
+  const std::chrono::year_month_day date{
+      std::chrono::year{year < first_of_the_last_century ? 2000 + year : 1900 + year},
+      std::chrono::month{static_cast<unsigned>(month)}, std::chrono::day{static_cast<unsigned>(day)}};
+  if (!date.ok() || hour > 23 || minute > 59 || second > 59) return false;
+  const auto time = std::chrono::sys_days{date} + std::chrono::hours(hour) + std::chrono::minutes(minute) +
+                    std::chrono::seconds(second);
+  registers.clock_offset_s += (time - clock_time(registers)).count();
+  show_clock(registers);
+  return true;
+}
+
+void show_clock(Registers& registers) {
+  // D8018 year, D8017 month, D8016 day, D8015 hour, D8014 minute, D8013 second, D8019 weekday.
+  constexpr std::array places = {8018, 8017, 8016, 8015, 8014, 8013, 8019};
+  const auto clock = clock_of(registers);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    registers.d[static_cast<std::size_t>(places[i])] = static_cast<std::uint16_t>(clock[i]);
+}
 
 std::string shown(std::string_view text) {
   constexpr std::size_t most = 24;

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "devices/value_range.hpp"
 
@@ -88,6 +89,10 @@ struct Registers {
   std::array<std::uint16_t, index_registers> v{};  ///< V0..V7; of a 32-bit index the upper word
   std::array<std::uint16_t, index_registers> z{};  ///< Z0..Z7
   std::int64_t time_ns = 0;  ///< since power-up, at the start of the scan: what timers run by
+  /// Since the start of the simulation, likewise; with the offset that TWR has set it is the time of the
+  /// clock, which goes on without power, since 2000-01-01 0:00:00.
+  std::int64_t now_ns = 0;
+  std::int64_t clock_offset_s = 0;
   /// Counters that count pulses of terminals by themselves: C235..C255, and of C200..C234 those that are
   /// wired (003 4.1.3 takes C231).
   std::bitset<counters> counts_pulses = ~std::bitset<counters>() << first_high_speed_counter;
@@ -121,9 +126,38 @@ struct Registers {
   void set_f32(int index, float value);
 };
 
+/// The clock in words, as TRD gives them: year (two digits: 80 to 99 are of the last century), month, day,
+/// hour, minute, second, weekday (0 is Sunday).
+using ClockWords = std::array<int, 7>;
+ClockWords clock_of(const Registers& registers);
+/// Its second, 0 to 59: tells cheaply whether it has gone on.
+int clock_second(const Registers& registers);
+/// Sets it; false, and nothing changed, if there is no such time. The weekday is not looked at.
+bool set_clock(Registers& registers, const ClockWords& words);
+/// Writes it to D8013..D8019.
+void show_clock(Registers& registers);
+
 /// A bit by its device's letter: X, Y, M, S, or the contact of T and C.
-bool* bit_at(Registers& registers, char letter, int number);
-const bool* bit_at(const Registers& registers, char letter, int number);
+inline const bool* bit_at(const Registers& registers, char letter, int number) {
+  const auto at = static_cast<std::size_t>(number);
+  switch (letter) {
+    case 'X':
+      return &registers.x[at];
+    case 'Y':
+      return &registers.y[at];
+    case 'M':
+      return &registers.m[at];
+    case 'S':
+      return &registers.s[at];
+    case 'T':
+      return &registers.t[at].contact;
+    default:
+      return &registers.c[at].contact;
+  }
+}
+inline bool* bit_at(Registers& registers, char letter, int number) {
+  return const_cast<bool*>(bit_at(std::as_const(registers), letter, number));
+}
 
 /// A value by its name in scenarios, recordings and register files: `D10` signed word, `DD10` (also `D10:L`)
 /// signed 32 bit of D10 and D11, `FD10` (also `D10:F`) float of both, `D10.A` bit 10 of D10 (hexadecimal),

@@ -113,6 +113,10 @@ void QclCompiler::end_of_statement() {
   if (peek().is("="))
     syntax_error("qcl.syntax"_code, peek(), "unexpected '='",
                  "EQ compares; an assignment stands alone on its line");
+  else if (const auto remedy = instead_of(peek().text);
+           peek().kind == QclToken::Kind::name && !remedy.empty() && !names_.find(peek().text))
+    syntax_error("qcl.unknown-name"_code, peek(), fmt::format("QCL has no {}", peek().text),
+                 std::string(remedy));
   else
     syntax_error("qcl.syntax"_code, peek(), "unexpected " + found(peek()),
                  "one statement a line, comments after ';'");

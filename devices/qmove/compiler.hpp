@@ -48,6 +48,8 @@ class QclCompiler : public TokenReader<QclToken> {
   void set_output(bool on);
   void device_command();
   void unknown_statement();
+  /// What QCL has for a word of other languages, "" for none: INC, MOD, ABS.
+  static std::string_view instead_of(std::string_view word);
   const QclToken* name_operand(const std::string& form);
 
   // Blocks (blocks.cpp).
@@ -93,7 +95,12 @@ class QclCompiler : public TokenReader<QclToken> {
   Type primary();
   Type name_value();
   Type parenthesis();
-  void binary(std::size_t row, Type left, Type right, const QclToken& op);
+  /// `left_code` and `right_code`: where the code of the two sides begins.
+  void binary(std::size_t row, Type left, Type right, int left_code, int right_code, const QclToken& op);
+  void note_overflow(QclOp op, int left_code, int right_code, const QclToken& sign);
+  /// The value of the code from `begin` to `end`, if it is of longs that are known.
+  [[nodiscard]] std::optional<std::int32_t> constant(int begin, int end) const;
+  void pass_arguments();
   void condition();
   void indexes(const NamedThing& thing, const QclToken& name);
   void check_index(const NamedThing& thing, std::size_t number, int begin, Place place);

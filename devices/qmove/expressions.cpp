@@ -2,6 +2,7 @@
 #include <bit>
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -52,17 +53,43 @@ std::optional<std::size_t> operator_row(const QclToken& token) {
   return std::nullopt;
 }
 
+/// What an operator of longs gives before it wraps; nothing of a division by 0 and of other instructions.
+std::optional<std::int64_t> result_of(QclOp op, std::int64_t left, std::int64_t right) {
+  switch (op) {
+    case QclOp::add:
+      return left + right;
+    case QclOp::subtract:
+      return left - right;
+    case QclOp::multiply:
+      return left * right;
+    case QclOp::divide:
+      return right == 0 ? std::nullopt : std::optional(left / right);
+    case QclOp::modulo:
+      return right == 0 ? std::nullopt : std::optional(left % right);
+    case QclOp::bit_and:
+      return left & right;
+    case QclOp::bit_or:
+      return left | right;
+    case QclOp::bit_xor:
+      return left ^ right;
+    default:
+      return std::nullopt;
+  }
+}
+
 }  // namespace
 
 // Reads operands joined by operators of at least `level`.
 QclCompiler::Type QclCompiler::expression(int level) {
+  const int left_code = here();
   Type type = unary();
   while (!line_failed_) {
     const std::optional<std::size_t> row = operator_row(peek());
     if (!row || operators[*row].level < level) break;
     const QclToken op = take();
+    const int right_code = here();
     const Type right = expression(operators[*row].level + 1);
-    binary(*row, type, right, op);
+    binary(*row, type, right, left_code, right_code, op);
     const bool real = type == Type::real || right == Type::real;
     type = real && !operators[*row].compares && operators[*row].operands == Operands::numbers ? Type::real
                                                                                               : Type::integer;
@@ -70,7 +97,8 @@ QclCompiler::Type QclCompiler::expression(int level) {
   return type;
 }
 
-void QclCompiler::binary(std::size_t row, Type left, Type right, const QclToken& op) {
+void QclCompiler::binary(std::size_t row, Type left, Type right, int left_code, int right_code,
+                         const QclToken& op) {
   const QclOperator& found = operators[row];
   const bool any_real = left == Type::real || right == Type::real;
   if (found.operands == Operands::longs && any_real)
@@ -85,7 +113,50 @@ void QclCompiler::binary(std::size_t row, Type left, Type right, const QclToken&
   }
   if (found.operands == Operands::flags && right == Type::real) emit(QclOp::to_flag_real);
   if (found.operands == Operands::flags && left == Type::real) emit(QclOp::to_flag_real_below);
+  if (!any_real) note_overflow(found.integer, left_code, right_code, op);
   emit(found.integer);
+}
+
+// Numbers are calculated in 32 bits, which wrap.
+void QclCompiler::note_overflow(QclOp op, int left_code, int right_code, const QclToken& sign) {
+  const auto left = constant(left_code, right_code);
+  const auto right = constant(right_code, here());
+  if (!left || !right || line_failed_) return;
+  const auto result = result_of(op, *left, *right);
+  if (!result || *result == static_cast<std::int32_t>(*result)) return;
+  program_.notes.emplace_back(
+      "qcl.does-not-fit"_code,
+      fmt::format("{}:{}:{}: {} {} {} is {}, beyond a long, taken as {}", file_, sign.place.line,
+                  sign.place.column, *left, sign.text, *right, *result, static_cast<std::int32_t>(*result)));
+}
+
+std::optional<std::int32_t> QclCompiler::constant(int begin, int end) const {
+  constexpr int most = 100;  // a longer one is hardly written, and would be looked at again and again
+  if (end <= begin || end - begin > most) return std::nullopt;
+  std::vector<std::int32_t> stack;
+  for (int at = begin; at < end; ++at) {
+    const Instruction& step = program_.code[static_cast<std::size_t>(at)];
+    if (step.op == QclOp::push) {
+      stack.push_back(step.a);
+      continue;
+    }
+    if (stack.empty()) return std::nullopt;
+    if (step.op == QclOp::negate || step.op == QclOp::bit_not || step.op == QclOp::logic_not) {
+      const auto value = static_cast<std::uint32_t>(stack.back());
+      stack.back() = static_cast<std::int32_t>(step.op == QclOp::negate    ? 0U - value
+                                               : step.op == QclOp::bit_not ? ~value
+                                               : value == 0                ? 1U
+                                                                           : 0U);
+      continue;
+    }
+    const std::int32_t right = stack.back();
+    stack.pop_back();
+    if (stack.empty()) return std::nullopt;
+    const auto result = result_of(step.op, stack.back(), right);
+    if (!result) return std::nullopt;
+    stack.back() = static_cast<std::int32_t>(*result);
+  }
+  return stack.size() == 1 ? std::optional(stack.front()) : std::nullopt;
 }
 
 QclCompiler::Type QclCompiler::unary() {
@@ -173,6 +244,7 @@ QclCompiler::Type QclCompiler::name_value() {
   if (!thing) {
     // Read over the indexes of an unknown array, so that only the name is complained about.
     if (peek().is("[")) indexes({}, name);
+    if (peek().is("(")) pass_arguments();
     emit(QclOp::push);
     return Type::integer;
   }
@@ -209,6 +281,15 @@ QclCompiler::Type QclCompiler::name_value() {
       return Type::integer;
   }
   return thing->size == Size::S ? Type::real : Type::integer;
+}
+
+// Those of a function that QCL does not have: it is told, and they are not looked at.
+void QclCompiler::pass_arguments() {
+  do {
+    take();
+    expression();
+  } while (peek().is(",") && !line_failed_);
+  expect(")", "close the parenthesis");
 }
 
 // Reads [i] or [i, j] and leaves the number of the cell on the stack. A nameless thing takes any count.
@@ -272,7 +353,10 @@ void QclCompiler::condition() {
 
 const NamedThing* QclCompiler::find_name(const QclToken& name) {
   const NamedThing* thing = names_.find(name.text);
-  if (!thing)
+  if (const auto remedy = thing ? "" : instead_of(name.text); !remedy.empty())
+    complain("qcl.unknown-name"_code, name.place, fmt::format("QCL has no {}", name.text),
+             std::string(remedy));
+  else if (!thing)
     complain("qcl.unknown-name"_code, name.place, "unknown name " + in_quotes(name.text),
              suggestion(name.text, names_.names(), "declare it in " + configuration_.file));
   return thing;

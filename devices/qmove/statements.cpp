@@ -2,6 +2,8 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -128,9 +130,10 @@ const NamedThing* QclCompiler::assignment() {
 
 // A number beyond the size of its variable wraps in the run: said here, as a device says it of a parameter.
 void QclCompiler::note_wrapping(const NamedThing& thing, Type type, int begin, const QclToken& name) {
-  const bool plain = !line_failed_ && here() == begin + 1 && program_.code.back().op == QclOp::push;
-  if (!plain || type == Type::real || thing.size == Size::S) return;
-  const std::int32_t value = program_.code.back().a;
+  if (line_failed_ || type == Type::real || thing.size == Size::S) return;
+  const auto known = constant(begin, here());
+  if (!known) return;
+  const std::int32_t value = *known;
   const std::int32_t stored = wrap(thing.size, value);
   if (stored == value) return;
   program_.notes.emplace_back(
@@ -154,10 +157,11 @@ void QclCompiler::note_fraction(Type type, int begin, const QclToken& name) {
 // A device takes what lies outside of a parameter's range, and the run tells it: said here already.
 void QclCompiler::note_range(const DeviceType& type, Symbol symbol, Type of_value, int begin,
                              const QclToken& name) {
-  const bool plain = !line_failed_ && here() == begin + 1 && program_.code.back().op == QclOp::push;
-  if (!plain || of_value == Type::real || symbol.kind != Symbol::Kind::variable) return;
+  if (line_failed_ || of_value == Type::real || symbol.kind != Symbol::Kind::variable) return;
+  const auto known = constant(begin, here());
+  if (!known) return;
   const DeviceVariable& variable = type.variables[static_cast<std::size_t>(symbol.index)];
-  const std::int32_t value = program_.code.back().a;
+  const std::int32_t value = *known;
   if (value >= variable.min && value <= variable.max) return;
   program_.notes.emplace_back(
       "qcl.outside-range"_code,
@@ -293,6 +297,43 @@ void QclCompiler::device_command() {
            suggestion(word.text, own, fmt::format("see: drycut devices {}", type.name)));
 }
 
+std::string_view QclCompiler::instead_of(std::string_view word) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 29> rows{{
+      {"INC", "write name = name + 1"},
+      {"DEC", "write name = name - 1"},
+      {"MOD", "write a % b"},
+      {"REM", "write a % b; a comment begins with ';'"},
+      {"DIV", "write a / b, which cuts off between longs"},
+      {"ABS", "write IF a LT 0, a = -a and ENDIF, a line each"},
+      {"SGN", "write IF a LT 0 and ELSE"},
+      {"MIN", "write IF a LT b and ELSE"},
+      {"MAX", "write IF a GT b and ELSE"},
+      {"INT", "assign the single to a long, which cuts its fraction off"},
+      {"SQRT", "it has + - * / and % only"},
+      {"SQR", "it has + - * / and % only"},
+      {"XOR", "write XORB for bits, NEQ for flags"},
+      {"SHL", "write a * 2 for each place"},
+      {"SHR", "write a / 2 for each place"},
+      {"TRUE", "write 1"},
+      {"FALSE", "write 0"},
+      {"THEN", "an IF ends with its line; write what follows below it"},
+      {"ELSEIF", "write ELSE, and an IF with an ENDIF of its own in it"},
+      {"ELSIF", "write ELSE, and an IF with an ENDIF of its own in it"},
+      {"ELIF", "write ELSE, and an IF with an ENDIF of its own in it"},
+      {"LET", "write name = value"},
+      {"GOTO", "write JUMP label"},
+      {"GOSUB", "write CALL subroutine"},
+      {"RETURN", "a subroutine ends at its ENDSUB; JUMP to a label before it"},
+      {"WEND", "write ENDWHILE"},
+      {"EXIT", "JUMP to a label behind the block"},
+      {"DIM", "declare it in the .cnf, under GLOBAL or ARRGBL"},
+      {"DELAY", "start a TIMER and wait for it: tmPause = 100, then WAIT tmPause"},
+  }};
+  for (const auto& [foreign, remedy] : rows)
+    if (same_word(foreign, word)) return remedy;
+  return "";
+}
+
 void QclCompiler::unknown_statement() {
   std::vector<std::string> words = reserved_words();
   const std::vector<std::string> commands = all_commands();
@@ -311,9 +352,9 @@ void QclCompiler::unknown_statement() {
   else if (is_one_of(commands, peek().text))
     syntax_error("qcl.syntax"_code, peek(), fmt::format("{} needs a device", in_quotes(peek().text)),
                  fmt::format("write {} Device", peek().text));
-  else if (peek().word("ELSEIF") || peek().word("ELSIF") || peek().word("ELIF"))
+  else if (const auto remedy = instead_of(peek().text); !remedy.empty())
     syntax_error("qcl.unknown-name"_code, peek(), "QCL has no " + std::string(peek().text),
-                 "write ELSE, and an IF with an ENDIF of its own in it");
+                 std::string(remedy));
   else
     syntax_error("qcl.unknown-name"_code, peek(), "unknown statement " + in_quotes(peek().text),
                  suggestion(peek().text, words, usual));

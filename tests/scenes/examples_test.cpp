@@ -1,5 +1,5 @@
 // The manuals' own programs, run unmodified. They are not part of the product: where they are absent these
-// tests skip.
+// tests skip. And programs as a user would write them, of some hundred lines.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -19,10 +19,8 @@ fs::path examples() {
   return fs::path(DRYCUT_SOURCE_DIR).parent_path() / "shared" / "examples";
 }
 
-/// Runs tests/scenes/examples/<name>.yaml with EXAMPLES replaced by where the programs are.
-void run(const std::string& name) {
-  if (!fs::exists(examples())) GTEST_SKIP() << "the manuals' programs are not here";
-  const auto file = fs::path(DRYCUT_SOURCE_DIR) / "tests/scenes/examples" / (name + ".yaml");
+/// Runs a scenario with EXAMPLES replaced by where the manuals' programs are; each check has to pass.
+void run_scene(const fs::path& file) {
   std::ifstream stream(file);
   ASSERT_TRUE(stream) << file;
   std::stringstream buffer;
@@ -45,6 +43,20 @@ void run(const std::string& name) {
                               << (check.at ? " at " + std::to_string(*check.at) : "");
   }
 }
+
+/// tests/scenes/examples/<name>.yaml.
+void run(const std::string& name) {
+  if (!fs::exists(examples())) GTEST_SKIP() << "the manuals' programs are not here";
+  run_scene(fs::path(DRYCUT_SOURCE_DIR) / "tests/scenes/examples" / (name + ".yaml"));
+}
+
+/// tests/scenes/programs/<name>.yaml.
+void run_program(const std::string& name) {
+  run_scene(fs::path(DRYCUT_SOURCE_DIR) / "tests/scenes/programs" / (name + ".yaml"));
+}
+
+TEST(WholePrograms, StopOrdersInQcl) { run_program("stop_orders"); }
+TEST(WholePrograms, SawOrdersInAnInstructionList) { run_program("saw_orders"); }
 
 TEST(Examples, Camming4Startup) { run("camming4_startup"); }
 TEST(Examples, Camming4Jog) { run("camming4_jog"); }

@@ -44,12 +44,14 @@ struct Notes : Instructions {
                                 state(powered)));
   }
   void pulses(int step, const PulseOrder& o, bool powered) override {
-    static constexpr std::array names = {"plsv", "drvi", "drva", "plsy", "zrn"};
+    static constexpr std::array names = {"plsv", "drvi", "drva", "plsy", "plsr", "pwm", "zrn"};
     using enum PulseOrder::Kind;
     auto text = fmt::format("{} {}", names[static_cast<std::size_t>(o.kind)], step);
     if (o.kind == distance || o.kind == position) text += fmt::format(" {}", o.pulses);
     text += fmt::format(" {}", o.frequency);
-    if (o.kind == train) text += fmt::format(" {}", o.pulses);
+    if (o.kind == train || o.kind == ramped) text += fmt::format(" {}", o.pulses);
+    if (o.kind == ramped) text += fmt::format(" {}", o.ramp_ms);
+    if (o.kind == pwm) text += fmt::format(" {} {}", o.width_ms, o.period_ms);
     if (o.kind == zero) text += fmt::format(" {} {}{}", o.creep, o.dog.letter, o.dog.number);
     text += fmt::format(" Y{}", o.output);
     if (o.direction >= 0) text += fmt::format(" Y{}", o.direction);
@@ -57,6 +59,18 @@ struct Notes : Instructions {
   }
   void high_speed_counter(int number, std::int32_t preset, bool powered) override {
     calls.push_back(fmt::format("counter C{} {}{}", number, preset, state(powered)));
+  }
+  void compare_counter(int step, const CounterCompare& c, bool powered) override {
+    static constexpr std::array names = {"set", "reset", "zone"};
+    calls.push_back(fmt::format("{} {} C{} {} {} {}{}{}", names[static_cast<std::size_t>(c.kind)], step,
+                                c.counter, c.low, c.high, c.letter, c.number, state(powered)));
+  }
+  void measure_speed(int step, const SpeedMeasure& m, bool powered) override {
+    calls.push_back(
+        fmt::format("speed {} X{} {} D{}{}", step, m.input, m.period_ms, m.result, state(powered)));
+  }
+  void refresh(char letter, int first, int count) override {
+    calls.push_back(fmt::format("refresh {}{} {}", letter, first, count));
   }
   void error(int step, int code, const std::string& text) override {
     calls.push_back(fmt::format("error {} {} {}", step, code, text));

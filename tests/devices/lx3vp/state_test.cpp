@@ -49,6 +49,7 @@ class Teller {
     controller_.offer({devices::Kind::counter, 0, 235});
     controller_.offer({devices::Kind::output, 0, 1});
     controller_.offer({devices::Kind::output, 0, 7});
+    controller_.offer({devices::Kind::output, 0, 2});
     axes_ = controller_.cam_axes();
     for (const auto kind : {RegisterName::Kind::x, RegisterName::Kind::y})
       for (int n = 0; n < 16; ++n)
@@ -438,7 +439,75 @@ const Story stopped{"stopped",
                     {{50, "X0", 1}, {2500, "X0", 0}, {2600, "power", 0}, {2650, "power", 1}, {2800, "X0", 1}},
                     3500};
 
-std::vector<Story> stories() { return {stopped, pulses, logic, quick_logic(), cams}; }
+// Interrupts, compares, measures and pulses between scans, with relays that hold, hide and stop. M30 only
+// marks moments at which a level or a compare is about to change before the next scan.
+const Story quick{"quick",
+                  R"(
+LD M0
+CJ P0
+EI
+P0
+LDI M0
+CJ P1
+DI
+P1
+LD M8000
+OUT C235 K100000
+LD M1
+DPLSV K50000 Y1 Y5
+LD M2
+DHSCS D10 C235 S5
+DHSCS D10 C235 I010
+DHSZ D12 D14 C235 Y10
+LD M3
+SPD X1 K7 D2
+LD M4
+PWM D20 D21 Y2
+LD M5
+DPLSR K2000 K200 D24 Y3
+LD M6
+OUT M8034
+LD M7
+OUT M8039
+LD M8000
+INC D5
+FEND
+I001
+LD M8000
+INC D0
+IRET
+I613
+LD M8000
+INC D1
+IRET
+I010
+LD M8000
+INC D100
+IRET
+END
+)",
+                  0,
+                  [](Registers& registers) {
+                    registers.set_i32(10, 1000);
+                    registers.set_i32(12, 150);
+                    registers.set_i32(14, 2500);
+                    registers.put(20, 1);
+                    registers.put(21, 3);
+                    registers.put(24, 400);
+                    registers.put(8039, 3);
+                  },
+                  {{40, "X0", 1},   {51, "X0", 0},     {60, "M3", 1},   {63, "X1", 1},      {70, "M4", 1},
+                   {81, "X1", 0},   {85, "X1", 1},     {97, "M1", 1},   {97, "M2", 1},      {103, "M30", 1},
+                   {131, "M30", 1}, {132, "M30", 0},   {133, "M30", 1}, {134, "M30", 0},    {200, "M5", 1},
+                   {301, "M30", 1}, {302, "M30", 0},   {303, "M30", 1}, {304, "M30", 0},    {500, "M0", 1},
+                   {505, "X0", 1},  {521, "X1", 0},    {525, "X1", 1},  {560, "X0", 0},     {600, "M0", 0},
+                   {640, "M6", 1},  {700, "M6", 0},    {760, "M7", 1},  {820, "X0", 1},     {860, "X0", 0},
+                   {900, "M7", 0},  {950, "M8037", 1}, {1000, "X0", 1}, {1100, "M8036", 1}, {1150, "X0", 0},
+                   {1160, "M1", 1}, {1160, "M2", 1},   {1160, "M3", 1}, {1200, "M4", 1},    {1220, "M5", 1},
+                   {1300, "M6", 1}, {1310, "M7", 1},   {1500, "M6", 0}},
+                  1900};
+
+std::vector<Story> stories() { return {stopped, pulses, logic, quick_logic(), cams, quick}; }
 
 /// So many ticks behind each act, and all along.
 std::set<int> moments(const Story& story, std::initializer_list<int> behind) {
@@ -579,7 +648,7 @@ TEST(Lx3vpState, NoMemberIsForNothing) {
       "pulses_.cams_.refusal_.row", "pulses_.notes_.#.code",    "pulses_.lines_.#.motion.order.output"};
   std::set<std::string> all;
   std::set<std::string> needed = unseen;
-  for (const Story& story : {pulses, logic, cams, stopped}) {
+  for (const Story& story : {pulses, logic, cams, stopped, quick}) {
     Teller plc(story);
     const Other begin(plc);
     plc.until(story.ticks);

@@ -18,9 +18,9 @@ struct TimedPlc {
 
   TimedPlc(const std::string& text, std::int64_t scan_ns, std::int64_t step_ns)
       : controller(compiled(text), scan_ns, step_ns) {
-    controller.offer({Kind::input, 0, 0});
-    controller.offer({Kind::output, 0, 0});
-    controller.offer({Kind::output, 0, 1});
+    controller.offer({devices::Kind::input, 0, 0});
+    controller.offer({devices::Kind::output, 0, 0});
+    controller.offer({devices::Kind::output, 0, 1});
   }
   static il::IlProgram compiled(const std::string& text) {
     Problems problems;
@@ -36,8 +36,10 @@ struct TimedPlc {
   void until(std::int64_t time_ns) {
     while (now <= time_ns) step();
   }
-  bool& input() { return controller.cards().inputs.at({Kind::input, 0, 0}).level; }
-  bool output(int number = 0) { return controller.cards().outputs.at({Kind::output, 0, number}).level; }
+  bool& input() { return controller.cards().inputs.at({devices::Kind::input, 0, 0}).level; }
+  bool output(int number = 0) {
+    return controller.cards().outputs.at({devices::Kind::output, 0, number}).level;
+  }
   double get(const std::string& name) { return controller.find(name).value().read(); }
 };
 

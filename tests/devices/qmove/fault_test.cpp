@@ -134,7 +134,7 @@ TEST(QmoveFault, IsNamedAtItsPlace) {
       {"IF 1\nELSE\nELSE\nENDIF\nEND\n",
        "3:1: a second ELSE in one IF; the IF of line 1 has its ELSE in line 2"},
       {"IF\nENDIF\nEND\n", "1:3: missing operand at the end of the line"},
-      {"IF 1 THEN\nENDIF\nEND\n", "1:6: unexpected 'THEN'; one statement a line"},
+      {"IF 1 THEN\nENDIF\nEND\n", "1:6: QCL has no THEN; an IF ends with its line"},
       {"FOR glI = 1\nNEXT\nEND\n", "1:5: expected '(', found 'glI'; write: FOR (i = 1, i LE 10, 1)"},
       {"FOR (1, 2, 3)\nNEXT\nEND\n", "1:6: FOR begins with an assignment, found '1'; write: FOR (i = 1"},
       {"FOR (glI = 1, glI LT 3)\nNEXT\nEND\n", "1:23: expected ',', found ')'"},

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <string>
 
 #include "tests/devices/qmove/support.hpp"
@@ -32,10 +33,57 @@ TEST(QmoveStatement, ANumberBeyondTheSizeOfItsVariableWrapsAndIsNoted) {
   EXPECT_EQ(text_of(problems), "");
   EXPECT_THAT(sentences(program.notes),
               ::testing::ElementsAre("task.mod:1:1: gbSmall: 200 does not fit size B, taken as -56",
+                                     "task.mod:2:1: gwMid: -40000 does not fit size W, taken as 25536",
                                      "task.mod:3:1: gfDone: 2 does not fit size F, taken as 1",
                                      "task.mod:4:1: agTemp: 70000 does not fit size W, taken as 4464",
                                      "task.mod:8:1: gbSmall: 200 does not fit size B, taken as -56"));
   EXPECT_EQ(started("gbSmall = 200\nEND\n")["gbSmall"], -56);
+}
+
+TEST(QmoveStatement, WhatNumbersMakeIsJudgedAsANumberIs) {
+  const std::string module =
+      "slR = 60000 * cBig\ngwMid = 300 * 200\ngbSmall = (cBig - 39999) * 100 + 50\nslR = -2147483648 / -1\n"
+      "slR = slA * 60000 + 2000000000\nslR = 2000000000 + slA + 2000000000\ngwMid = 70000 % 7\n"
+      "gwMid = NOTB 40000\nslR = 1 / 0\nIF slA GT 60000 * 60000\nENDIF\nEND\n";
+  Problems problems;
+  const Configuration configuration =
+      parse_configuration("CONST\ncBig 40000\n" + std::string(testing::usual_cnf.substr(6)), "test.cnf",
+                          testing::puppets(), problems);
+  const QclProgram program = compile_module(module, "task.mod", configuration, testing::puppets(), problems);
+  EXPECT_EQ(text_of(problems), "");
+  EXPECT_THAT(sentences(program.notes),
+              ::testing::ElementsAre(
+                  "task.mod:1:13: 60000 * 40000 is 2400000000, beyond a long, taken as -1894967296",
+                  "task.mod:2:1: gwMid: 60000 does not fit size W, taken as -5536",
+                  "task.mod:3:1: gbSmall: 150 does not fit size B, taken as -106",
+                  "task.mod:4:19: -2147483648 / -1 is 2147483648, beyond a long, taken as -2147483648",
+                  "task.mod:8:1: gwMid: -40001 does not fit size W, taken as 25535",
+                  "task.mod:10:17: 60000 * 60000 is 3600000000, beyond a long, taken as -694967296"));
+  EXPECT_EQ(started("slR = 60000 * 40000\nEND\n")["slR"], -1894967296) << "as noted";
+}
+
+TEST(QmoveStatement, WordsOfOtherLanguagesAreToldWithWhatQclHas) {
+  const auto told = [](const std::string& line) {
+    const Bench bench({line + "\nEND\n"});
+    return text_of(bench.problems);
+  };
+  using ::testing::HasSubstr;
+  EXPECT_THAT(told("INC slR"), HasSubstr("1:1: QCL has no INC; write name = name + 1 [qcl.unknown-name]"));
+  EXPECT_THAT(told("dec(slR)"), HasSubstr("1:1: QCL has no dec; write name = name - 1"));
+  EXPECT_THAT(told("slR = slA MOD 7"), HasSubstr("1:11: QCL has no MOD; write a % b"));
+  EXPECT_THAT(told("slR = ABS(slA - 2) + 1"), HasSubstr("1:7: QCL has no ABS; write IF a LT 0"));
+  EXPECT_THAT(told("IF slA EQ 1 THEN"), HasSubstr("1:13: QCL has no THEN; an IF ends with its line"));
+  EXPECT_THAT(told("GOTO MAIN"), HasSubstr("1:1: QCL has no GOTO; write JUMP label"));
+  for (const char* line : {"INC slR", "slR = ABS(slA - 2) + 1", "slR = MAX(slA, 2)", "slR = slA MOD 7"}) {
+    const auto text = told(line);
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text << ": once";
+  }
+  // A name that is declared is no such word.
+  Problems problems;
+  const Configuration configuration = parse_configuration(
+      "CONST\nmin 4\n" + std::string(testing::usual_cnf.substr(6)), "test.cnf", testing::puppets(), problems);
+  compile_module("slR = min\nEND\n", "task.mod", configuration, testing::puppets(), problems);
+  EXPECT_EQ(text_of(problems), "");
 }
 
 TEST(QmoveStatement, AFractionThatIsCutOffIsNoted) {
