@@ -128,16 +128,45 @@ void ProgramScan::start(Rung& rung) {
 
 // An instruction has power if what is before it lets it through; those that need none are executed.
 void ProgramScan::mark(const Step& step, const Rung& rung) {
-  const auto line = static_cast<std::size_t>(step.line) - 1;
-  if (line >= scanning_.size()) return;
   const Op op = step.op();
   const bool needs_power = op <= Op::mc || op == Op::cj || op == Op::call;
   const bool on = op == Op::stl ? rung.state_on : !needs_power || rung.power();
-  if (scanning_[line] != '+') scanning_[line] = on ? '+' : '-';
+  if (counts_) {
+    const auto place = static_cast<std::size_t>(&step - program_.steps.data());
+    ++counts_->passed[place];
+    if (!on && op > Op::inv) ++counts_->refused[place];
+  }
+  const auto line = static_cast<std::size_t>(step.line) - 1;
+  if (watched_ && line < scanning_.size() && scanning_[line] != '+') scanning_[line] = on ? '+' : '-';
+}
+
+void ProgramScan::add_coverage(Coverage& to) const {
+  if (!counts_) return;
+  Coverage all;
+  auto& file = all.files[program_.file];
+  std::vector<bool> called(program_.steps.size());
+  for (const Step& step : program_.steps)
+    if (step.op() == Op::call) called[static_cast<std::size_t>(step.target)] = true;
+  for (std::size_t i = 0; i < program_.steps.size(); ++i) {
+    constexpr int always_on = 8000;
+    constexpr int always_off = 8001;
+    const Step& step = program_.steps[i];
+    const auto passed = counts_->passed[i];
+    const auto refused = counts_->refused[i];
+    if (called[i]) file.functions[{step.line, to_string(step.operands[0])}] = passed;
+    if (step.op() == Op::label || step.op() == Op::nop) continue;
+    const bool contact = is_contact(step.op());
+    file.line(step.line, contact ? passed : passed - refused);
+    const bool fixed = contact && step.operands[0].kind == OperandType::M &&
+                       step.operands[0].index == Operand::no_index &&
+                       (step.operands[0].number == always_on || step.operands[0].number == always_off);
+    if (contact && !fixed) file.decisions[step.line].push_back({passed - refused, refused});
+  }
+  to.add(all);
 }
 
 bool ProgramScan::run(Rung& rung, std::int64_t work) {
-  if (!watched_) return run_steps<false>(rung, work);
+  if (!watched_ && !counts_) return run_steps<false>(rung, work);
   const bool done = run_steps<true>(rung, work);
   if (done || rung.work > most_) scanned_ = scanning_;
   return done;
@@ -149,7 +178,7 @@ bool ProgramScan::run_steps(Rung& rung, std::int64_t work) {
   while (!rung.over && rung.next < program_.steps.size()) {
     if (rung.work >= work) return false;
     const auto& step = program_.steps[rung.next++];
-    execute(step, rung);
+    execute<watched>(step, rung);
     if constexpr (watched) mark(step, rung);
     if (++rung.work <= most_) continue;
     constexpr int watchdog = 6105;  // FX
@@ -232,10 +261,13 @@ void ProgramScan::join(Op op, Rung& rung) {
   }
 }
 
+template <bool watched>
 void ProgramScan::execute(const Step& step, Rung& rung) {
   const Op op = step.op();
   if (is_contact(op)) {
     const bool on = contact(step, rung);
+    if constexpr (watched)
+      if (counts_ && !on) ++counts_->refused[static_cast<std::size_t>(&step - program_.steps.data())];
     switch (step.join) {
       case Join::begins:
         if (step.opens_block)

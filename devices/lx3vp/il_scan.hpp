@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "devices/coverage.hpp"
 #include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/il_values.hpp"
 #include "devices/lx3vp/instructions.hpp"
@@ -48,6 +49,12 @@ class ProgramScan {
   /// What the last scan did, a letter a line of the text, as devices::ProgramPositions has it; "" before the
   /// first one that was watched.
   [[nodiscard]] const std::string& scanned() const { return scanned_; }
+  /// Counts from now on what runs, which costs time.
+  void count() { counts_.emplace(program_.steps.size()); }
+  /// Adds what was counted. A line runs as often as a scan comes by its instruction, one that needs power as
+  /// often as it has some. A contact is a decision, closed or open, but for M8000 and M8001, which never
+  /// change.
+  void add_coverage(Coverage& to) const;
   /// Line of the instruction that a scan in pieces comes to next; 0: it has come to its end.
   [[nodiscard]] int line() const;
 
@@ -61,6 +68,7 @@ class ProgramScan {
   template <bool watched>
   bool run_steps(Rung& rung, std::int64_t work);
   void mark(const Step& step, const Rung& rung);
+  template <bool watched>
   void execute(const Step& step, Rung& rung);
   /// The step with its index registers applied; nullptr, and told, if it then names what there is not.
   const Step* indexed(const Step& step, Rung& rung) { return step.indexed ? with_index(step, rung) : &step; }
@@ -100,6 +108,7 @@ class ProgramScan {
   bool watched_ = false;
   std::string scanning_;  ///< what the present scan has done so far
   std::string scanned_;
+  std::optional<Counts> counts_;
 };
 
 /// What a scan carries from instruction to instruction.

@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "devices/coverage.hpp"
 #include "devices/plcopen/st/code.hpp"
+#include "devices/program_test.hpp"
 
 namespace drycut::devices::plcopen::st {
 
@@ -25,6 +27,7 @@ struct Trace {
   std::string lines;
   /// The line of each statement in the order of their execution, as far as there is room; nullptr: not kept.
   std::vector<int>* order = nullptr;
+  Counts* counts = nullptr;  ///< of the instructions; nullptr: not counted
 };
 
 /// The memory of a program and what runs on it.
@@ -40,9 +43,20 @@ class Machine {
   void start(bool all);
   /// Runs one program once; throws RuntimeError.
   void run(const Compiled::Instance& program, std::int64_t time_ms);
+  /// The same of a test.
+  void run(const Compiled::Test& test, std::int64_t time_ms);
 
   /// What is executed from now on goes there; nullptr: nowhere, and costs nothing.
   void trace(Trace* to) { trace_ = to; }
+
+  /// What tests have said so far; nullptr: nobody asks.
+  struct Assertions {
+    std::string title = {};
+    std::vector<TestFailure> failures = {};
+    int number = 0;
+    bool finished = false;
+  };
+  void assert_to(Assertions* to) { assertions_ = to; }
 
   /// Statements executed so far, each round of a loop one more.
   [[nodiscard]] std::int64_t statements() const { return statements_; }
@@ -121,6 +135,9 @@ class Machine {
   void copy_string(std::int64_t from, std::int64_t to, std::size_t length);
   void put_string(std::string_view text, std::int64_t to, std::size_t length);
 
+  // assertions.cpp
+  Cell assertion(const StInstruction& of, const Bases& bases);
+
   // machine_calls.cpp
   Cell call_function(const StInstruction& of, const Bases& bases);
   Cell call_method(const StInstruction& of, const Bases& bases);
@@ -141,6 +158,7 @@ class Machine {
   std::int64_t work_ = 0;  ///< that is left in this scan
   std::int64_t statements_ = 0;
   Trace* trace_ = nullptr;
+  Assertions* assertions_ = nullptr;
 };
 
 }  // namespace drycut::devices::plcopen::st

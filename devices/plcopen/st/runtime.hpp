@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "devices/coverage.hpp"
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/pins.hpp"
 #include "devices/plcopen/st/program.hpp"
@@ -92,6 +93,10 @@ class Runtime {
   void set_located(std::size_t i, bool level);
   /// Whether somebody looks at what scans execute; costs time.
   void watch(bool on);
+  /// Counts from now on what runs, which costs time.
+  void count();
+  /// Adds what was counted; `files` names the program's files.
+  void add_coverage(Coverage& to, std::span<const std::string> files) const;
   /// What each program's last run did, together: see devices::ProgramPositions; "" before there is one.
   [[nodiscard]] std::string scanned() const;
   /// Where statements take time: the line of the statement that has its time `into_ns` after the beginning of

@@ -14,6 +14,7 @@ namespace drycut::devices::plcopen::st {
 Compiler::Compiler(std::span<const SourceFile> files, const CompileOptions& options, Problems& problems)
     : Statements(files.front().name, problems), options_(options) {
   lines_ = SourceLines(files);
+  asserts_ = options.library || options.tests;
   tokens_ = tokens_of(standard_blocks(), file_, problems);
   tokens_.pop_back();
   user_tokens_ = tokens_.size();
@@ -45,7 +46,10 @@ std::shared_ptr<const Compiled> Compiler::run() {
       if (unit->kind == kind && !unit->standard) declare(*unit);
   check_methods();
   check_programs();
-  read_configuration();
+  if (options_.tests)
+    find_tests();
+  else
+    read_configuration();
   place_memory();
   compile_bodies();
   connect_instances();
@@ -218,7 +222,7 @@ void Compiler::place_in_files() {
 }
 
 void Compiler::check_programs() {
-  if (options_.library) return;
+  if (options_.library || options_.tests) return;
   const auto is_program = [](const auto& unit) { return unit->kind == Unit::Kind::program; };
   // A PROGRAM that is there but could not be read has been told.
   if (std::none_of(units_.begin(), units_.end(), is_program) && told() == 0)
