@@ -18,15 +18,22 @@ struct TestFailure {
 /// "expected 5, was 4: too slow".
 std::string to_string(const TestFailure& failure);
 
+/// What a test says as it goes.
+struct TestLog {
+  std::string title = {};  ///< that it gives itself: TEST('...')
+  std::vector<TestFailure> failures = {};
+  int assertions = 0;
+  bool finished = false;
+};
+
 /// What came of a test.
 struct TestResult {
   std::string name;  ///< "TEST_Ramp", of a method "RampTests.TEST_Down"
   std::string file;
   int line = 0;
-  std::string title = {};  ///< that it gives itself: TEST('...')
-  std::vector<TestFailure> failures = {};
-  int assertions = 0;
+  TestLog log = {};
   std::int64_t took_ns = 0;  ///< of simulated time
+  [[nodiscard]] bool passed() const { return log.failures.empty(); }
 };
 
 /// How tests run.

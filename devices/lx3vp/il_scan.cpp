@@ -7,6 +7,7 @@
 
 #include "base/state_archive.hpp"
 #include "base/text.hpp"
+#include "devices/coverage.hpp"
 #include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "devices/lx3vp/il_operands.hpp"
 #include "devices/lx3vp/il_values.hpp"
@@ -139,6 +140,8 @@ void ProgramScan::mark(const Step& step, const Rung& rung) {
   const auto line = static_cast<std::size_t>(step.line) - 1;
   if (watched_ && line < scanning_.size() && scanning_[line] != '+') scanning_[line] = on ? '+' : '-';
 }
+
+void ProgramScan::count() { counts_ = std::make_unique<Counts>(program_.steps.size()); }
 
 void ProgramScan::add_coverage(Coverage& to) const {
   if (!counts_) return;

@@ -6,11 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "devices/coverage.hpp"
 #include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/il_values.hpp"
 #include "devices/lx3vp/instructions.hpp"
 #include "devices/lx3vp/registers.hpp"
+
+namespace drycut::devices {
+struct Counts;
+struct Coverage;
+}  // namespace drycut::devices
 
 namespace drycut::devices::lx3vp::il {
 
@@ -50,7 +54,7 @@ class ProgramScan {
   /// first one that was watched.
   [[nodiscard]] const std::string& scanned() const { return scanned_; }
   /// Counts from now on what runs, which costs time.
-  void count() { counts_.emplace(program_.steps.size()); }
+  void count();
   /// Adds what was counted. A line runs as often as a scan comes by its instruction, one that needs power as
   /// often as it has some. A contact is a decision, closed or open, but for M8000 and M8001, which never
   /// change.
@@ -108,7 +112,7 @@ class ProgramScan {
   bool watched_ = false;
   std::string scanning_;  ///< what the present scan has done so far
   std::string scanned_;
-  std::optional<Counts> counts_;
+  std::unique_ptr<Counts> counts_;  ///< of the steps
 };
 
 /// What a scan carries from instruction to instruction.

@@ -1,5 +1,4 @@
 #include "devices/qmove/compiler.hpp"
-#include "devices/qmove/tests.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "base/state_archive.hpp"
+#include "devices/coverage.hpp"
 
 namespace drycut::devices::qmove {
 

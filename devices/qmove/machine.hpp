@@ -6,12 +6,15 @@
 #include <vector>
 
 #include "devices/cards.hpp"
-#include "devices/coverage.hpp"
 #include "devices/device.hpp"
 #include "devices/qmove/program.hpp"
 
 namespace drycut {
 class StateArchive;
+}
+
+namespace drycut::devices {
+struct Counts;
 }
 
 namespace drycut::devices::qmove {

@@ -175,4 +175,7 @@ QclProgram compile_module(std::string_view text, const std::string& file_name,
                           const Configuration& configuration, std::span<const CatalogueEntry> catalogue,
                           Problems& problems, bool tests = false);
 
+/// The text with the assertions in TEST_ subroutines as statements: the `;` before each is a blank.
+std::string with_assertions(std::string_view text);
+
 }  // namespace drycut::devices::qmove

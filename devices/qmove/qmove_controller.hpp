@@ -11,6 +11,7 @@
 
 #include "base/problem.hpp"
 #include "devices/controller.hpp"
+#include "devices/coverage.hpp"
 #include "devices/due.hpp"
 #include "devices/modbus/modbus.hpp"
 #include "devices/qmove/catalogue.hpp"

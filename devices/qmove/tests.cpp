@@ -70,17 +70,17 @@ TestResult run_test(const Configuration& configuration, std::vector<QclProgram> 
   const auto lines = split_lines(programs[task].text);
   for (auto line = static_cast<std::size_t>(sub.line);
        line < lines.size() && !same_word(word_at(lines[line], 0), "ENDSUB"); ++line)
-    if (same_word(word_at(lines[line], 0), "ASSERT")) ++result.assertions;
+    if (same_word(word_at(lines[line], 0), "ASSERT")) ++result.log.assertions;
   QmoveController controller(configuration, programs, catalogue, times.cycle_ns);
   if (coverage != nullptr) controller.count_programs();
   for (;; result.took_ns += times.cycle_ns) {
     controller.run_devices(result.took_ns);
     controller.run_tasks(result.took_ns);
     if (const auto stop = controller.stopped())
-      result.failures.push_back(failure_of(controller, programs[stop->task], *stop));
-    if (!result.failures.empty() || controller.ended(task)) break;
+      result.log.failures.push_back(failure_of(controller, programs[stop->task], *stop));
+    if (!result.log.failures.empty() || controller.ended(task)) break;
     if (result.took_ns + times.cycle_ns <= times.timeout_ns) continue;
-    result.failures.push_back(not_finished(result, times, "see what it waits for"));
+    result.log.failures.push_back(not_finished(result, times, "see what it waits for"));
     break;
   }
   if (coverage != nullptr) controller.add_coverage(*coverage);

@@ -23,9 +23,6 @@ namespace drycut::devices::qmove {
 // are, on one controller without a machine. WAIT and timers see simulated time. The first assertion that does
 // not hold ends the test.
 
-/// The text with the assertions in TEST_ subroutines as statements: the `;` before each is a blank.
-std::string with_assertions(std::string_view text);
-
 /// Runs all tests of modules that were compiled with `tests`, in their order. `configuration` is free of
 /// problems. What their code runs is added to `coverage`, if there is one.
 std::vector<TestResult> run_tests(const Configuration& configuration, std::span<const QclProgram> modules,

@@ -125,14 +125,15 @@ std::vector<report::RunResult> as_runs(const std::vector<devices::TestResult>& r
       run->name = run->scenario.stem().string();
     }
     record::CheckResult check;
-    check.name = result.title.empty() ? result.name : fmt::format("{}: {}", result.name, result.title);
-    check.passed = result.failures.empty();
-    for (const auto& failure : result.failures)
+    check.name =
+        result.log.title.empty() ? result.name : fmt::format("{}: {}", result.name, result.log.title);
+    check.passed = result.passed();
+    for (const auto& failure : result.log.failures)
       check.detail = fmt::format("{}{}{}", check.detail, check.detail.empty() ? "" : "; ", told(failure));
-    if (!check.passed) check.expectation = to_string(result.failures.front());
-    const auto place = check.passed
-                           ? report::FilePlace{result.file, result.line}
-                           : report::FilePlace{result.failures.front().file, result.failures.front().line};
+    if (!check.passed) check.expectation = to_string(result.log.failures.front());
+    const auto place =
+        check.passed ? report::FilePlace{result.file, result.line}
+                     : report::FilePlace{result.log.failures.front().file, result.log.failures.front().line};
     run->places.push_back(place);
     run->outcome.checks.push_back(std::move(check));
     run->outcome.end += result.took_ns;
@@ -141,11 +142,11 @@ std::vector<report::RunResult> as_runs(const std::vector<devices::TestResult>& r
 }
 
 void print_result(const devices::TestResult& result) {
-  const bool passed = result.failures.empty();
+  const bool passed = result.passed();
   fmt::print("{} {}{}{} ({} s{})\n", painted(passed ? "ok  " : "FAIL", passed ? Paint::good : Paint::bad),
-             result.name, result.title.empty() ? "" : ": ", printable(result.title),
-             record::seconds_text(result.took_ns), result.assertions == 0 ? ", asserts nothing" : "");
-  for (const auto& failure : result.failures) fmt::print("  {}\n", printable(told(failure)));
+             result.name, result.log.title.empty() ? "" : ": ", printable(result.log.title),
+             record::seconds_text(result.took_ns), result.log.assertions == 0 ? ", asserts nothing" : "");
+  for (const auto& failure : result.log.failures) fmt::print("  {}\n", printable(told(failure)));
 }
 
 int test_files(const TestOptions& options) {
@@ -180,8 +181,8 @@ int test_files(const TestOptions& options) {
     return bad_input;
   }
   for (const auto& result : results) print_result(result);
-  const auto failed = std::count_if(results.begin(), results.end(),
-                                    [](const auto& result) { return !result.failures.empty(); });
+  const auto failed =
+      std::count_if(results.begin(), results.end(), [](const auto& result) { return !result.passed(); });
   fmt::print("{}, {} failed\n", counted(static_cast<std::int64_t>(results.size()), "test"), failed);
   const auto runs = as_runs(results);
   try {

@@ -117,7 +117,7 @@ TEST(StCoverage, WatchingAndCountingDoNotDisturbEachOther) {
   bench.scan();
   bench.runtime->watch(true);
   bench.scan();
-  EXPECT_EQ(bench.runtime->scanned(), "  +-   ");
+  EXPECT_EQ(bench.runtime->scanned(), "  +-    ");
   bench.runtime->watch(false);
   bench.runtime->cold_start();
   bench.scan();

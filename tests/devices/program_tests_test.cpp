@@ -24,7 +24,7 @@ std::vector<std::string> told(const std::vector<TestResult>& results) {
   std::vector<std::string> lines;
   for (const auto& result : results) {
     auto line = result.name + " " + std::to_string(result.took_ns / 1'000'000) + " ms";
-    for (const auto& failure : result.failures)
+    for (const auto& failure : result.log.failures)
       line += "; " + failure.file + ":" + std::to_string(failure.line) + ": " + to_string(failure);
     lines.push_back(line);
   }
@@ -93,8 +93,8 @@ TEST(StTests, OneThatSaysWhenItIsOverRunsUntilThen) {
   const auto results = st_results(text, {5'000'000, 200'000'000});
   EXPECT_THAT(told(results),
               ElementsAre("TEST_Time 50 ms", HasSubstr("t.st:12: it has not come to its end within 0.2 s")));
-  EXPECT_EQ(results[0].title, "the timer");
-  EXPECT_EQ(results[0].assertions, 12);
+  EXPECT_EQ(results[0].log.title, "the timer");
+  EXPECT_EQ(results[0].log.assertions, 12);
   EXPECT_EQ(results[0].line, 1);
 }
 
@@ -269,7 +269,7 @@ TEST(QclTests, AnAssertionIsACommentOfATest) {
   EXPECT_THAT(told(results),
               ElementsAre("TEST_Limit 0 ms",
                           "TEST_Wrong 0 ms; t.mod:17: expected glJ EQ glI + 5, was glJ = 3, glI = 0"));
-  EXPECT_EQ(results[0].assertions, 2);
+  EXPECT_EQ(results[0].log.assertions, 2);
   const auto& file = qcl.coverage.files.at("t.mod");
   EXPECT_THAT(file.lines, ElementsAre(Pair(1, 0), Pair(2, 0), Pair(4, 2), Pair(5, 1)));
   EXPECT_THAT(file.decisions, ElementsAre(Pair(4, ElementsAre(Coverage::Ways{1, 1}))));

@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "devices/coverage.hpp"
 #include "devices/plcopen/st/compiler.hpp"
 #include "devices/plcopen/st/machine.hpp"
+#include "devices/program_test.hpp"
 
 // Tests in the text: which units they are, what they say, and what becomes of that.
 namespace drycut::devices::plcopen::st {
@@ -135,6 +137,10 @@ std::optional<TypedExpression> Expressions::assertion_call(const StToken& name,
   return TypedExpression{boolean, name.place, node, depth_over({expected, actual, delta})};
 }
 
+bool Compiler::has_tests() const {
+  return std::any_of(units_.begin(), units_.end(), [](const auto& unit) { return is_test(unit->name.text); });
+}
+
 /// A FUNCTION_BLOCK or PROGRAM TEST_..., or its METHODs of that name; METHODs TEST_... of any block.
 void Compiler::find_tests() {
   const auto finishes = [&](const Unit& unit) {
@@ -187,19 +193,19 @@ Cell Machine::assertion(const StInstruction& of, const Bases& bases) {
                            ? real_of(expected) == real_of(actual) ||
                                  std::abs(real_of(expected) - real_of(actual)) <= real_of(operand(2))
                            : expected == actual;
-    if (assertions_ == nullptr) return holds ? 1 : 0;
-    ++assertions_->number;
+    if (test_log_ == nullptr) return holds ? 1 : 0;
+    ++test_log_->assertions;
     if (holds) return 1;
     const auto told = [&](Cell value) {
       return texts ? fmt::format("'{}'", whole_text(value)) : text_of(of.basic, value);
     };
     const auto line = code_.lines.at(origin(of).line);
-    assertions_->failures.push_back(
+    test_log_->failures.push_back(
         {code_.files[line.file].name, line.line, message(), told(expected), told(actual)});
     return 0;
   }
-  if (assertions_ != nullptr && says == Assertion::title) assertions_->title = message();
-  if (assertions_ != nullptr && says == Assertion::finished) assertions_->finished = true;
+  if (test_log_ != nullptr && says == Assertion::title) test_log_->title = message();
+  if (test_log_ != nullptr && says == Assertion::finished) test_log_->finished = true;
   return 1;
 }
 

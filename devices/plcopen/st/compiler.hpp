@@ -303,6 +303,7 @@ class Compiler : public Statements {
   void place_in_files();
   void check_programs();
   // assertions.cpp
+  [[nodiscard]] bool has_tests() const;
   void find_tests();
   void check_calls();
   void check_depth();

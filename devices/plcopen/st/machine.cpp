@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/state_archive.hpp"
+#include "devices/coverage.hpp"
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/code.hpp"
 #include "devices/plcopen/st/references.hpp"

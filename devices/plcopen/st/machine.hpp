@@ -7,9 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "devices/coverage.hpp"
 #include "devices/plcopen/st/code.hpp"
-#include "devices/program_test.hpp"
+
+namespace drycut::devices {
+struct Counts;
+struct TestLog;
+}  // namespace drycut::devices
 
 namespace drycut::devices::plcopen::st {
 
@@ -49,14 +52,8 @@ class Machine {
   /// What is executed from now on goes there; nullptr: nowhere, and costs nothing.
   void trace(Trace* to) { trace_ = to; }
 
-  /// What tests have said so far; nullptr: nobody asks.
-  struct Assertions {
-    std::string title = {};
-    std::vector<TestFailure> failures = {};
-    int number = 0;
-    bool finished = false;
-  };
-  void assert_to(Assertions* to) { assertions_ = to; }
+  /// What tests say goes there; nullptr: nowhere.
+  void log_tests(TestLog* to) { test_log_ = to; }
 
   /// Statements executed so far, each round of a loop one more.
   [[nodiscard]] std::int64_t statements() const { return statements_; }
@@ -158,7 +155,7 @@ class Machine {
   std::int64_t work_ = 0;  ///< that is left in this scan
   std::int64_t statements_ = 0;
   Trace* trace_ = nullptr;
-  Assertions* assertions_ = nullptr;
+  TestLog* test_log_ = nullptr;
 };
 
 }  // namespace drycut::devices::plcopen::st

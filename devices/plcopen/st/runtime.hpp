@@ -7,10 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "devices/coverage.hpp"
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/pins.hpp"
 #include "devices/plcopen/st/program.hpp"
+
+namespace drycut::devices {
+struct Coverage;
+}
 
 namespace drycut::devices::plcopen::st {
 

@@ -18,26 +18,23 @@ TestResult run_test(const Program& program, const Compiled::Test& test, const Te
   MotionKernel kernel;
   Machine machine(code, kernel);
   Trace trace{{}, nullptr, counts};
-  Machine::Assertions said;
+  TestLog& log = result.log;
   machine.start(true);
-  machine.assert_to(&said);
+  machine.log_tests(&log);
   if (counts != nullptr) machine.trace(&trace);
   try {
     for (;; result.took_ns += times.cycle_ns) {
       if (result.took_ns > times.timeout_ns) {
-        said.failures.push_back(not_finished(result, times, "it calls TEST_FINISHED at its end"));
+        log.failures.push_back(not_finished(result, times, "it calls TEST_FINISHED at its end"));
         break;
       }
       machine.run(test, result.took_ns / ns_per_ms);
-      if (!test.finishes || said.finished) break;
+      if (!test.finishes || log.finished) break;
     }
   } catch (const StError& error) {
     const auto at = code.lines.at(error.line);
-    said.failures.push_back({code.files[at.file].name, at.line, error.what(), "", ""});
+    log.failures.push_back({code.files[at.file].name, at.line, error.what(), "", ""});
   }
-  result.title = said.title;
-  result.failures = std::move(said.failures);
-  result.assertions = said.number;
   return result;
 }
 

@@ -14,7 +14,6 @@ namespace drycut::devices::plcopen::st {
 Compiler::Compiler(std::span<const SourceFile> files, const CompileOptions& options, Problems& problems)
     : Statements(files.front().name, problems), options_(options) {
   lines_ = SourceLines(files);
-  asserts_ = options.library || options.tests;
   tokens_ = tokens_of(standard_blocks(), file_, problems);
   tokens_.pop_back();
   user_tokens_ = tokens_.size();
@@ -36,6 +35,7 @@ std::shared_ptr<const Compiled> Compiler::run() {
   find_units(false);
   find_units(true);
   find_bases();
+  asserts_ = options_.tests || (options_.library && has_tests());
   // Types may have constants as bounds.
   for (const auto& unit : units_)
     if (unit->kind == Unit::Kind::globals && tokens_[unit->first + 1].word("CONSTANT")) declare(*unit);
