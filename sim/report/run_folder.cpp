@@ -7,6 +7,7 @@
 #include <iterator>
 #include <memory>
 
+#include "base/output_file.hpp"
 #include "renders/gltf.hpp"
 #include "sim/cams/judged.hpp"
 #include "sim/loop/controller_loader.hpp"
