@@ -23,6 +23,7 @@ class StateArchive;
 namespace drycut::devices {
 
 struct CamTable;  // devices/cam/table.hpp
+struct Coverage;  // devices/coverage.hpp
 
 /// The slave of a cam at an instant, in the units of the cam's table, to be compared with its law.
 struct CamMoment {
@@ -250,6 +251,11 @@ class Controller {
   virtual void watch_programs(bool /*on*/) {}
   /// Where the programs stand. `time_ns`: the time until which it has run.
   [[nodiscard]] virtual ProgramPositions positions(std::int64_t /*time_ns*/) const { return {}; }
+
+  /// Counts from now on what of its programs runs, over losses of power too, which costs time.
+  virtual void count_programs() {}
+  /// Adds what has been counted since then.
+  virtual void add_coverage(Coverage& /*to*/) const {}
 
   /// What its programs say that is no fault and hardly meant.
   struct ProgramDoubt {

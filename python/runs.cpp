@@ -8,6 +8,7 @@
 #include "python/shared.hpp"
 #include "sim/loop/library.hpp"
 #include "sim/loop/simulation.hpp"
+#include "sim/report/coverage.hpp"
 #include "sim/report/part_meshes.hpp"
 #include "sim/report/run_folder.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -28,8 +29,20 @@ sim::scenario::Scenario read_with_pictures(const std::filesystem::path& file, co
   return scenario;
 }
 
+/// By file: counts by line, of each decision's ways by line, of functions by name; the lines that never ran.
+py::dict coverage_dict(const devices::Coverage& coverage) {
+  py::dict files;
+  for (const auto& [name, file] : coverage.files) {
+    py::dict functions;
+    for (const auto& [function, count] : file.functions) functions[py::str(function.second)] = count;
+    files[py::str(name)] = py::dict("lines"_a = file.lines, "branches"_a = file.decisions,
+                                    "functions"_a = functions, "never"_a = devices::figures_of(file).never);
+  }
+  return files;
+}
+
 py::dict run(const std::filesystem::path& file, const Settings& set,
-             const std::optional<std::filesystem::path>& out, bool pictures) {
+             const std::optional<std::filesystem::path>& out, bool pictures, bool coverage) {
   std::optional<sim::scenario::Scenario> scenario;
   std::optional<Simulation> simulation;
   report::RunResult result;
@@ -48,11 +61,14 @@ py::dict run(const std::filesystem::path& file, const Settings& set,
       report::RunRequest request;
       request.pictures = pictures;
       request.in_memory = true;
+      request.coverage = coverage;
       request.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
       request.progress = [](const char*, double) { listen(); };
       left = folder.run(*scenario, *simulation, meshes, request, result);
     } else {
+      if (coverage && simulation->controller() != nullptr) simulation->controller()->count_programs();
       result.outcome = simulation->run([](sim::Time) { listen(); });
+      left.coverage = report::coverage_of(*scenario, *simulation);
     }
   }
   auto notes = sim::record::texts_of(simulation->notes());
@@ -73,7 +89,7 @@ py::dict run(const std::filesystem::path& file, const Settings& set,
     events.append(py::make_tuple(event.at_seconds(), event.source, event.event, values, event.text));
   }
   return py::dict("outcome"_a = python_of(result.outcome), "events"_a = events, "columns"_a = columns,
-                  "units"_a = units, "notes"_a = notes);
+                  "units"_a = units, "notes"_a = notes, "coverage"_a = coverage_dict(left.coverage));
 }
 
 py::object at_frequency(const std::optional<sim::studies::AtFrequency>& margin) {
@@ -114,7 +130,7 @@ py::dict bode(const std::filesystem::path& file, const Settings& set,
 }  // namespace
 
 void add_runs(py::module_& module) {
-  module.def("run", run, "file"_a, "set"_a, "out"_a, "pictures"_a);
+  module.def("run", run, "file"_a, "set"_a, "out"_a, "pictures"_a, "coverage"_a);
   module.def(
       "bode",
       [](const std::filesystem::path& file, const Settings& set, const std::string& wire,

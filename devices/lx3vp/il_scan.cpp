@@ -8,6 +8,7 @@
 
 #include "base/state_archive.hpp"
 #include "base/text.hpp"
+#include "devices/coverage.hpp"
 #include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "devices/lx3vp/il_operands.hpp"
 #include "devices/lx3vp/il_values.hpp"
@@ -147,16 +148,47 @@ void ProgramScan::refresh_watchdog(Rung& rung) const {
 
 // An instruction has power if what is before it lets it through; those that need none are executed.
 void ProgramScan::mark(const Step& step, const Rung& rung) {
-  const auto line = static_cast<std::size_t>(step.line) - 1;
-  if (line >= scanning_.size()) return;
   const Op op = step.op();
   const bool needs_power = op <= Op::mc || op == Op::cj || op == Op::call;
   const bool on = op == Op::stl ? rung.state_on : !needs_power || rung.power();
-  if (scanning_[line] != '+') scanning_[line] = on ? '+' : '-';
+  if (counts_) {
+    const auto place = static_cast<std::size_t>(&step - program_.steps.data());
+    ++counts_->passed[place];
+    if (!on && op > Op::inv) ++counts_->refused[place];
+  }
+  const auto line = static_cast<std::size_t>(step.line) - 1;
+  if (watched_ && line < scanning_.size() && scanning_[line] != '+') scanning_[line] = on ? '+' : '-';
+}
+
+void ProgramScan::count() { counts_ = std::make_unique<Counts>(program_.steps.size()); }
+
+void ProgramScan::add_coverage(Coverage& to) const {
+  if (!counts_) return;
+  Coverage all;
+  auto& file = all.files[program_.file];
+  std::vector<bool> called(program_.steps.size());
+  for (const Step& step : program_.steps)
+    if (step.op() == Op::call) called[static_cast<std::size_t>(step.target)] = true;
+  for (std::size_t i = 0; i < program_.steps.size(); ++i) {
+    constexpr int always_on = 8000;
+    constexpr int always_off = 8001;
+    const Step& step = program_.steps[i];
+    const auto passed = counts_->passed[i];
+    const auto refused = counts_->refused[i];
+    if (called[i]) file.functions[{step.line, to_string(step.operands[0])}] = passed;
+    if (step.op() == Op::label || step.op() == Op::nop) continue;
+    const bool contact = is_contact(step.op());
+    file.line(step.line, contact ? passed : passed - refused);
+    const bool fixed = contact && step.operands[0].kind == OperandType::M &&
+                       step.operands[0].index == Operand::no_index &&
+                       (step.operands[0].number == always_on || step.operands[0].number == always_off);
+    if (contact && !fixed) file.decisions[step.line].push_back({passed - refused, refused});
+  }
+  to.add(all);
 }
 
 bool ProgramScan::run(Rung& rung, std::int64_t work) {
-  if (!watched_) return run_steps<false>(rung, work);
+  if (!watched_ && !counts_) return run_steps<false>(rung, work);
   const bool done = run_steps<true>(rung, work);
   if (done || rung.work > rung.limit) scanned_ = scanning_;
   return done;
@@ -168,7 +200,7 @@ bool ProgramScan::run_steps(Rung& rung, std::int64_t work) {
   while (!rung.over && rung.next < program_.steps.size()) {
     if (rung.work >= work) return false;
     const Step& step = program_.steps[rung.next++];
-    if (step.route == Route::bit) {
+    if (!watched && step.route == Route::bit) {
       const bool on = *bit_at(rung.registers, step.letter, step.bit);
       rung.join(step, on == (step.code == Op::on));
     } else if (!watched && step.route == Route::action && step_ns_ == 0 && !rung.power()) {
@@ -179,7 +211,7 @@ bool ProgramScan::run_steps(Rung& rung, std::int64_t work) {
         rung.next = static_cast<std::size_t>(step.skip);
       }
     } else {
-      execute(step, rung);
+      execute<watched>(step, rung);
     }
     if constexpr (watched) mark(step, rung);
     if (++rung.work <= rung.limit) continue;
@@ -263,11 +295,16 @@ void ProgramScan::join(Op op, Rung& rung) {
   }
 }
 
+template <bool watched>
 void ProgramScan::execute(const Step& step, Rung& rung) {
   switch (step.route) {
     case Route::bit:
-    case Route::contact:
-      return rung.join(step, contact(step, rung));
+    case Route::contact: {
+      const bool on = contact(step, rung);
+      if constexpr (watched)
+        if (counts_ && !on) ++counts_->refused[static_cast<std::size_t>(&step - program_.steps.data())];
+      return rung.join(step, on);
+    }
     case Route::join:
       return join(step.op(), rung);
     case Route::coil:

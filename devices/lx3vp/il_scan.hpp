@@ -12,6 +12,11 @@
 #include "devices/lx3vp/instructions.hpp"
 #include "devices/lx3vp/registers.hpp"
 
+namespace drycut::devices {
+struct Counts;
+struct Coverage;
+}  // namespace drycut::devices
+
 namespace drycut::devices::lx3vp::il {
 
 /// Hands DECAM or a pulse instruction to the controller, with the power into it. Throws
@@ -52,6 +57,12 @@ class ProgramScan {
   /// What the last scan did, a letter a line of the text, as devices::ProgramPositions has it; "" before the
   /// first one that was watched.
   [[nodiscard]] const std::string& scanned() const { return scanned_; }
+  /// Counts from now on what runs, which costs time.
+  void count();
+  /// Adds what was counted. A line runs as often as a scan comes by its instruction, one that needs power as
+  /// often as it has some. A contact is a decision, closed or open, but for M8000 and M8001, which never
+  /// change.
+  void add_coverage(Coverage& to) const;
   /// Line of the instruction that a scan in pieces comes to next; 0: it has come to its end.
   [[nodiscard]] int line() const;
 
@@ -68,6 +79,7 @@ class ProgramScan {
   template <bool watched>
   bool run_steps(Rung& rung, std::int64_t work);
   void mark(const Step& step, const Rung& rung);
+  template <bool watched>
   void execute(const Step& step, Rung& rung);
   /// The step with its index registers applied; nullptr, and told, if it then names what there is not.
   const Step* indexed(const Step& step, Rung& rung) { return step.indexed ? with_index(step, rung) : &step; }
@@ -115,6 +127,7 @@ class ProgramScan {
   bool watched_ = false;
   std::string scanning_;  ///< what the present scan has done so far
   std::string scanned_;
+  std::unique_ptr<Counts> counts_;  ///< of the steps
 };
 
 /// What a scan carries from instruction to instruction.

@@ -64,6 +64,8 @@ class Lx3vpController : public Controller, private Instructions {
   /// contact.
   [[nodiscard]] std::vector<ProgramText> programs() override;
   void watch_programs(bool on) override { scanner_.watch(on); }
+  void count_programs() override { scanner_.count(); }
+  void add_coverage(Coverage& to) const override { scanner_.add_coverage(to); }
   [[nodiscard]] ProgramPositions positions(std::int64_t time_ns) const override;
   [[nodiscard]] std::vector<ProgramDoubt> doubts() const override;
   /// Of a DECAM that has power and has never started.

@@ -57,8 +57,8 @@ int stack_effect(QclOp op) {
 
 QclProgram compile_module(std::string_view text, const std::string& file_name,
                           const Configuration& configuration, std::span<const CatalogueEntry> catalogue,
-                          Problems& problems) {
-  return QclCompiler(file_name, configuration, catalogue, problems).compile(text);
+                          Problems& problems, bool tests) {
+  return QclCompiler(file_name, configuration, catalogue, problems).compile(text, tests);
 }
 
 QclCompiler::QclCompiler(const std::string& file, const Configuration& configuration,
@@ -68,11 +68,11 @@ QclCompiler::QclCompiler(const std::string& file, const Configuration& configura
       catalogue_(catalogue),
       names_(configuration) {}
 
-QclProgram QclCompiler::compile(std::string_view text) {
+QclProgram QclCompiler::compile(std::string_view text, bool tests) {
   program_.name = task_name(file_);
   program_.file = file_;
-  program_.text = text;
-  const std::vector<std::string_view> lines = split_lines(text);
+  program_.text = tests ? with_assertions(text) : std::string(text);
+  const std::vector<std::string_view> lines = split_lines(program_.text);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     tokens_ = tokens_of(lines[i], static_cast<int>(i) + 1, file_, problems_);
     if (tokens_.size() == 1) continue;
@@ -81,7 +81,11 @@ QclProgram QclCompiler::compile(std::string_view text) {
     line_failed_ = false;
     last_ = tokens_.back().place;
     const int begin = here();
-    statement();
+    const auto at = static_cast<std::size_t>(lines[i].data() - program_.text.data());
+    if (lines[i] != text.substr(at, lines[i].size()))
+      assertion();
+    else
+      statement();
     if (here() > begin) mark(begin);
   }
   for (const Block& block : blocks_) unclosed(block);
@@ -90,6 +94,10 @@ QclProgram QclCompiler::compile(std::string_view text) {
   emit(QclOp::end);
   resolve(labels_, "label", "write {}: where it leads");
   resolve(subs_, "subroutine", "write SUB {} .. ENDSUB");
+  for (const std::string& name : subs_.names) {
+    const Target& target = subs_.places.at(lower(name));
+    program_.subs.push_back({name, target.place.line, target.code});
+  }
   sort();
   program_.begins.assign(program_.code.size(), false);
   for (const int begin : marks_) program_.begins[static_cast<std::size_t>(begin)] = true;

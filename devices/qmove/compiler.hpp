@@ -20,7 +20,7 @@ class QclCompiler : public TokenReader<QclToken> {
  public:
   QclCompiler(const std::string& file, const Configuration& configuration,
               std::span<const CatalogueEntry> catalogue, Problems& problems);
-  QclProgram compile(std::string_view text);
+  QclProgram compile(std::string_view text, bool tests);
 
  private:
   enum class Type : std::uint8_t { integer, real };
@@ -33,6 +33,7 @@ class QclCompiler : public TokenReader<QclToken> {
 
   // Statements (statements.cpp).
   void statement();
+  void assertion();
   void word_statement();
   const NamedThing* assignment();
   void store(const NamedThing& thing, Type type);

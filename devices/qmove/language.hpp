@@ -48,6 +48,7 @@ inline constexpr std::array language{
     QclRow{"WHILE e / ENDWHILE", "loops while e holds", closing},
     QclRow{"FOR (i = a, e, step) / NEXT", "loops; the step is a number to add or an assignment", closing},
     QclRow{"SUB name / ENDSUB / CALL name", "a subroutine; 33 calls in each other are error 9", ours},
+    QclRow{"; ASSERT e", "in a SUB TEST_...: drycut test asks whether e holds; a comment to all else", ours},
     QclRow{"SETOUT name", "switches an output on", public_word},
     QclRow{"RESOUT name", "switches an output off", ours},
     QclRow{"timer = n", "starts the timer for n ms; it reads 1 when they are over, and before it was started",

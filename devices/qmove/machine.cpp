@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "base/state_archive.hpp"
+#include "devices/coverage.hpp"
 
 namespace drycut::devices::qmove {
 
@@ -51,6 +52,8 @@ std::string_view name_of(RunTimeError error) {
       return "watchdog, the task loops without WAIT";
     case RunTimeError::stack:
       return "stack, CALL nested too deep or ENDSUB without CALL";
+    case RunTimeError::assertion:
+      return "a test has failed";
   }
   return "";
 }
@@ -58,9 +61,10 @@ std::string_view name_of(RunTimeError error) {
 namespace {
 
 // One switch over all instructions: the room's hottest loop, kept in one piece for speed. `timed`: statements
-// are counted.
-template <bool timed>
-RunTimeError run(const QclProgram& program, Task& task, QclMachine& machine, std::int64_t& statements) {
+// are counted down. `counting`: what runs is counted.
+template <bool timed, bool counting>
+RunTimeError run(const QclProgram& program, Task& task, QclMachine& machine, std::int64_t& statements,
+                 Counts* counts) {
   std::array<std::int32_t, max_depth + 2> stack{};  // the compiler has checked that no expression needs more
   std::int32_t* top = stack.data();                 // the value on top
   const Instruction* const code = program.code.data();
@@ -112,6 +116,7 @@ RunTimeError run(const QclProgram& program, Task& task, QclMachine& machine, std
       }
     }
     if (--left < 0) return fail(RunTimeError::watchdog);
+    if constexpr (counting) ++counts->passed[static_cast<std::size_t>(at)];
     const Instruction& now = code[at];
     switch (now.op) {
       case QclOp::push:
@@ -289,6 +294,7 @@ RunTimeError run(const QclProgram& program, Task& task, QclMachine& machine, std
         if (!machine.devices[now.b]->settled() && oldest <= task.reached) {
           if (task.wait != Task::Wait::own)
             task.wait = task.last_post[now.b] >= oldest ? Task::Wait::own : Task::Wait::others;
+          if constexpr (counting) --counts->passed[static_cast<std::size_t>(at)];  // it comes here again
           task.at = at;
           return RunTimeError::none;
         }
@@ -299,7 +305,10 @@ RunTimeError run(const QclProgram& program, Task& task, QclMachine& machine, std
         at = now.a - 1;
         break;
       case QclOp::jump_if_zero:
-        if (*top-- == 0) at = now.a - 1;
+        if (*top-- == 0) {
+          if constexpr (counting) ++counts->refused[static_cast<std::size_t>(at)];
+          at = now.a - 1;
+        }
         break;
       case QclOp::command:
         if ((left -= device_work) < 0) return fail(RunTimeError::watchdog);
@@ -310,6 +319,7 @@ RunTimeError run(const QclProgram& program, Task& task, QclMachine& machine, std
         return suspend(at + 1);
       case QclOp::wait_until:
         if (*top-- == 0) {
+          if constexpr (counting) ++counts->refused[static_cast<std::size_t>(at)];
           if (task.waits_at != now.a) task.waits_since = machine.now;
           task.waits_at = now.a;
           return suspend(now.a);
@@ -331,20 +341,25 @@ RunTimeError run(const QclProgram& program, Task& task, QclMachine& machine, std
         task.waits_at = at;
         task.waits_since = machine.now;
         return suspend(at);
+      case QclOp::assertion:
+        if (*top-- == 0) return fail(RunTimeError::assertion);
+        break;
     }
   }
 }
 
 }  // namespace
 
-RunTimeError run_turn(const QclProgram& program, Task& task, QclMachine& machine) {
+RunTimeError run_turn(const QclProgram& program, Task& task, QclMachine& machine, Counts* counts) {
   std::int64_t uncounted = 0;
-  return run<false>(program, task, machine, uncounted);
+  return counts == nullptr ? run<false, false>(program, task, machine, uncounted, nullptr)
+                           : run<false, true>(program, task, machine, uncounted, counts);
 }
 
 RunTimeError run_statements(const QclProgram& program, Task& task, QclMachine& machine,
-                            std::int64_t& statements) {
-  return run<true>(program, task, machine, statements);
+                            std::int64_t& statements, Counts* counts) {
+  return counts == nullptr ? run<true, false>(program, task, machine, statements, nullptr)
+                           : run<true, true>(program, task, machine, statements, counts);
 }
 
 void Task::visit(StateArchive& archive) {

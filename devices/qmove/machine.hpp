@@ -13,6 +13,10 @@ namespace drycut {
 class StateArchive;
 }
 
+namespace drycut::devices {
+struct Counts;
+}
+
 namespace drycut::devices::qmove {
 
 /// Run-time errors, numbered as QMOS oserr reports them (spec 4.5).
@@ -24,6 +28,7 @@ enum class RunTimeError : std::uint8_t {
   division_by_zero = 6,
   watchdog = 8,
   stack = 9,
+  assertion = 255,  ///< of tests: no controller has it
 };
 std::string_view name_of(RunTimeError error);
 
@@ -86,11 +91,11 @@ inline constexpr int max_work = 1'000'000;
 inline constexpr int device_work = 100;
 
 /// Runs `task` for one turn: until WAIT or END, or until a read has to wait for a device's sample.
-/// After an error task.at is the instruction at fault.
-RunTimeError run_turn(const QclProgram& program, Task& task, QclMachine& machine);
+/// After an error task.at is the instruction at fault. What runs is counted in `counts`, if there are any.
+RunTimeError run_turn(const QclProgram& program, Task& task, QclMachine& machine, Counts* counts = nullptr);
 /// The same where statements take time: as far as `statements` of them go, which are counted down. The turn
 /// goes on with the next call while task.in_turn.
 RunTimeError run_statements(const QclProgram& program, Task& task, QclMachine& machine,
-                            std::int64_t& statements);
+                            std::int64_t& statements, Counts* counts = nullptr);
 
 }  // namespace drycut::devices::qmove

@@ -132,12 +132,20 @@ enum class QclOp : std::uint8_t {
   call,          ///< go on at a until `back`
   back,          ///< return from call
   end,           ///< the task ends
+  assertion,     ///< if top is 0: a test has failed
 };
 
 struct Instruction {
   QclOp op = QclOp::end;
   std::int32_t a = 0;
   std::int32_t b = 0;
+};
+
+/// SUB name: where its code begins.
+struct QclSub {
+  std::string name;
+  int line = 0;
+  int code = 0;
 };
 
 /// A compiled module: one task of the controller.
@@ -150,6 +158,8 @@ struct QclProgram {
   std::vector<bool> begins;       ///< whether a statement begins there, or another look at a WAIT or FOR
   std::vector<Symbol> symbols;    ///< device symbols that instructions refer to
   std::vector<NamedThing> steps;  ///< group variables that index_step refers to
+  std::vector<QclSub> subs;       ///< in the order of the text
+  int start = 0;                  ///< the instruction at which the task begins
   std::vector<Finding> notes;     ///< what a reader should know that is no fault: "file:line:column: ..."
 };
 
@@ -159,9 +169,13 @@ inline constexpr int max_depth = 64;
 inline constexpr int max_calls = 32;
 
 /// Compiles a QCL module (spec qem.md §4) against its configuration. All faults of the text are appended to
-/// `problems` in order; a module with faults has no code.
+/// `problems` in order; a module with faults has no code. With `tests` what tests assert is compiled, too,
+/// which are comments to a controller: see tests.hpp.
 QclProgram compile_module(std::string_view text, const std::string& file_name,
                           const Configuration& configuration, std::span<const CatalogueEntry> catalogue,
-                          Problems& problems);
+                          Problems& problems, bool tests = false);
+
+/// The text with the assertions in TEST_ subroutines as statements: the `;` before each is a blank.
+std::string with_assertions(std::string_view text);
 
 }  // namespace drycut::devices::qmove

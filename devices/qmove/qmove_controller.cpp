@@ -145,14 +145,14 @@ bool QmoveController::run_place(std::int64_t time_ns) {
   if (!its_turn && !task.in_turn) return true;
   const std::int64_t fit = std::max<std::int64_t>(time_ns - computed_ns_, 0) / statement_ns_;
   std::int64_t left = fit;
-  const RunTimeError error = run_statements(programs_[number], task, machine_, left);
+  const RunTimeError error = run_statements(programs_[number], task, machine_, left, counts_of(number));
   computed_ns_ += (fit - left) * statement_ns_;
   return finish_turn(number, error) && !task.in_turn;
 }
 
 // False if it stopped all tasks.
 bool QmoveController::turn(std::size_t number) {
-  return finish_turn(number, run_turn(programs_[number], tasks_[number], machine_));
+  return finish_turn(number, run_turn(programs_[number], tasks_[number], machine_, counts_of(number)));
 }
 
 bool QmoveController::finish_turn(std::size_t number, RunTimeError error) {
@@ -224,7 +224,10 @@ void QmoveController::start_tasks() {
   in_round_ = false;
   computed_ns_ = machine_.now;
   // A module with faults has no code: there is nothing to run.
-  for (std::size_t i = 0; i < programs_.size(); ++i) tasks_[i].ended = programs_[i].code.empty();
+  for (std::size_t i = 0; i < programs_.size(); ++i) {
+    tasks_[i].ended = programs_[i].code.empty();
+    tasks_[i].at = programs_[i].start;
+  }
   mode_ = OsMode::run;
   error_ = RunTimeError::none;
 }

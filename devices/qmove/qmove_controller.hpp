@@ -11,6 +11,7 @@
 
 #include "base/problem.hpp"
 #include "devices/controller.hpp"
+#include "devices/coverage.hpp"
 #include "devices/due.hpp"
 #include "devices/modbus/modbus.hpp"
 #include "devices/qmove/catalogue.hpp"
@@ -71,6 +72,17 @@ class QmoveController : public Controller {
   /// The tasks' modules, in their order, then the configuration.
   [[nodiscard]] std::vector<ProgramText> programs() override;
   [[nodiscard]] ProgramPositions positions(std::int64_t time_ns) const override;
+  void count_programs() override;
+  /// A WAIT counts its looks at the condition; ELSE, SUB and what closes a block are no lines of their own.
+  void add_coverage(Coverage& to) const override;
+  /// The run-time error that has stopped all tasks.
+  struct Stop {
+    std::size_t task = 0;
+    int line = 0;
+    RunTimeError error = RunTimeError::none;
+  };
+  [[nodiscard]] std::optional<Stop> stopped() const;
+  [[nodiscard]] bool ended(std::size_t task) const { return tasks_[task].ended; }
   [[nodiscard]] std::vector<ProgramWait> waits() override;
   [[nodiscard]] std::vector<PositionLoop> position_loops() override;
   [[nodiscard]] std::vector<CountedUnit> counted_units() const override;
@@ -118,6 +130,7 @@ class QmoveController : public Controller {
   void add_terminal(const Address& address);
   void start_tasks();
   bool turn(std::size_t number);
+  Counts* counts_of(std::size_t number) { return counts_.empty() ? nullptr : &counts_[number]; }
   bool finish_turn(std::size_t number, RunTimeError error);
   void run_timed(std::int64_t time_ns);
   bool run_place(std::int64_t time_ns);
@@ -136,6 +149,7 @@ class QmoveController : public Controller {
   Cards cards_;
   QclMachine machine_;
   std::vector<Task> tasks_;
+  std::vector<Counts> counts_;  ///< one a program where they are counted
   bool powered_ = true;
   std::optional<modbus::ExchangeFace> modbus_;
   OsMode mode_ = OsMode::run;

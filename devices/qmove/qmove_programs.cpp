@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "devices/qmove/lexer.hpp"
 #include "devices/qmove/qmove_controller.hpp"
+#include "devices/qmove/tests.hpp"
 
 namespace drycut::devices::qmove {
 
@@ -93,6 +94,20 @@ ProgramPositions QmoveController::positions(std::int64_t) const {
   }
   told.scanned.resize(programs_.size() + 1);
   return told;
+}
+
+void QmoveController::count_programs() {
+  counts_.clear();
+  for (const QclProgram& program : programs_) counts_.emplace_back(program.code.size());
+}
+
+void QmoveController::add_coverage(Coverage& to) const {
+  for (std::size_t i = 0; i < counts_.size(); ++i) to.add(coverage_of(programs_[i], counts_[i]));
+}
+
+std::optional<QmoveController::Stop> QmoveController::stopped() const {
+  if (mode_ != OsMode::error) return std::nullopt;
+  return Stop{failed_, programs_[failed_].lines[static_cast<std::size_t>(tasks_[failed_].at)], error_};
 }
 
 std::vector<ProgramWait> QmoveController::waits() {

@@ -26,6 +26,19 @@ void QclCompiler::statement() {
   if (!line_failed_) end_of_statement();
 }
 
+// ; ASSERT e
+void QclCompiler::assertion() {
+  nesting_ = 0;
+  stack_ = 0;
+  devices_read_.clear();
+  take();
+  const int begin = here();
+  condition();
+  insert_barriers(begin);
+  emit(QclOp::assertion);
+  if (!line_failed_) end_of_statement();
+}
+
 void QclCompiler::word_statement() {
   struct Row {
     std::string_view word;

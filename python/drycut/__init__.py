@@ -40,12 +40,12 @@ from ._core import version as __version__
 from ._fits import Channel, Fit, FitValue, Recording, Replay, fit, read_recording
 from ._loops import Bode, Margin, bode
 from ._problems import BadInput, Diverged, Problem
-from ._runs import Check, Event, Run, Simulation, run
+from ._runs import Check, Covered, Event, Run, Simulation, run
 from ._studies import Sweep, Tuning, envelope, sweep, tune
 from ._verbs import Ran
 from ._verbs import verbs as verbs
 
-__all__ = ["BadInput", "Bode", "Cam", "Channel", "Check", "Diverged", "Event", "Finding", "Fit", "FitValue", "Margin",
+__all__ = ["BadInput", "Bode", "Cam", "Channel", "Check", "Covered", "Diverged", "Event", "Finding", "Fit", "FitValue", "Margin",
            "Problem", "Ran", "Recording", "Replay", "Run", "Simulation", "Sweep", "Tuning", "bode", "cam", "envelope",
            "fit", "read_recording", "run", "sweep", "tune"]
 

@@ -79,6 +79,23 @@ class Check(_Check):
 
 
 @dataclass
+class Covered:
+    """What of a program's file has run.
+
+    lines      how often, by line: those that can run
+    branches   by line, for each decision how often each of its ways was taken: held and did not hold; of a CASE its
+               bodies and none of them
+    functions  how often each was called, by name
+    never      the lines that never ran: "3, 7-9"
+    """
+
+    lines: dict[int, int]
+    branches: dict[int, list[list[int]]]
+    functions: dict[str, int]
+    never: str
+
+
+@dataclass
 class Run:
     """What drycut.run() gives.
 
@@ -92,6 +109,7 @@ class Run:
     outcome  all that came of it, as in checks.json: end [s], cause, warnings, alarms, drives with their figures; and of
              each drive points and cycle_points, numpy arrays, shape (points, 2): speed [rad/s] and torque [N m] at
              record instants; mean speed and rms torque of each cycle
+    coverage  with coverage=True, by file of the controller's programs: a Covered each
     """
 
     passed: bool
@@ -102,13 +120,15 @@ class Run:
     units: dict[str, str]
     notes: list[str]
     outcome: dict[str, Any] = field(default_factory=dict)
+    coverage: dict[str, Covered] = field(default_factory=dict)
 
     def frame(self) -> "pandas.DataFrame":
         """The trace as a pandas DataFrame over time [s]; units in its `attrs["units"]`. Needs pandas."""
         return frame(self.trace, self.units, "time")
 
 
-def run(file: Path, set: Settings | None = None, *, out: Path | None = None, pictures: bool = True) -> Run:
+def run(file: Path, set: Settings | None = None, *, out: Path | None = None, pictures: bool = True,
+        coverage: bool = False) -> Run:
     """Runs a scenario from time zero to its end.
 
     file  scenario (.yaml)
@@ -117,15 +137,17 @@ def run(file: Path, set: Settings | None = None, *, out: Path | None = None, pic
           trace.h5, checks.json, report.html, plots and film, and retentive values into their file; else nothing is
           drawn or written
     pictures  False: no frames, plots or report, as --no-pictures
+    coverage  True: count what of the controller's programs runs, as --coverage
 
     Raises BadInput with all problems of the scenario and its programs.
     """
     check_folder(out)
-    got = _core.run(file, settings(set), out, pictures)
+    got = _core.run(file, settings(set), out, pictures, coverage)
     outcome = got["outcome"]
     return Run(passed=outcome["passed"], failure=outcome["failure"], checks=[Check(**check) for check in outcome["checks"]],
                events=[Event(*event) for event in got["events"]], trace=table(got["columns"], got["units"]),
-               units=got["units"], notes=got["notes"], outcome=outcome)
+               units=got["units"], notes=got["notes"], outcome=outcome,
+               coverage={file: Covered(**covered) for file, covered in got["coverage"].items()})
 
 
 class Simulation(_core.Simulation):

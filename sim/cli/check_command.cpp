@@ -184,7 +184,7 @@ class Checker {
     }
     if (const auto text = read_file(file, problems_)) {
       auto program =
-          qmove::compile_module(*text, file.string(), *configuration_, devices::catalogue(), problems_);
+          qmove::compile_module(*text, file.string(), *configuration_, devices::catalogue(), problems_, true);
       notes_.insert(notes_.end(), program.notes.begin(), program.notes.end());
     }
   }

@@ -24,6 +24,7 @@
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/parallel.hpp"
+#include "sim/report/coverage.hpp"
 #include "sim/report/index.hpp"
 #include "sim/report/results.hpp"
 #include "sim/studies/compare/scene_run.hpp"
@@ -34,7 +35,8 @@ namespace {
 
 /// Takes the folders of all results; what lies in them and is not ours is told before anything runs.
 void open_folders(Work& work, const RunOptions& options, Problems& problems) {
-  work.folder.emplace(options.out, "runs", std::vector<std::string>{junit_file, report::index_file},
+  work.folder.emplace(options.out, "runs",
+                      std::vector<std::string>{junit_file, report::index_file, report::coverage_file},
                       problems);
   std::set<std::filesystem::path> between;
   const auto add = [&](const std::filesystem::path& name) {
@@ -106,6 +108,7 @@ void run_job(Job& job, const RunOptions& options, int threads,
   request.pictures = options.pictures;
   request.gltf = options.gltf;
   request.strict = options.strict;
+  request.coverage = options.coverage;
   request.half = job.half ? &*job.half : nullptr;
   request.threads = threads;
   request.states = options.every;
@@ -139,7 +142,8 @@ void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options)
       return;
     }
     // What a run leaves in a retentive file is a result too, and the next one's input.
-    const bool may_be_kept = cache && !loop::retentive_file(job.scenario) && !job.from && !options.every;
+    const bool may_be_kept =
+        cache && !loop::retentive_file(job.scenario) && !job.from && !options.every && !options.coverage;
     try {
       if (may_be_kept && is_unchanged(job, *cache, options)) return;
       run_job(job, options, drawing_threads, show);
@@ -193,6 +197,15 @@ int status_of(const Work& work) {
   for (const auto& job : work.jobs) take(job->trouble, job->result.outcome);
   for (const auto& group : work.groups) take(group.trouble, group.result.outcome);
   return status;
+}
+
+/// That of all scenarios, counts added up.
+void write_coverage(Work& work, Say say) {
+  devices::Coverage all;
+  for (const auto& job : work.jobs) all.add(job->left.coverage);
+  const auto file = work.folder->add(report::coverage_file);
+  write_file(file, devices::lcov_text(all));
+  if (say != Say::failures) fmt::print("coverage: {}, {}\n", report::coverage_text(all), file.string());
 }
 
 /// What came of all of them, told on the terminal.
@@ -278,6 +291,7 @@ int run_scenarios(const RunOptions& given) {
   try {
     report::write_junit(results, work.folder->add(junit_file));
     report::write_index(options.out, *work.folder);
+    if (options.coverage) write_coverage(work, options.say);
     annotate(options.annotate, annotations);
     if (!options.summary.empty())
       write_file(
@@ -305,13 +319,17 @@ void run_options(CLI::App& run, int& status) {
   run.add_flag("--verify-step", options.verify_step,
                "Run again at half scene.step and tell how far every check's margin moved");
   run.add_flag("--strict", options.strict, "Warnings fail it, too: exit status 1");
+  auto* coverage = run.add_flag("--coverage", options.coverage,
+                                "Count which lines and branches of the controllers' programs run: "
+                                "coverage.info for lcov and genhtml");
   run.add_option("--states", options.states,
                  "Keep the run's moments so often, \"1 s\": to come back to them, and to go on after a kill");
   run.add_option("--keep", options.most_states, "With --states: so many moments, evenly over the run")
       ->check(CLI::Range(4, 100000))
       ->capture_default_str();
   run.add_option("--resume", options.resume, "Go on with a run that was stopped: the folder of its results")
-      ->excludes(run.get_option("--out"));
+      ->excludes(run.get_option("--out"))
+      ->excludes(coverage);
   run.add_option(
       "--from", options.from,
       "Branch off a run at a time, \"out/line@12.5 s\": from there on with this scenario and --set");

@@ -20,6 +20,7 @@ struct RunOptions {
   bool pictures = true;
   bool verify_step = false;           ///< again at half the step: how far every margin moves
   bool strict = false;                ///< warnings fail it, too
+  bool coverage = false;              ///< of the controllers' programs
   bool gltf = false;                  ///< the run as an animated .glb file, with or without pictures
   std::vector<std::string> set = {};  ///< "plants.web.speed=80 m/min"
   Say say = Say::results;

@@ -24,6 +24,7 @@
 #include "sim/loop/shutter.hpp"
 #include "sim/loop/signs.hpp"
 #include "sim/report/chosen_frames.hpp"
+#include "sim/report/coverage.hpp"
 #include "sim/report/drives.hpp"
 #include "sim/report/gallery_plots.hpp"
 #include "sim/report/key_figures.hpp"
@@ -269,6 +270,7 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
   }
   rows.finish();
   if (!others.rows.empty()) report.tables.push_back(std::move(others));
+  if (auto table = coverage_table(simulation); !table.rows.empty()) report.tables.push_back(std::move(table));
   if (auto table = controller_table(simulation); !table.rows.empty())
     report.tables.push_back(std::move(table));
   if (const auto* plcopen = controllers::controller_of<controllers::PlcopenSection>(scenario))

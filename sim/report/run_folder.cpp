@@ -7,11 +7,13 @@
 #include <iterator>
 #include <memory>
 
+#include "base/output_file.hpp"
 #include "renders/gltf.hpp"
 #include "sim/cams/judged.hpp"
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/shutter.hpp"
 #include "sim/record/hdf5_file.hpp"
+#include "sim/report/coverage.hpp"
 #include "sim/report/film.hpp"
 #include "sim/report/gallery.hpp"
 #include "sim/report/torque.hpp"
@@ -25,7 +27,7 @@ namespace {
 std::vector<std::string> files_of_run(const std::string& scene_file) {
   auto names = picture_files;
   names.insert(names.end(), {trace_file, events_file, hdf5_file, checks_file, scenario_file, scene_file,
-                             record::verdict_file, loop::states_folder});
+                             coverage_file, record::verdict_file, loop::states_folder});
   return names;
 }
 
@@ -57,6 +59,7 @@ void RunFolder::begin(bool keeps_states) {
 RunLeft RunFolder::run(const scenario::Scenario& scenario, loop::Simulation& simulation,
                        const PartMeshes& meshes, const RunRequest& request, RunResult& result) {
   const bool is_drawn = request.pictures || request.gltf;
+  if (request.coverage && simulation.controller() != nullptr) simulation.controller()->count_programs();
   simulation.follow_cams(cams::cam_judgement, request.pictures);
   if (request.pictures) follow_torques(scenario, simulation);
   if (!is_drawn && !request.in_memory && !request.states) simulation.keep_nothing();
@@ -100,6 +103,10 @@ RunLeft RunFolder::run(const scenario::Scenario& scenario, loop::Simulation& sim
     });
 
   write_scenario(scenario, files_.add(scenario_file));
+  if (request.coverage) {
+    left.coverage = coverage_of(scenario, simulation);
+    write_file(files_.add(coverage_file), devices::lcov_text(left.coverage));
+  }
   loop::keep_retentive(scenario, simulation.retentive_state());
   if (!hdf5.empty() && outcome.failure.empty()) record::add_outcome(hdf5, outcome);
   if (is_drawn) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/problem.hpp"
+#include "devices/coverage.hpp"
 #include "sim/loop/kept_states.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/output_folder.hpp"
@@ -17,6 +18,7 @@ struct RunRequest {
   bool pictures = true;                ///< frames, film, plots and report
   bool gltf = false;                   ///< the run as an animated scene
   bool strict = false;                 ///< warnings fail it
+  bool coverage = false;               ///< of the controller's programs
   bool in_memory = false;              ///< rows and events are read behind it, whatever is drawn
   scenario::Scenario* half = nullptr;  ///< the same at half its step, to be run too; it is used up
   int threads = 1;                     ///< that draw
@@ -33,6 +35,7 @@ struct RunRequest {
 struct RunLeft {
   std::string left_out = {};         ///< because a helper program is missing, and what to install
   std::filesystem::path scene = {};  ///< the glTF file, "" = none
+  devices::Coverage coverage = {};   ///< by files as seen from the current folder
   std::string states_lost = {};      ///< why no more states were kept, "" = they were
   double simulating = 0;             ///< [s] of the clock, the run alone
 };

@@ -130,6 +130,24 @@ class RunTest(unittest.TestCase):
         self.assertLessEqual(abs(torque).max(), drive["ratings"]["peak_torque"] * 1.001)
         self.assertTrue(np.isfinite(speed).all())
 
+    def test_coverage_is_that_of_the_program(self):
+        self.assertEqual(self.run_.coverage, {})
+        with tempfile.TemporaryDirectory() as folder:
+            short = {"scene.duration": "1 s"}
+            run = drycut.run(KNIFE, set=short, coverage=True)
+            subprocess.run([PROGRAM, "run", KNIFE, "--no-pictures", "--coverage", "--set", "scene.duration=1 s", "--out", folder],
+                           check=False, capture_output=True)
+            text = pathlib.Path(folder, "coverage.info").read_text(encoding="utf-8")
+            drycut.run(KNIFE, set=short, coverage=True, pictures=False, out=os.path.join(folder, "out"))
+            self.assertEqual(pathlib.Path(folder, "out", "coverage.info").read_text(encoding="utf-8"), text)
+        (file, covered), = run.coverage.items()
+        self.assertIn(f"SF:{file}\n", text)
+        for line, count in covered.lines.items():
+            self.assertIn(f"DA:{line},{count}\n", text)
+        self.assertGreater(len(covered.lines), 10)
+        self.assertTrue(set(covered.branches) <= set(covered.lines))
+        self.assertIsInstance(covered.never, str)
+
     def test_gives_a_frame(self):
         try:
             import pandas  # noqa: F401
@@ -589,6 +607,19 @@ class VerbsTest(unittest.TestCase):
         self.assertEqual(drycut.plants("rotary_knife", json=True).text, text)
         _, text = self.program("check", KNIFE, "--expand", "--set", "scene.duration=5 s")
         self.assertEqual(drycut.check([KNIFE], expand=True, set=SHORT).text, text)
+
+    def test_runs_the_tests_of_programs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = os.path.join(folder, "sign_test.st")
+            for value, status in ((1, 0), (2, 1)):
+                pathlib.Path(program).write_text(
+                    f"FUNCTION_BLOCK TEST_One\nAssertEquals(1, {value}, 'one');\nEND_FUNCTION_BLOCK\n", encoding="utf-8")
+                ran = drycut.test([program])
+                self.assertEqual(ran.status, status)
+                self.assertEqual((ran.status, ran.text), self.program("test", program))
+            self.assertIn("sign_test.st:2: expected 1, was 2: one", ran.text)
+            with self.assertRaises(drycut.BadInput):
+                drycut.test([KNIFE])
 
     def test_raises_what_the_program_refuses(self):
         with self.assertRaises(drycut.BadInput) as told:

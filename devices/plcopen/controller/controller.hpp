@@ -81,6 +81,8 @@ class PlcopenController : public Controller {
   /// for each of its instances, four at most.
   [[nodiscard]] std::vector<ProgramText> programs() override;
   void watch_programs(bool on) override { runtime_.watch(on); }
+  void count_programs() override { runtime_.count(); }
+  void add_coverage(Coverage& to) const override { runtime_.add_coverage(to, files_); }
   [[nodiscard]] ProgramPositions positions(std::int64_t time_ns) const override;
   [[nodiscard]] std::vector<ProgramWait> waits() override;
   [[nodiscard]] std::vector<PositionLoop> position_loops() override;

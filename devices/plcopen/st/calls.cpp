@@ -184,6 +184,7 @@ TypedExpression Expressions::function_call(const StToken& name, const std::vecto
     return user_call(*unit, name, given);
   const auto argument_of = [this](const Tree& tree, const Type* type) { return typed(tree, type); };
   if (auto value = reference_call(name, given)) return std::move(*value);
+  if (auto value = assertion_call(name, given)) return std::move(*value);
   if (auto value = standard_call(*this, name, given, wanted, argument_of)) return std::move(*value);
   for (const Argument& argument : given) typed(*argument.tree);
   const bool block = find_block_type(name.text) != nullptr || find_unit(name.text) != nullptr;

@@ -125,7 +125,10 @@ enum class StOp : std::uint8_t {
   text,             ///< TextOp imm of b nodes from list a on
   in_range,         ///< value a, which must lie in the Span c
   time_now,         ///< of the controller [ms]
-  passes,           ///< FOR: a is not yet beyond b with step c
+  /// AssertEquals and its like: Assertion imm; from list a on the nodes of what is expected, what is, how far
+  /// they may lie apart, and the address of a text.
+  assertion,
+  passes,  ///< FOR: a is not yet beyond b with step c
 
   // Statements.
   evaluate,     ///< a value that nobody wants
@@ -190,6 +193,9 @@ constexpr std::size_t texts_of(TextOp op, std::size_t inputs) {
   return op == TextOp::insert || op == TextOp::replace || op == TextOp::find ? 2 : 1;
 }
 
+/// What tests say: of two values of the type `basic`; what they are called; that they have come to their end.
+enum class Assertion : std::uint8_t { equal, title, finished };
+
 /// Bounds of an array and the size of its elements.
 struct Span {
   std::int64_t low = 0;
@@ -234,6 +240,7 @@ constexpr StOperand unpacked(int number) {
 /// One step of the machine. Most put into the cell `a` what comes of the cells `b` and `c`; of an operation
 /// without effects `op` is that itself. The others:
 ///
+/// assertion: Assertion b, its operands in list d; a becomes whether it holds.
 /// move, time_now: b, the time. place: the place of the cell b. fetch: the cell d behind the address b. put:
 /// b into the cell d behind the address a. follow: d behind the address b. element: element c of the array at
 /// the address b, d its Span. dereference: d behind what the reference b is of, Referent c. make_reference:
@@ -270,6 +277,7 @@ struct Origin {
   bool standard = false;  ///< it is none of the text
   /// It decides a condition: by its jump to FALSE, and as the last of several by going on to TRUE.
   enum class Condition : std::uint8_t { none, part, last } condition = Condition::none;
+  int decision = -1;  ///< it jumps where this condition of the text does not hold; they are counted up
 };
 
 /// A body: of a PROGRAM, a FUNCTION or a user's function block.
@@ -279,6 +287,8 @@ struct Pou {
   int result = 0;                ///< FUNCTION: offset of its result
   std::vector<Subrange> resets;  ///< offsets that get their initial values at each call, the last included
   const Type* type = nullptr;
+  std::string name;  ///< with its block's, of a method
+  int line = 0;      ///< of the name in the text; 0: a standard block, or nothing
 };
 
 /// Where a symbol's cell is.
@@ -316,6 +326,15 @@ struct Compiled {
   };
   std::vector<Instance> instances;  ///< as Program::instances
   std::vector<Program::Instance> instance_names;
+  /// With CompileOptions::tests, whose units are the instances.
+  struct Test {
+    std::string name;
+    int line = 0;
+    std::size_t instance = 0;
+    int method = -1;        ///< POU; -1: the body of the instance
+    bool finishes = false;  ///< it says when it has come to its end
+  };
+  std::vector<Test> tests;
   std::vector<Program::Task> tasks;
   bool configured = false;       ///< there is a CONFIGURATION
   std::vector<int> singles;      ///< for each task the cell of its SINGLE, or -1

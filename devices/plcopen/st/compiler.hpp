@@ -51,6 +51,11 @@ class Expressions : public Values {
   /// Notes a table's file that the text names.
   void cam_file(const StToken& text);
   int sequence_node(std::vector<int> statements, Place place);
+  // assertions.cpp
+  /// AssertTrue and its like, as far as the text may call them.
+  std::optional<TypedExpression> assertion_call(const StToken& name, const std::vector<Argument>& given);
+  bool asserts_ = false;  ///< all units may, not only tests
+
   /// The statements that give an instance's inputs and take its outputs.
   struct BlockCall {
     std::size_t unnamed = 0;      ///< so many arguments had no name
@@ -297,6 +302,9 @@ class Compiler : public Statements {
   std::size_t end_of_unit(std::size_t opening, std::string_view closing);
   void place_in_files();
   void check_programs();
+  // assertions.cpp
+  [[nodiscard]] bool has_tests() const;
+  void find_tests();
   void check_calls();
   void check_depth();
   void tell_recursion(const Unit& called, const Unit& caller);

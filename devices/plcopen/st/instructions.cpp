@@ -87,6 +87,7 @@ class InstructionMaker {
       case StOp::call_function:
       case StOp::call_method:
       case StOp::enabled:
+      case StOp::assertion:
         return true;
       case StOp::constant:
       case StOp::load:
@@ -221,6 +222,8 @@ class InstructionMaker {
         return enabled(number, to);
       case StOp::text:
         return text(number, to);
+      case StOp::assertion:
+        return assertion(number, to);
       case StOp::call_function:
       case StOp::call_method:
         return call(number, to);
@@ -295,6 +298,15 @@ class InstructionMaker {
     emit(n.op, number, to, raw(n.imm), {}, put_list(list));
   }
 
+  void assertion(int number, StOperand to) {
+    const Node& n = node(number);
+    const std::vector<int> parts = listed(n.a, 4);
+    std::vector<int> list;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      list.push_back(packed(kept_for(parts[i], parts, i + 1, 1)));
+    emit(n.op, number, to, raw(n.imm), {}, put_list(list));
+  }
+
   /// A value that stays while each `step`th of `parts` from `next` on is computed.
   StOperand kept_for(int number, const std::vector<int>& parts, std::size_t next, std::size_t step) {
     for (; next < parts.size(); next += step)
@@ -345,10 +357,13 @@ class InstructionMaker {
     Jumps jumps;
     part_of_condition(number, jumps);
     temporaries_ = kept;
+    const bool of_text = static_cast<std::size_t>(number) < nodes_.of_text;
+    if (of_text) ++decisions_;
     for (const int jump : jumps) {
       Origin& origin = code_.origins[static_cast<std::size_t>(jump)];
       origin.line = node(number).line;
-      if (shown && static_cast<std::size_t>(number) < nodes_.of_text)
+      if (of_text) origin.decision = decisions_;
+      if (shown && of_text)
         origin.condition = jump == jumps.back() ? Origin::Condition::last : Origin::Condition::part;
     }
     return jumps;
@@ -532,6 +547,7 @@ class InstructionMaker {
   std::vector<signed char> acts_ = std::vector<signed char>(nodes_.nodes.size(), -1);  ///< -1: not known yet
   std::size_t temporaries_ = 0;
   int statement_ = -1;       ///< whose first instruction comes next
+  int decisions_ = -1;       ///< the last one
   Jumps* leaves_ = nullptr;  ///< EXIT of the loop
   Jumps* turns_ = nullptr;   ///< CONTINUE
 };

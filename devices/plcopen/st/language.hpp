@@ -66,6 +66,8 @@ inline constexpr std::array statements{
     StRow{"( )  **  - NOT  * / MOD  + -  < > <= >=  = <>  AND &  XOR  OR", "operators, the strongest first"},
     StRow{"AND_THEN  OR_ELSE", "the right side only where it counts"},
     StRow{"w.3  w.%X3  w.%B1  w.%W0  w.%D0", "a bit, a byte, a word, a double word of a number"},
+    StRow{"AssertTrue(c, 'text');  AssertFalse  AssertEquals(expected, actual, 'text');",
+          "in tests, as TcUnit has them: drycut test runs them; TEST('title'), TEST_FINISHED()"},
 };
 
 inline constexpr std::array standard_functions{

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/state_archive.hpp"
+#include "devices/coverage.hpp"
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/code.hpp"
 #include "devices/plcopen/st/references.hpp"
@@ -105,8 +106,10 @@ void Machine::steps(int first, std::int64_t own) {
     const StInstruction& i = *next++;
     --work_;
     statements_ += static_cast<std::int64_t>(i.statement);
-    if constexpr (watched)
+    if constexpr (watched) {
       if (i.statement) note_statement(origin(i));
+      if (trace_->counts != nullptr) ++trace_->counts->passed[static_cast<std::size_t>(&i - begin)];
+    }
     const auto whole = [&](std::uint64_t result) { cell(i.a) = wrapped(i.basic, static_cast<Cell>(result)); };
     const auto bits = [&](const StOperand& of) { return static_cast<std::uint64_t>(cell(of)); };
     const auto truth = [&](bool holds) { cell(i.a) = holds ? 1 : 0; };
@@ -121,6 +124,8 @@ void Machine::steps(int first, std::int64_t own) {
         const Origin& of = origin(i);
         if (of.condition == Origin::Condition::last || (of.condition == Origin::Condition::part && !holds))
           note(of.line, holds ? '+' : '-');
+        if (!holds && trace_->counts != nullptr)
+          ++trace_->counts->refused[static_cast<std::size_t>(&i - begin)];
       }
       if (!holds) next = begin + i.d;
     };
@@ -261,6 +266,9 @@ void Machine::steps(int first, std::int64_t own) {
         break;
       case StOp::text:
         cell(i.a) = text_value(i, bases);
+        break;
+      case StOp::assertion:
+        cell(i.a) = assertion(i, bases);
         break;
 
       case StOp::store_bits:

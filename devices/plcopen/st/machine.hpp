@@ -9,6 +9,11 @@
 
 #include "devices/plcopen/st/code.hpp"
 
+namespace drycut::devices {
+struct Counts;
+struct TestLog;
+}  // namespace drycut::devices
+
 namespace drycut::devices::plcopen::st {
 
 /// An error of a program while it runs; told as Runtime::fault.
@@ -25,6 +30,7 @@ struct Trace {
   std::string lines;
   /// The line of each statement in the order of their execution, as far as there is room; nullptr: not kept.
   std::vector<int>* order = nullptr;
+  Counts* counts = nullptr;  ///< of the instructions; nullptr: not counted
 };
 
 /// The memory of a program and what runs on it.
@@ -40,9 +46,14 @@ class Machine {
   void start(bool all);
   /// Runs one program once; throws RuntimeError.
   void run(const Compiled::Instance& program, std::int64_t time_ms);
+  /// The same of a test.
+  void run(const Compiled::Test& test, std::int64_t time_ms);
 
   /// What is executed from now on goes there; nullptr: nowhere, and costs nothing.
   void trace(Trace* to) { trace_ = to; }
+
+  /// What tests say goes there; nullptr: nowhere.
+  void log_tests(TestLog* to) { test_log_ = to; }
 
   /// Statements executed so far, each round of a loop one more.
   [[nodiscard]] std::int64_t statements() const { return statements_; }
@@ -121,6 +132,9 @@ class Machine {
   void copy_string(std::int64_t from, std::int64_t to, std::size_t length);
   void put_string(std::string_view text, std::int64_t to, std::size_t length);
 
+  // assertions.cpp
+  Cell assertion(const StInstruction& of, const Bases& bases);
+
   // machine_calls.cpp
   Cell call_function(const StInstruction& of, const Bases& bases);
   Cell call_method(const StInstruction& of, const Bases& bases);
@@ -141,6 +155,7 @@ class Machine {
   std::int64_t work_ = 0;  ///< that is left in this scan
   std::int64_t statements_ = 0;
   Trace* trace_ = nullptr;
+  TestLog* test_log_ = nullptr;
 };
 
 }  // namespace drycut::devices::plcopen::st

@@ -90,6 +90,7 @@ class Program {
 
 struct CompileOptions {
   bool library = false;  ///< it may have no PROGRAM: then there is nothing to run
+  bool tests = false;    ///< what runs are its tests: see tests.hpp
 };
 
 /// Compiles the files of a program, one at least, whose order is of no account. All its faults go to

@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "devices/due.hpp"
 #include "devices/plcopen/st/code.hpp"
+#include "devices/plcopen/st/coverage.hpp"
 #include "devices/plcopen/st/machine.hpp"
 
 namespace drycut::devices::plcopen::st {
@@ -78,7 +79,7 @@ struct Runtime::State {
     order.clear();
     try {
       for (const std::size_t number : task.programs) {
-        if (watched) trace(number);
+        if (watched || counts) trace(number);
         machine.run(instances[number], time_ns / ns_per_ms);
       }
     } catch (const StError& error) {
@@ -90,10 +91,9 @@ struct Runtime::State {
   /// Has the machine tell what it executes of a program from now on.
   void trace(std::size_t number) {
     traces.resize(program.compiled().instances.size());
-    std::string& lines = traces[number].lines;
-    if (lines.empty()) lines.assign(static_cast<std::size_t>(program.lines().count()), ' ');
-    std::fill(lines.begin(), lines.end(), ' ');
-    traces[number].order = statement_ns > 0 ? &order : nullptr;
+    if (watched) traces[number].lines.assign(static_cast<std::size_t>(program.lines().count()), ' ');
+    traces[number].order = watched && statement_ns > 0 ? &order : nullptr;
+    traces[number].counts = counts ? &*counts : nullptr;
     machine.trace(&traces[number]);
   }
 
@@ -104,6 +104,7 @@ struct Runtime::State {
   std::int64_t free_ns = 0;  ///< the last task has ended
   std::optional<RuntimeFault> fault;
   bool watched = false;
+  std::optional<Counts> counts = {};
   std::vector<Trace> traces = {};  ///< of each program; none before it ran
   std::vector<int> order = {};     ///< lines of the statements of the task that ran last
 };
@@ -205,6 +206,12 @@ void Runtime::watch(bool on) {
   state_->machine.trace(nullptr);
   state_->traces.clear();
   state_->order.clear();
+}
+
+void Runtime::count() { state_->counts.emplace(state_->program.compiled().code.size()); }
+
+void Runtime::add_coverage(Coverage& to, std::span<const std::string> files) const {
+  if (state_->counts) to.add(coverage_of(state_->program.compiled(), *state_->counts, files));
 }
 
 std::string Runtime::scanned() const {

@@ -11,6 +11,10 @@
 #include "devices/plcopen/pins.hpp"
 #include "devices/plcopen/st/program.hpp"
 
+namespace drycut::devices {
+struct Coverage;
+}
+
 namespace drycut::devices::plcopen::st {
 
 /// A scalar of the program by the name that people give it: "count", "CamIn.InSync", "pos[3]", "state".
@@ -92,6 +96,10 @@ class Runtime {
   void set_located(std::size_t i, bool level);
   /// Whether somebody looks at what scans execute; costs time.
   void watch(bool on);
+  /// Counts from now on what runs, which costs time.
+  void count();
+  /// Adds what was counted; `files` names the program's files.
+  void add_coverage(Coverage& to, std::span<const std::string> files) const;
   /// What each program's last run did, together: see devices::ProgramPositions; "" before there is one.
   [[nodiscard]] std::string scanned() const;
   /// Where statements take time: the line of the statement that has its time `into_ns` after the beginning of

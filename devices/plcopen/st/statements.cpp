@@ -25,6 +25,8 @@ void Statements::compile_body(Unit& unit) {
     skip_statement();
   }
   pou(unit).body = sequence_node(std::move(all), unit.name.place);
+  pou(unit).name = told_name(unit);
+  pou(unit).line = unit.standard ? 0 : unit.name.place.line;
 }
 
 /// What the body sees of its inputs with R_EDGE and F_EDGE.

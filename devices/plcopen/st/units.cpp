@@ -35,6 +35,7 @@ std::shared_ptr<const Compiled> Compiler::run() {
   find_units(false);
   find_units(true);
   find_bases();
+  asserts_ = options_.tests || (options_.library && has_tests());
   // Types may have constants as bounds.
   for (const auto& unit : units_)
     if (unit->kind == Unit::Kind::globals && tokens_[unit->first + 1].word("CONSTANT")) declare(*unit);
@@ -45,7 +46,10 @@ std::shared_ptr<const Compiled> Compiler::run() {
       if (unit->kind == kind && !unit->standard) declare(*unit);
   check_methods();
   check_programs();
-  read_configuration();
+  if (options_.tests)
+    find_tests();
+  else
+    read_configuration();
   place_memory();
   compile_bodies();
   connect_instances();
@@ -218,7 +222,7 @@ void Compiler::place_in_files() {
 }
 
 void Compiler::check_programs() {
-  if (options_.library) return;
+  if (options_.library || options_.tests) return;
   const auto is_program = [](const auto& unit) { return unit->kind == Unit::Kind::program; };
   // A PROGRAM that is there but could not be read has been told.
   if (std::none_of(units_.begin(), units_.end(), is_program) && told() == 0)

@@ -52,9 +52,12 @@ struct Unit {
   [[nodiscard]] bool tells_kind() const {
     return extended || !methods.empty() || !interfaces.empty() || base != nullptr;
   }
-  int levels = 1;  ///< how deep its statements and operations go; with those that it calls at the end
+  int levels = 1;        ///< how deep its statements and operations go; with those that it calls at the end
   int levels_below = 0;  ///< of what it calls
 };
+
+/// What people call it: "Ramp", of a method "Ramp.Up".
+std::string told_name(const Unit& unit);
 
 /// Behind the name of an input with R_EDGE or F_EDGE: its edge, and its value in the scan before. No name of
 /// a text has a quote.
