@@ -175,7 +175,7 @@ release: setup
 # Debian packages of the program, of the library and of the Python package.
 deb: release
 	$(call install,dpkg-dev)
-	cd $(RELEASE) && cpack
+	cd $(RELEASE) && SOURCE_DATE_EPOCH=$$(git log -1 --format=%ct) cpack
 
 lint: setup
 	$(call install,$(LINT_PACKAGES) $(TEST_PACKAGES))

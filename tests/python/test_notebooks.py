@@ -1,7 +1,7 @@
 """Every notebook of docs/notebooks runs from a fresh kernel, and says what is stored in it. Exit status 77: skipped.
 
-    test_notebooks.py          runs them and compares
-    test_notebooks.py --store  stores what they say now
+    test_notebooks.py [NAME...]  runs them, or those of these names, and compares
+    test_notebooks.py --store    stores what they say now
 """
 
 import glob
@@ -82,6 +82,9 @@ def faults(path):
 
 def main():
     books = sorted(glob.glob(os.path.join(SOURCE, "docs", "notebooks", "*.ipynb")))
+    names = [name for name in sys.argv[1:] if name != "--store"]
+    if names:
+        books = [os.path.join(SOURCE, "docs", "notebooks", name + ".ipynb") for name in names]
     bad = not books
     for path in books:
         if "--store" in sys.argv:
