@@ -63,10 +63,12 @@ Lx3vpController::Lx3vpController(il::IlProgram program, std::int64_t scan_ns, st
   add_used_terminals();
   add_names();
   reset_registers();
+  ticks_inputs_ = looks_at_inputs();
 }
 
 bool Lx3vpController::offer(const Address& address) {
   if (address.slot != 0) return false;
+  give_all_ = true;
   switch (address.kind) {
     case Kind::input:
       cards_.inputs.try_emplace(address);
@@ -104,7 +106,7 @@ void Lx3vpController::run_devices(std::int64_t time_ns) {
   if (!tick_.take(time_ns)) return;
   if (!powered_) return;
   if (std::exchange(power_up_due_, false)) power_up_ns_ = time_ns;
-  take_inputs();
+  if (ticks_inputs_) take_inputs();
   for (const auto& [number, counter] : counters_row_.of(cards_.counters))
     counters_.count(static_cast<int>(number), counter->count, registers_);
   CamPort cams = port();
@@ -118,7 +120,10 @@ void Lx3vpController::run_devices(std::int64_t time_ns) {
   }
   if (scanner_.has_interrupts() && !stopped_ && !halted_)
     scanner_.take_interrupts(inputs_, time_ns - power_up_ns_, registers_, *this);
-  give_outputs();
+  if (give_all_ || outputs_ != given_)
+    give_outputs();
+  else
+    give_pulses();
 }
 
 void Lx3vpController::run_tasks(std::int64_t time_ns) {
@@ -273,7 +278,9 @@ void Lx3vpController::visit(StateArchive& archive) {
   STATE(archive, scanner);
   std::vector<std::pair<int, std::string>> said(said_.begin(), said_.end());
   STATE(archive, said);
-  if (archive.restores()) said_ = {said.begin(), said.end()};
+  if (!archive.restores()) return;
+  said_ = {said.begin(), said.end()};
+  give_all_ = true;
 }
 
 void Lx3vpController::Recipe::visit(StateArchive& archive) { STATE(archive, type, saw, s_curve); }
@@ -335,6 +342,17 @@ void Lx3vpController::reset_registers() {
   registers_.d[8148] = default_ramp_ms;
 }
 
+bool Lx3vpController::looks_at_inputs() const {
+  if (scanner_.has_interrupts()) return true;
+  return std::any_of(program_.steps.begin(), program_.steps.end(), [](const il::Step& step) {
+    if (step.op() == il::Op::spd || step.op() == il::Op::ref) return true;
+    const bool may_wait = step.op() == il::Op::decam || step.op() == il::Op::zrn;
+    return may_wait &&
+           std::any_of(step.operands.begin(), step.operands.end(),
+                       [](const il::Operand& operand) { return operand.kind == il::OperandType::X; });
+  });
+}
+
 void Lx3vpController::take_inputs() {
   for (const auto& [number, input] : inputs_row_.of(cards_.inputs)) inputs_[number] = input->level;
 }
@@ -342,6 +360,13 @@ void Lx3vpController::take_inputs() {
 void Lx3vpController::give_outputs() {
   const bool on = !outputs_off_;
   for (const auto& [number, output] : outputs_row_.of(cards_.outputs)) output->level = outputs_[number] && on;
+  given_ = outputs_;
+  give_all_ = false;
+  give_pulses();
+}
+
+void Lx3vpController::give_pulses() {
+  const bool on = !outputs_off_;
   for (const auto& [number, train] : trains_row_.of(cards_.pulse_outputs)) {
     const std::int64_t given = pulses_.pulses(static_cast<int>(number));
     // Pulses that stay inside are none of the terminal's.

@@ -117,7 +117,10 @@ class Lx3vpController : public Controller, private Instructions {
   void stop_pulses();
   void stop_outputs();
   void take_inputs();
+  /// Whether something looks at inputs between scans: a start signal, a dog, SPD, an interrupt, REF.
+  [[nodiscard]] bool looks_at_inputs() const;
   void give_outputs();
+  void give_pulses();
   void begin_scan(std::int64_t time_ns);
   void end_scan();
   void run_timed(std::int64_t time_ns);
@@ -166,6 +169,9 @@ class Lx3vpController : public Controller, private Instructions {
   PulseUnit pulses_;
   std::array<bool, terminals> inputs_{};  ///< levels of the terminals
   std::array<bool, terminals> outputs_{};
+  std::array<bool, terminals> given_{};  ///< what the terminals have of it
+  bool give_all_ = true;                 ///< the terminals may have something else: no state
+  bool ticks_inputs_ = false;            ///< inputs are taken every tick
   std::array<std::int64_t, pulse_outputs> pulses_before_{};  ///< given in earlier times of power
   bool powered_ = true;
   RegisterFace modbus_{powered_};

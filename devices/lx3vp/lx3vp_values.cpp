@@ -90,7 +90,10 @@ std::optional<ControllerValue> Lx3vpController::find(const std::string& name) {
   ControllerValue value{to_string(*named), "", {}, {}, {}};
   const auto at = static_cast<std::size_t>(named->number);
   if (named->kind == RegisterName::Kind::x) {
-    value.read = [this, at] { return inputs_[at] ? 1.0 : 0.0; };
+    value.read = [this, at] {
+      if (powered_ && !ticks_inputs_) take_inputs();
+      return inputs_[at] ? 1.0 : 0.0;
+    };
   } else if (named->kind == RegisterName::Kind::y) {
     value.read = [this, at] { return outputs_[at] ? 1.0 : 0.0; };
     value.write = [this, at](double on) { registers_.y[at] = on != 0; };

@@ -190,7 +190,7 @@ TEST_F(Slips, InTheInstructionListOfAKnife) {
       {i, "OUT     M12", "@OUT", "has 1 operand, not 0"},
       {i, "OUT     M12", "OUT     @X15", "does not take X15"},
       {i, "M15 Y0 Y4", "M15 @Y0", "has 5 operands, not 4"},
-      {i, "LD      X14", "LD      @M8033", "M8033 is not simulated; there are"},
+      {i, "LD      X14", "LD      @M8035", "M8035 is not simulated; there are"},
       {i, "DEMOV   E1.6666666 D506", "DEMOV   @1.6666 D506", "K10, H1F or E1.5"},
       {i, "DEMOV   E1.6666666 D506", "DEMOV   E1,@6666 D506", "E1,6666 has a decimal comma; write E1.6666"},
       {i, "MOV     K1 D1005", "MOV     K1 D1005\nLD X14\nSET @M12", "M12 has SET here and OUT in line 37",
