@@ -4,7 +4,7 @@
 
 namespace drycut {
 
-// Files that are built into the program, so that it works wherever it is moved: the meshes of scenes/meshes/,
+// Files that are built into the program, so that it works wherever it is moved: the LICENSE, the meshes of scenes/meshes/,
 // the motors of scenes/catalogue/, what a report is made of, in renders/assets/, and the lines of scenes/new/
 // with their programs (CMakeLists.txt).
 

@@ -136,6 +136,7 @@ inline constexpr CodeRow code_rows[] = {
     {"fit.unused-channel", "A recorded channel is not used", "A replay has no use for it.", "None: it is told for completeness."},
     {"fmu.archive", "A file is no FMU, or one that is not unpacked", "It is no zip archive, damaged, leads out of its folder, or grows beyond all measure.", "Export it again."},
     {"fmu.description", "The description of an FMU is wrong", "It contradicts itself or the standard, or is of another kind than co-simulation 2.0 or 3.0.", "Export it again, for co-simulation."},
+    {"fmu.failed", "A foreign FMU failed while the machine ran", "It crashed, gave no answer within its time, took more memory than it may, refused to go on, or gave what is no number.", "Look at it in the tool that wrote it; raise limits of the plant where it only needs more."},
     {"fmu.guest", "A foreign FMU has part in the line", "A plant is of the type fmu.", "None: it is told for completeness."},
     {"fmu.no-state", "A foreign FMU cannot keep its state", "It says so itself.", "Run the line without keeping moments, or take another FMU."},
     {"fmu.refused", "A foreign FMU cannot be loaded, or does not begin", "It is of another platform, lacks functions or libraries, or refuses its parameters.", "Look at it in the tool that wrote it."},

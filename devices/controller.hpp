@@ -152,6 +152,7 @@ struct ControllerValue {
   std::function<void(double)> write;  ///< empty if read-only; acts as a program's store does (device mailbox)
   std::optional<ValueRange> range = {};  ///< of one that can be written: the manual's, of a parameter
   bool of_table = false;                 ///< a row of a cam table: one of many, of which most are 0
+  std::string_view meaning = {};         ///< as the tables of devices have it; "" of the program's own
 
   /// What is wrong with giving it `number`, nullopt if it is taken as it is.
   [[nodiscard]] std::optional<ValueFault> misfit(double number) const {

@@ -65,8 +65,9 @@ bool Guest::Output::is_encoder() const { return is_pure_number(*variable); }
 
 void Guest::Output::visit(StateArchive& archive) { STATE(archive, value, encoder, signal, rises_before); }
 
-Guest::Guest(World& world, std::shared_ptr<const GuestType> type, const GuestType::Start& start, double every)
-    : world_(&world), type_(std::move(type)), every_(every) {
+Guest::Guest(World& world, std::string name, std::shared_ptr<const GuestType> type,
+             const GuestType::Start& start, double every)
+    : world_(&world), name_(std::move(name)), type_(std::move(type)), every_(every) {
   if (!type_) return;
   for (const auto& variable : type_->variables()) {
     if (variable.role == Role::input) {
@@ -78,7 +79,11 @@ Guest::Guest(World& world, std::shared_ptr<const GuestType> type, const GuestTyp
   }
   sent_.resize(inputs_.size());
   answer_.resize(outputs_.size());
-  guarded([&] { model_ = type_->start(start, answer_); });
+  try {
+    model_ = type_->start(start, answer_);
+  } catch (const std::exception& error) {
+    world_->fail(error.what());
+  }
   for (std::size_t n = 0; n < outputs_.size(); ++n) {
     auto& output = outputs_[n];
     output.value = answer_[n];
@@ -116,12 +121,15 @@ void Guest::find_edges() {
 
 // An exception of the model is the end of the run, with what was recorded kept.
 template <class Act>
-void Guest::guarded(const Act& act) {
+void Guest::guarded(double at, const Act& act) {
+  now_ = at;
   if (!world_->failure().empty()) return;
   try {
     act();
   } catch (const std::exception& error) {
-    world_->fail(error.what());
+    world_->fail(fmt::format("{} at {:.9g} s: {}", name_, at, error.what()));
+    failed_ = true;
+    happened({"failed", 1, {}});
   }
 }
 
@@ -137,16 +145,16 @@ void Guest::drive(double h) {
   const auto at = static_cast<double>(steps_ * nanoseconds_of_step) / nanoseconds;
   const auto size = static_cast<double>(whole * nanoseconds_of_step) / nanoseconds;
   for (std::size_t n = 0; n < inputs_.size(); ++n) sent_[n] = inputs_[n].own();
-  guarded([&] {
+  guarded(at, [&] {
     model_->begin_step(at, size, sent_);
     waits_ = true;
   });
 }
 
-void Guest::settle() {
+void Guest::settle(double at) {
   if (!waits_) return;
   waits_ = false;
-  guarded([&] {
+  guarded(at, [&] {
     model_->end_step(answer_);
     for (std::size_t n = 0; n < outputs_.size(); ++n)
       if (!std::isfinite(answer_[n]))
@@ -162,7 +170,8 @@ void Guest::sense(double h) {
     output.encoder.before = output.encoder.now;
   }
   if (!model_ || steps_ % steps_of(h) != 0) return;
-  settle();
+  const double end = static_cast<double>(steps_) * h;
+  settle(end);
   if (!world_->failure().empty()) return;
   for (std::size_t n = 0; n < outputs_.size(); ++n) {
     auto& output = outputs_[n];
@@ -197,13 +206,13 @@ void Guest::visit(StateArchive& archive) {
   if (!model_) return;
   if (!type_->keeps_state())
     throw std::runtime_error("an FMU of this line cannot keep its state: no moment of it can be kept");
-  settle();
+  settle(now_);
   std::vector<std::byte> state;
-  if (!archive.restores()) guarded([&] { state = model_->save(); });
+  if (!archive.restores()) guarded(now_, [&] { state = model_->save(); });
   STATE(archive, steps_, waits_, sent_, answer_, state);
   archive.each("inputs", inputs_, [&](Input& input) { input.visit(archive); });
   archive.each("outputs", outputs_, [&](Output& output) { output.visit(archive); });
-  if (archive.restores()) guarded([&] { model_->restore(state); });
+  if (archive.restores()) guarded(now_, [&] { model_->restore(state); });
 }
 
 std::vector<Port> Guest::ports() {
@@ -252,8 +261,17 @@ std::vector<Setting> Guest::settings() {
   return settings;
 }
 
-void GuestDefinition::open(std::shared_ptr<const GuestType> type) {
+std::vector<EventType> Guest::event_types() {
+  return {
+      {"failed",
+       {},
+       "it crashed, hung, took too much memory, refused to go on, or gave what is no number: the run ends",
+       Severity::error}};
+}
+
+void GuestDefinition::open(std::shared_ptr<const GuestType> type, std::string name) {
   type_ = std::move(type);
+  name_ = std::move(name);
   given_.clear();
   if (!type_) return;
   const auto& variables = type_->variables();
@@ -328,7 +346,7 @@ std::unique_ptr<Plant> GuestDefinition::build(World& world,
     else
       start.parameters.emplace_back(given.variable, std::get<std::string>(given.value));
   }
-  return std::make_unique<Guest>(world, type_, start, every_);
+  return std::make_unique<Guest>(world, name_, type_, start, every_);
 }
 
 }  // namespace drycut::plants

@@ -92,8 +92,10 @@ class GuestType {
 /// last part ("encoder.index"). Drycut's own FMUs have them.
 class Guest : public Plant {
  public:
-  /// `type` may be null: then it has no variables. What fails is told to the world.
-  Guest(World& world, std::shared_ptr<const GuestType> type, const GuestType::Start& start, double every);
+  /// `type` may be null: then it has no variables. What fails is told to the world; in the run with `name`
+  /// and time, and as the event `failed`.
+  Guest(World& world, std::string name, std::shared_ptr<const GuestType> type, const GuestType::Start& start,
+        double every);
 
   void drive(double h) override;
   void sense(double h) override;
@@ -101,6 +103,8 @@ class Guest : public Plant {
   std::vector<Port> ports() override;
   std::vector<Channel> channels() override;
   std::vector<Setting> settings() override;
+  std::vector<EventType> event_types() override;
+  [[nodiscard]] bool has_failed() const { return failed_; }
 
  private:
   struct Input {
@@ -130,14 +134,17 @@ class Guest : public Plant {
   };
   void find_edges();
   void show_signal(Output& output, double begin, double h);
+  /// `at` [s] of the run.
   template <class Act>
-  void guarded(const Act& act);
-  void settle();
+  void guarded(double at, const Act& act);
+  void settle(double at);
   [[nodiscard]] std::int64_t steps_of(double h) const;
 
   World* world_;
+  std::string name_;
   std::shared_ptr<const GuestType> type_;
-  double every_;  // [s], 0 = the scene's step
+  double every_;    // [s], 0 = the scene's step
+  double now_ = 0;  // [s], where it steps or was kept last
   std::unique_ptr<GuestModel> model_;
   std::deque<Input> inputs_;
   std::deque<Output> outputs_;
@@ -145,13 +152,14 @@ class Guest : public Plant {
   std::vector<double> answer_;  // outputs that are seen from the end of the step on
   std::int64_t steps_ = 0;      // of the scene, since the start
   bool waits_ = false;          // for the answer
+  bool failed_ = false;
 };
 
 /// The parameters of a guest: where it is, how it steps, what it may take; and the model's own.
 class GuestDefinition : public PlantDefinition {
  public:
-  /// What its file says, before the parameters are read.
-  void open(std::shared_ptr<const GuestType> type);
+  /// What its file says, before the parameters are read; `name` of the plant, for messages.
+  void open(std::shared_ptr<const GuestType> type, std::string name);
   [[nodiscard]] const GuestType* type() const { return type_.get(); }
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] std::string& file() { return file_; }
@@ -168,6 +176,7 @@ class GuestDefinition : public PlantDefinition {
     std::variant<double, int, bool, std::string> value;
     std::variant<double, int, bool, std::string> start;
   };
+  std::string name_;
   std::string file_;
   double every_ = 0;
   double time_limit_ = 10;

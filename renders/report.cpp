@@ -165,10 +165,11 @@ void write_checks(ReportPage& page, const Report& report) {
     for (const ReportCheck& check : report.checks) {
       if (check.passed != passed) continue;
       page += fmt::format(R"(<tr class="{0}"><td><span class="badge {0}">{1}</span></td><td>{2})",
-                          check.nothing ? "doubt" : state(check.passed),
-                          check.nothing  ? "NOT JUDGED"
-                          : check.passed ? "PASS"
-                                         : "FAIL",
+                          check.nothing || check.so_far ? "doubt" : state(check.passed),
+                          check.so_far    ? "HELD SO FAR"
+                          : check.nothing ? "NOT JUDGED"
+                          : check.passed  ? "PASS"
+                                          : "FAIL",
                           html_text(check.name));
       if (!check.detail.empty()) page += fmt::format("<small>{}</small>", html_text(check.detail));
       page += fmt::format("</td><td><code>{}</code></td><td>{}{}</td></tr>\n", html_text(check.expectation),

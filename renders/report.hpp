@@ -21,6 +21,7 @@ struct ReportCheck {
   std::string detail;               ///< "15 cuts, worst length = 800.047 mm"
   std::optional<double> used = {};  ///< share of its limit, drawn as a bar: 1 = all of it, above: beyond it
   bool nothing = false;             ///< it passed, for it found nothing to judge
+  bool so_far = false;              ///< it held until the run stopped, which is no verdict
 };
 
 /// A figure that says much of a run in little room; they stand on top.
@@ -74,7 +75,7 @@ struct Report {
   std::string word;  ///< in place of PASS or FAIL where nothing was judged: "SAME", "DIFFERENT"
   Prose verdict;     ///< "all 5 checks passed", "2 of 5 checks failed", "the simulation stopped: ..."
   std::vector<ReportKey> keys = {};
-  std::vector<ReportRow> facts;  ///< label, value: duration, step, seed, versions
+  std::vector<ReportRow> facts;   ///< label, value: duration, step, seed, versions
   Prose checks_title = "Checks";  ///< of which run, where there are several
   std::vector<ReportCheck> checks;
   std::vector<std::string> notes = {};  ///< what a reader should know besides, behind the checks

@@ -88,6 +88,8 @@ std::optional<ControllerValue> Lx3vpController::find(const std::string& name) {
   const auto named = parse_register(name);
   if (!named || !is_served(*named)) return std::nullopt;
   ControllerValue value{to_string(*named), "", {}, {}, {}};
+  for (const SpecialRegister& row : special_registers())
+    if (value.name == row.name || value.name == "D" + std::string(row.name)) value.meaning = row.meaning;
   const auto at = static_cast<std::size_t>(named->number);
   if (named->kind == RegisterName::Kind::x) {
     value.read = [this, at] {

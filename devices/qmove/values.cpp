@@ -152,9 +152,13 @@ std::optional<ControllerValue> QmoveController::find(const std::string& name) {
       value.read = [this, index, symbol] {
         return static_cast<double>(machine_.devices[index]->read(symbol));
       };
-      if (symbol.kind == Symbol::Kind::state) break;
+      if (symbol.kind == Symbol::Kind::state) {
+        value.meaning = type.states[static_cast<std::size_t>(symbol.index)].meaning;
+        break;
+      }
       const DeviceVariable& variable = type.variables[static_cast<std::size_t>(symbol.index)];
       value.unit = variable.unit;
+      value.meaning = variable.meaning;
       value.of_table = variable.rows > 1;
       value.range = ValueRange{variable.min, variable.max, true};
       if (variable.access == Access::read_write)

@@ -54,6 +54,8 @@ struct Check {
   [[nodiscard]] bool judged_nothing() const { return passed && !doubt.empty() && !used; }
   /// Where it held at none of its instants: what there was, "AxisX.st_error 0", "Axis.follerr -12 to 80".
   Prose throughout = {};
+  bool so_far =
+      false;  ///< it has held, but the run stopped before all of it could be judged: `passed` is no verdict
 
 #if __cplusplus >= 202002L
   bool operator==(const Check&) const = default;
@@ -78,6 +80,7 @@ struct Check {
     archive("too_few", self.too_few);
     archive("deadline", self.deadline);
     archive("throughout", self.throughout);
+    archive("so_far", self.so_far);
   }
   /// Members that terminal, junit.xml, annotations, summary and report tell as they stand behind the margin,
   /// "late by 0.25". The others are in sentences, or for programs.

@@ -60,6 +60,7 @@ class Check(_Check):
     names        of what it looks at: "length", "AxisX.follerr"
     deadline     its limit is a time by which something has come
     throughout   where it held at none of its instants: what there was; "" else
+    so_far       it held until the run stopped, with more to judge: `passed` is no verdict then
     """
 
     failed_at: float | None
@@ -71,6 +72,7 @@ class Check(_Check):
     names: list[str]
     deadline: bool
     throughout: str
+    so_far: bool
 
     def __new__(cls, *args: Any, **named: Any) -> "Check":
         check = super().__new__(cls, *args, **{key: named.pop(key) for key in cls._fields if key in named})

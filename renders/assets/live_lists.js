@@ -62,7 +62,8 @@ export class Verdicts {
     if (!outcome) return;
     const failed = outcome.checks.filter((check) => !check.passed).length;
     by("checks").replaceChildren(...outcome.checks.map((check) => make("li", {},
-      make("span", { className: "badge " + (check.passed ? "pass" : "fail"), textContent: check.passed ? "PASS" : "FAIL" }),
+      make("span", { className: "badge " + (check.so_far ? "told" : check.passed ? "pass" : "fail"),
+        textContent: check.so_far ? "HELD SO FAR" : check.passed ? "PASS" : "FAIL" }),
       make("div", {}, check.name, make("small", { textContent: check.detail })))));
     const mark = by("checks-mark");
     mark.textContent = failed > 0 ? String(failed) : "";

@@ -146,6 +146,9 @@ class Checker {
       const loop::Simulation simulation(scenario, problems_);
       report::load_part_meshes(scenario, simulation.plants(), problems_);
       take_notes(file.string(), simulation);
+      // That there is a guest is of no use beside what is wrong.
+      if (problems_.size() > before)
+        std::erase_if(notes_, [](const Finding& note) { return note.code == "fmu.guest"_code.text(); });
     }
     if (expand_ && problems_.size() == before) fmt::print("{}", sim::scenario::expand(scenario));
   }

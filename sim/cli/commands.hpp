@@ -19,6 +19,8 @@ void add_commands(CLI::App& app, int& status);
 /// drycut devices, drycut plants, drycut plants --motors: the tables; of one if `name` is given.
 int list_devices(const std::string& name, bool json);
 int list_plants(const std::string& name, bool json);
+/// drycut plants FILE.fmu: the variables of a foreign FMU.
+int list_fmu(const std::string& file, bool json);
 int list_motors(const std::string& name, bool json);
 /// drycut plants --units, drycut plants --motor-template: the file for a motor of `kind`, "" = servo.
 int list_units(const std::string& quantity, bool json);

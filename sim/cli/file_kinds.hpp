@@ -25,6 +25,7 @@ enum class FileKind {
   checks,
   hdf5,
   mcap,
+  fmu,
   report,
   junit,
   model,

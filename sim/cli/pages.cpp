@@ -10,6 +10,7 @@
 #include "base/problem.hpp"
 #include "base/text.hpp"
 #include "sim/cli/commands.hpp"
+#include "sim/cli/file_kinds.hpp"
 #include "sim/cli/verb.hpp"
 
 namespace drycut::sim::cli {
@@ -72,8 +73,10 @@ void plants_options(CLI::App& plants, int& status) {
            : instead->units ? list_units(name, json)
                             : list_plants(name, json);
   };
-  add_pages(plants, status, list,
-            "Plant type, such as rotary_knife; with --motors a motor, such as HG-SR202");
+  add_pages(
+      plants, status, list,
+      "Plant type, such as rotary_knife, or an FMU of others, drive.fmu; with --motors a motor, such as "
+      "HG-SR202");
   auto* motors = plants.add_flag(
       "--motors", instead->motors,
       "Motors for servo: {model: ...} and induction_motor: {model: ...}, or the values of one with "
@@ -97,8 +100,11 @@ Verb devices_verb() {
 }
 
 Verb plants_verb() {
-  return {
-      "plants", "List plant types, or the table of one", {"drycut plants rotary_knife"}, {}, plants_options};
+  return {"plants",
+          "List plant types, or the table of one, or the variables of an FMU that is to be one",
+          {"drycut plants rotary_knife", "drycut plants drive.fmu"},
+          {},
+          plants_options};
 }
 
 int show(const PageKind& kind, const std::vector<Page>& pages, const std::string& name, bool json,
@@ -135,6 +141,7 @@ int list_devices(const std::string& name, bool json) {
 }
 
 int list_plants(const std::string& name, bool json) {
+  if (kind_of(name) == FileKind::fmu) return list_fmu(name, json);
   return show({"drycut plants", "plant type"}, plant_pages(), name, json);
 }
 

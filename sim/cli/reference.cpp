@@ -99,7 +99,7 @@ _drycut() {{
   case "$COMP_CWORD:${{COMP_WORDS[1]}}" in
     1:*) COMPREPLY=($(compgen -W "{} --help --version" -- "$word")); return ;;
     2:devices) COMPREPLY=($(compgen -W "{} --json --help" -- "$word")); return ;;
-    2:plants) COMPREPLY=($(compgen -W "{} --json --motors --motor-template --units --help" -- "$word")); return ;;
+    2:plants) COMPREPLY=($(compgen -W "{} --json --motors --motor-template --units --help" -- "$word") $(compgen -f -X '!*.fmu' -- "$word")); return ;;
   esac
   case "${{COMP_WORDS[1]}}" in
 {}  esac

@@ -56,7 +56,7 @@ bool put_together(Job& job, const std::string& name, const RunOptions& options, 
     claims.retentive(*kept, job.scenario.file, problems);
   if (options.gltf) job.scenario.pictures.frames = true;
   if (job.scenario.buildable) {
-    if (options.every) loop::refuse_guests_without_state(job.scenario, problems);
+    if (options.every) loop::refuse_guests_without_state(job.scenario, "without --states it runs", problems);
     job.simulation = std::make_unique<loop::Simulation>(job.scenario, problems);
     job.meshes = report::load_part_meshes(job.scenario, job.simulation->plants(), problems);
   } else if (problems.empty()) {

@@ -18,14 +18,13 @@ std::string verdict(bool passed, std::string_view word) {
 }
 
 /// Of a run that stopped nothing is ok that has only held so far.
-void print_checks(const std::vector<record::CheckResult>& checks, Say say, bool stopped) {
+void print_checks(const std::vector<record::CheckResult>& checks, Say say) {
   for (const auto& check : checks) {
     if (say == Say::failures && check.passed) continue;
     const auto margin = report::margin_text(check);
-    fmt::print(
-        "  {} {}: {}{}{}\n",
-        check.passed && stopped ? "held so far" : verdict(check.passed, check.passed ? "ok  " : "FAIL"),
-        printable(check.name), printable(check.detail), margin.empty() ? "" : "; ", margin);
+    fmt::print("  {} {}: {}{}{}\n",
+               check.so_far ? "held so far" : verdict(check.passed, check.passed ? "ok  " : "FAIL"),
+               printable(check.name), printable(check.detail), margin.empty() ? "" : "; ", margin);
   }
 }
 
@@ -45,7 +44,7 @@ void print_group(const Group& group, Say say) {
                  ? fmt::format("compared {} runs", group.members.size())
                  : fmt::format("{}, {}", verdict(outcome.passed(), outcome.passed() ? "passed" : "FAILED"),
                                report::verdict_text(outcome)));
-  print_checks(outcome.checks, say, false);
+  print_checks(outcome.checks, say);
   if (group.trouble.empty()) print_place(group.result);
 }
 
@@ -67,7 +66,7 @@ void print_result(const Job& job, Say say) {
              job.trouble.empty() ? report::verdict_text(result.outcome) : job.trouble,
              record::seconds_text(result.outcome.end), job.kept_notes ? " earlier; unchanged" : "",
              cause.empty() ? "" : fmt::format(" [{}]", cause));
-  print_checks(result.outcome.checks, say, !job.trouble.empty() || !result.outcome.failure.empty());
+  print_checks(result.outcome.checks, say);
   if (say == Say::failures) return print_place(result);
   if (say == Say::more && !job.kept_notes)
     fmt::print("  simulated in {:.2f} s, {:.0f} times as fast as the machine; all of it took {:.2f} s\n",

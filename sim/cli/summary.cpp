@@ -62,7 +62,8 @@ class SummaryText {
 
   void row(const report::RunResult& result) {
     const auto& checks = result.outcome.checks;
-    const auto passed = std::count_if(checks.begin(), checks.end(), [](const auto& c) { return c.passed; });
+    const auto passed =
+        std::count_if(checks.begin(), checks.end(), [](const auto& c) { return c.passed && !c.so_far; });
     auto name = plain(result.name);
     if (summary_.links && result.has_report)
       name = fmt::format("[{}]({})", name, link(result.directory / "report.html"));

@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/embedded.hpp"
 #include "base/output_file.hpp"
 #include "sim/fmi/line/built_line.hpp"
 #include "sim/fmi/machine/built_machine.hpp"
@@ -141,6 +142,15 @@ std::vector<fs::path> licences_of(const Carried& carried) {
   return found;
 }
 
+constexpr std::string_view licence_file = "LICENSE";  // of Drycut, where it has one
+
+std::string_view own_licence() {
+  if (!embedded_file(licence_file).empty())
+    return "Drycut's own library in it is under the licence of Drycut, licenses/drycut.txt.";
+  return "Drycut's own library in it is under no licence that this build of Drycut has a text of: ask its "
+         "authors before you give the FMU away.";
+}
+
 // A name in C.
 std::string identifier_of(const fs::path& scenario) {
   auto name = scenario.stem().string();
@@ -154,9 +164,11 @@ std::string identifier_of(const fs::path& scenario) {
 struct FmuParts {
   std::string_view library;
   std::string what;  // in a sentence
+  std::string use;
   Carried carried;
   std::vector<std::pair<std::string, std::string>>
-      resources;  // names and bytes; the first one makes the token
+      resources;                        // names and bytes; the first one makes the token
+  std::vector<std::string> files = {};  // of the user, among the resources
 };
 
 WrittenFmu write_parts(const scenario::Scenario& scenario, Standard standard, const FmuParts& parts,
@@ -166,7 +178,8 @@ WrittenFmu write_parts(const scenario::Scenario& scenario, Standard standard, co
                      token_of(parts.resources.front().second),
                      seconds(scenario.scene.step),
                      seconds(scenario.scene.duration),
-                     parts.what};
+                     parts.what,
+                     parts.use};
   const ScratchFile scratch;
   ZipFile zip(scratch.name());
   zip.add("modelDescription.xml", model_description(standard, head, variables),
@@ -176,16 +189,21 @@ WrittenFmu write_parts(const scenario::Scenario& scenario, Standard standard, co
   for (const auto& library : carried_libraries(parts.carried))
     zip.add(folder + library.filename().string(), bytes_of(library));
   for (const auto& [name, bytes] : parts.resources) zip.add("resources/" + name, bytes);
-  std::vector<std::string> licences;
-  for (const auto& licence : licences_of(parts.carried)) {
-    licences.push_back("licenses/" + licence.parent_path().filename().string() + ".txt");
-    zip.add("documentation/" + licences.back(), bytes_of(licence));
-  }
-  zip.add("documentation/index.html", documentation(standard, head, variables, licences));
+  FmuContents contents{{}, std::string(own_licence()), parts.files};
+  const auto add_licence = [&](const std::string& name, std::string_view text) {
+    contents.licences.push_back("licenses/" + name + ".txt");
+    zip.add("documentation/" + contents.licences.back(), text);
+  };
+  if (const auto own = embedded_file(licence_file); !own.empty()) add_licence("drycut", own);
+  for (const auto& licence : licences_of(parts.carried))
+    add_licence(licence.parent_path().filename().string(), bytes_of(licence));
+  zip.add("documentation/index.html", documentation(standard, head, variables, contents));
   zip.finish();
   write_file(out, bytes_of(scratch.name()));
 
   WrittenFmu written;
+  written.files = contents.files;
+  written.own_licence = contents.own_licence;
   for (const auto& variable : variables) {
     if (variable.role == FmiVariable::Role::input) ++written.inputs;
     if (variable.role == FmiVariable::Role::output) ++written.outputs;
@@ -218,12 +236,17 @@ WrittenFmu write_machine(const scenario::Scenario& scenario, Standard standard, 
   const auto library = between(drycut_fmu_begin, drycut_fmu_end);
   const auto resolved = resolve(scenario, library);
   const BuiltMachine machine(resolved);
-  return write_parts(scenario, standard,
-                     {library,
-                      "The machine of a Drycut line without its controller",
-                      {},
-                      {{"machine.json", machine_text(resolved)}}},
-                     machine.variables(), out);
+  return write_parts(
+      scenario, standard,
+      {library,
+       "The machine of a Drycut line without its controller",
+       "Inputs are taken at the beginning of a step and hold, outputs are those at its end: call "
+       "your controller, set, step, in this order, and nothing is late. Parameters "
+       "(parameters.), settings (set.) and faults (fault.) are in SI units, all else in the unit "
+       "that is named. A fault acts when its value changes.",
+       {},
+       {{"machine.json", machine_text(resolved)}}},
+      machine.variables(), out);
 }
 
 WrittenFmu write_line(const scenario::Scenario& scenario, const FileSet& files, Standard standard,
@@ -233,7 +256,17 @@ WrittenFmu write_line(const scenario::Scenario& scenario, const FileSet& files, 
                          files.folders};
   const BuiltLine built(line, {});
   FmuParts parts{
-      library, "A Drycut line with its controller", carried_with_line(), {{"line.cbor", line_bytes(line)}}};
+      library,
+      "A Drycut line with its controller inside; the importer is its operator",
+      "Inputs are taken at the beginning of a step and hold, outputs are those at its end. A switch "
+      "(panel.) is on as long as its input is; a value of the program (set.) and a fault (fault.) act "
+      "when they change. Parameters of the scenario and its plants, settings of plants (set.) and "
+      "faults are in SI units, all else in the unit that is named; values of the controller are as it "
+      "counts them.",
+      carried_with_line(),
+      {{"line.cbor", line_bytes(line)}}};
+  for (const auto& [name, file] : files.files)
+    if (file.state == FileSet::State::present) parts.files.push_back(name);
   for (auto& table : unit_tables()) parts.resources.push_back(std::move(table));
   return write_parts(scenario, standard, parts, built.variables(), out);
 }

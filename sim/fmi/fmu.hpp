@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "sim/file.hpp"
 #include "sim/fmi/model_description.hpp"
@@ -13,6 +14,8 @@ struct WrittenFmu {
   std::size_t inputs = 0;
   std::size_t outputs = 0;
   std::size_t parameters = 0;
+  std::vector<std::string> files = {};  ///< of the user, that it carries whole
+  std::string own_licence = {};         ///< a sentence on Drycut's own library in it
 };
 
 /// Writes the machine of a scenario, all its plants without the controller, as an FMU for co-simulation of

@@ -261,29 +261,34 @@ std::string model_description(Standard standard, const FmuHead& head,
 }
 
 std::string documentation(Standard standard, const FmuHead& head, const std::vector<FmiVariable>& variables,
-                          const std::vector<std::string>& licences) {
+                          const FmuContents& contents) {
   auto text = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{0}</title>\n"
       "<style>body {{font: 15px sans-serif; max-width: 70em; margin: 2em auto}} td, th {{text-align: left; "
       "padding: 0.1em 1em 0.1em 0; vertical-align: top}}</style></head>\n<body>\n<h1>{0}</h1>\n<p>{1}</p>\n"
-      "<p>{4}, for co-simulation by FMI {2}. It steps by {3} "
-      "s; a "
-      "communication step is any whole multiple of that. Inputs are taken at the beginning of a step and "
-      "hold, "
-      "outputs are those at its end: call your controller, set, step, in this order, and nothing is late. "
-      "Parameters (parameters.), settings (set.) and faults (fault.) are in SI units, all else in the unit "
-      "that "
-      "is named. A fault acts when its value changes.</p>\n<table>\n"
+      "<p>{4}, for co-simulation by FMI {2}. It steps by {3} s; a communication step is any whole multiple "
+      "of "
+      "that. {5}</p>\n<table>\n"
       "<tr><th>variable</th><th>is</th><th>unit</th><th>start</th><th>meaning</th></tr>\n",
       escaped(head.identifier), escaped(head.title), standard == Standard::fmi2 ? "2.0" : "3.0", head.step,
-      head.what);
+      head.what, escaped(head.use));
   for (const auto& variable : variables)
     text += fmt::format("<tr><td>{}</td><td>{}{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                         escaped(variable.name), variable.role == Role::live_parameter ? "tunable " : "",
                         causality(variable), escaped(unit_of(variable)),
                         has_start(variable) ? escaped(start_of(variable)) : "", escaped(meaning(variable)));
-  text += "</table>\n<p>It carries libraries of others under licences of their own:";
-  for (const auto& licence : licences) text += fmt::format(" <a href=\"{0}\">{0}</a>", escaped(licence));
+  text += "</table>\n<h2>What it carries</h2>\n";
+  if (contents.files.empty()) {
+    text += "<p>None of the files that it was made of: only the values of the machine.</p>\n";
+  } else {
+    text += "<p>These files that it was made of, whole; whoever has the FMU has them:</p>\n<ul>\n";
+    for (const auto& file : contents.files) text += fmt::format("<li>{}</li>\n", escaped(file));
+    text += "</ul>\n";
+  }
+  text += fmt::format("<p>{}</p>\n<p>It carries libraries of others under licences of their own:",
+                      escaped(contents.own_licence));
+  for (const auto& licence : contents.licences)
+    text += fmt::format(" <a href=\"{0}\">{0}</a>", escaped(licence));
   return text + "</p>\n</body>\n</html>\n";
 }
 

@@ -20,7 +20,8 @@ constexpr Time for_scans = 200 * millisecond;
 
 Past::Past(const scenario::Scenario& scenario, Problems& problems)
     : view_(std::make_unique<LineView>(scenario, problems)), step_(scenario.scene.step) {
-  loop::refuse_guests_without_state(scenario, problems);
+  loop::refuse_guests_without_state(
+      scenario, "drycut live keeps moments to go back to; drycut run does without", problems);
   // The first state says which files the scenario has: they may be edited while it runs.
   if (problems.empty()) static_cast<void>(view_->simulation().save());
 }

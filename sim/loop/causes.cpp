@@ -35,7 +35,8 @@ std::string text_of(const record::RecordedEvent& event) {
     return fmt::format("its drive has moved the motor with {:.3g} N m against a brake that is told to hold",
                        number("torque"));
   if (event.event == "opened_early") return "the clamps let go with the blade in the material";
-  return event.text.empty() ? fmt::format("{}: {}", event.event, values_text(event, 4)) : event.text;
+  if (!event.text.empty()) return event.text;
+  return event.values.empty() ? event.event : fmt::format("{}: {}", event.event, values_text(event, 4));
 }
 /// What a machine suffers from what went wrong before.
 std::string blow_of(const record::RecordedEvent& event) {

@@ -379,13 +379,15 @@ std::string Checks::looked_at(const State& state) {
              : check.event.text + (state.count == 1 ? " event" : " events");
 }
 
-std::vector<record::CheckResult> Checks::results(Time end) {
+std::vector<record::CheckResult> Checks::results(Time end, bool stopped) {
   std::vector<record::CheckResult> all;
   for (auto& state : states_) {
     if (state.windowed && looks_at_instants(state.check)) close_windows(state, end);
     const Tally so_far = state;
     all.push_back(result(state, end));
     if (state.count > 0) all.back().tolerances = tolerances_of(state);
+    const bool judged_whole = state.held_at || (state.check.until && *state.check.until <= end);
+    all.back().so_far = stopped && all.back().passed && !judged_whole;
     static_cast<Tally&>(state) = so_far;
   }
   return all;

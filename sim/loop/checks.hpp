@@ -36,8 +36,9 @@ class Checks : public record::Observer {
   /// An event; the watch has been updated for it.
   void happened(const record::RecordedEvent& event) override;
   void visit(StateArchive& archive) override;
-  /// As if the run ended at `end`, now; it may go on.
-  [[nodiscard]] std::vector<record::CheckResult> results(Time end);
+  /// As if the run ended at `end`, now; it may go on. `stopped`: it ended before its time, so that what has
+  /// held so far is no verdict where there would have been more to judge.
+  [[nodiscard]] std::vector<record::CheckResult> results(Time end, bool stopped = false);
   /// The limits that checks set for values of events, with the check's name, whether any event came or not.
   [[nodiscard]] std::vector<std::pair<std::string, record::Tolerance>> stated() const;
 

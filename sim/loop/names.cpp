@@ -93,21 +93,24 @@ bool Names::of_controller(const std::string& name) const {
 
 std::optional<Reading> Names::reading(const std::string& name) {
   if (const auto found = channels_.find(name); found != channels_.end()) {
-    return Reading{name, found->second.unit, found->second.read};
+    return Reading{name, found->second.unit, found->second.read, found->second.meaning};
   }
   if (assumed_ && of_controller(name)) return Reading{name, "", [] { return 0.0; }};
   if (name.starts_with(panel_prefix)) {
     const auto plug = name.substr(panel_prefix.size());
     if (const auto found = panel_.switches.find(plug); found != panel_.switches.end()) {
-      return Reading{name, "", [port = &found->second] { return port->level ? 1.0 : 0.0; }};
+      return Reading{name, "", [port = &found->second] { return port->level ? 1.0 : 0.0; },
+                     "switch of the panel"};
     }
     if (const auto found = panel_.lamps.find(plug); found != panel_.lamps.end()) {
-      return Reading{name, "", [port = &found->second] { return port->level ? 1.0 : 0.0; }};
+      return Reading{name, "", [port = &found->second] { return port->level ? 1.0 : 0.0; },
+                     "lamp of the panel"};
     }
     return {};
   }
   if (controller_ != nullptr) {
-    if (auto value = controller_->find(name)) return Reading{name, value->unit, value->read};
+    if (auto value = controller_->find(name))
+      return Reading{name, value->unit, value->read, std::string(value->meaning)};
   }
   return {};
 }

@@ -25,6 +25,7 @@ struct Reading {
   std::string name;
   std::string unit;  ///< of the number; "" = pure number
   std::function<double()> read;
+  std::string meaning = {};  ///< "" where nothing says it
 };
 
 /// A number that the timeline can set or ramp; `write` takes it in `unit` as the timeline gives it (SI for

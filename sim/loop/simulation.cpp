@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
@@ -622,7 +623,9 @@ record::Outcome Simulation::outcome() {
   record::Outcome outcome;
   outcome.end = time_;
   outcome.failure = failure_;
-  outcome.checks = checks_->results(time_);
+  const bool stopped = !failure_.empty();
+  outcome.checks = checks_->results(time_, stopped);
+  const auto scenario_checks = outcome.checks.size();
   const bool missed = !outcome.passed();
   outcome.drives = drives_->verdicts();
   for (auto& check : drives_->results(outcome.drives)) outcome.checks.push_back(std::move(check));
@@ -636,6 +639,8 @@ record::Outcome Simulation::outcome() {
                               program_error_.empty() ? "no error" : program_error_});
   }
   for (auto& check : unasked_->results()) outcome.checks.push_back(std::move(check));
+  for (auto& check : std::span(outcome.checks).subspan(scenario_checks))
+    check.so_far = stopped && check.passed;
   auto warnings = warnings_;
   for (const auto& check : outcome.checks)
     if (!check.doubt.empty())
@@ -649,6 +654,8 @@ record::Outcome Simulation::outcome() {
     if (cam.is_slip) warnings.push_back(cam.what);
   outcome.add(warnings, Finding::Role::warning);
   outcome.alarms = causes_.alarms();
+  if (has_failed_guest(plants_))
+    outcome.findings.emplace_back("fmu.failed"_code, "because " + failure_).role = Finding::Role::cause;
   if (outcome.failure.empty() && !outcome.passed()) {
     auto known = this->known(cams, looked_until(outcome));
     if (!missed) known.hindrances.clear();  // only ratings, or what no check asks about

@@ -38,8 +38,8 @@ std::vector<record::CheckResult> Unasked::results() const {
     record::CheckResult result;
     result.name = "no " + name;
     result.expectation = fmt::format("never {}, which no check asks about", name);
-    result.detail = fmt::format("{}, first at {:.6g} s: {}", counted(watched.times, "time"), watched.first,
-                                watched.values);
+    result.detail = fmt::format("{}, first at {:.6g} s{}{}", counted(watched.times, "time"), watched.first,
+                                watched.values.empty() ? "" : ": ", watched.values);
     result.failed_at = watched.first;
     results.push_back(std::move(result));
   }

@@ -238,7 +238,8 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
   for (const auto& warning : outcome.warnings()) report.notes.push_back("warning: " + to_string(warning));
   for (const auto& note : simulation.notes()) report.notes.push_back(to_string(note));
   add_checks(outcome.checks, report);
-  if (auto drives = drive_table(outcome.drives, scenario.drives.judge); !drives.rows.empty())
+  if (auto drives = drive_table(outcome.drives, scenario.drives.judge && outcome.failure.empty());
+      !drives.rows.empty())
     report.summary.push_back(std::move(drives));
   for (const auto& split : torque_splits(scenario, simulation, outcome.drives))
     report.tables.push_back(torque_table(split));

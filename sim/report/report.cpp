@@ -21,7 +21,7 @@ renders::Report page_of(const record::Verdict& verdict) {
 void add_checks(const std::vector<record::CheckResult>& checks, renders::Report& report) {
   for (const auto& check : checks)
     report.checks.push_back({check.name, check.expectation, check.passed, margin_text(check), check.detail,
-                             check.used, check.judged_nothing()});
+                             check.used, check.judged_nothing(), check.so_far});
 }
 
 void add_overrides(const std::vector<scenario::Override>& overrides, renders::Report& report) {

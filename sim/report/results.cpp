@@ -72,7 +72,8 @@ std::string suite_of(const RunResult& result) {
   for (std::size_t i = 0; i < outcome.checks.size(); ++i) {
     const auto& check = outcome.checks[i];
     text += case_of(result, i, check.name, each,
-                    check.passed
+                    check.so_far ? "<skipped message=\"it held until the run stopped\"/>"
+                    : check.passed
                         ? ""
                         : fmt::format("<failure message=\"{}{}{}\">{}; {}{}{}</failure>",
                                       escaped(check.expectation), outcome.cause().empty() ? "" : ": failed ",

@@ -53,34 +53,6 @@ std::optional<PlantEntry> read_plant(const YamlNode::Entry& entry, std::span<con
   return PlantEntry{entry.key, wanted, known->define(), {}};
 }
 
-// A foreign FMU says itself which parameters it has. False, and told, where it cannot be asked.
-bool open_guest_of(const YamlNode& node, PlantEntry& plant, const std::filesystem::path& folder,
-                   Findings& findings) {
-  auto* const guest = dynamic_cast<plants::GuestDefinition*>(plant.definition.get());
-  if (guest == nullptr) return true;
-  const auto* const file = child(node, "file");
-  if (file == nullptr || file->kind != YamlNode::Kind::scalar || file->text.text.empty()) {
-    findings.add("scenario.missing-key"_code, plant.name.place,
-                 fmt::format("plants.{}.file is missing: which FMU is it?", plant.name.text),
-                 "file: drive.fmu");
-    return false;
-  }
-  guest->file() = findings.path_from(file->text);
-  Problems unread;
-  auto bytes = read_bytes(folder / guest->file(), unread, {}, largest_guest);
-  for (const auto& problem : unread)
-    findings.add(problem.code, file->text.place, problem.what, problem.remedy);
-  if (!bytes) return false;
-  try {
-    guest->open(open_guest(std::move(*bytes), guest->file()));
-  } catch (const GuestRefused& refused) {
-    findings.add(refused.code(), file->text.place, fmt::format("{}: {}", guest->file(), refused.what()),
-                 refused.remedy());
-    return false;
-  }
-  return true;
-}
-
 ScenePlace place_of(const PlantEntry& plant, const std::string& parameter) {
   for (const auto& [name, place] : plant.places) {
     if (name == parameter) return place;
@@ -348,7 +320,13 @@ void visit(Archive& archive, PlantEntry& plant) {
   const auto parameters = plant.definition->parameters();
   ParameterTable table{{}, fmt::format("'drycut plants {}' lists its parameters", plant.type.text)};
   table.places = &plant.places;
-  if (dynamic_cast<plants::GuestDefinition*>(plant.definition.get()) != nullptr) table.open = "parameters";
+  if (auto* const guest = dynamic_cast<plants::GuestDefinition*>(plant.definition.get())) {
+    if (!guest->file().empty())
+      table.help = fmt::format("'drycut plants {}' lists its variables", guest->file());
+    table.open = "parameters";
+    archive.value({"units", "units of variables of the FMU that declare none, {u: V, y: mm/s}"},
+                  guest_units_form(plant.units));
+  }
   for (const auto& parameter : parameters)
     table.rows.push_back({parameter.name, [&parameter] { return described(parameter); },
                           motor_kind(parameter.name).empty() ? form(parameter) : model_form(parameter)});
@@ -373,7 +351,7 @@ std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants
     if (entry.is_repeated()) continue;
     auto plant = read_plant(entry, types, findings);
     if (!plant) continue;
-    if (!open_guest_of(entry.value, *plant, folder, findings)) continue;
+    if (!read_guest(entry.value, *plant, folder, findings)) continue;
     MapReader reader(entry.value, "plants." + name, findings);
     take_models(entry.value, *plant, catalogue, findings);
     visit(reader, *plant);

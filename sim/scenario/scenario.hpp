@@ -69,6 +69,8 @@ struct PlantEntry {
   std::vector<Modelled> modelled = {};
   /// Those that the file gives and that were learnt from recordings, each with where from.
   std::vector<Modelled> fitted = {};
+  /// Of a foreign FMU: variables that declare no unit, and the units that the scenario gives them.
+  std::vector<std::pair<Text, Text>> units = {};
 };
 
 class Archive;

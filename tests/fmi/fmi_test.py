@@ -127,6 +127,13 @@ def line(program, there):
         for name in fmu.variables:
             assert re.fullmatch(rf"{part}(?:\.{part})*", name), f"{name} is no structured name"
         assert "'2.AN01'" in fmu.variables and "set.web.speed" in fmu.variables
+        # What the tables of plants and devices say of them.
+        for name, words in (("knife.angle", "angle"), ("AxisX.pgain", "proportional gain"), ("parameters.AxisX.pgain", "proportional gain"),
+                            ("AxisX.st_sync", "syn"), ("panel.in_sync", "lamp"), ("gbPhase", "program"), ("'2.AN01'", "terminal")):
+            assert words in fmu.variables[name]["description"], fmu.variables[name]
+        assert all(row["description"] not in ("", "as a run records it") for row in fmu.variables.values())
+        page = (fmu.path / "documentation" / "index.html").read_text()
+        assert "your controller" not in page and "rotary_knife.mod" in page and "Drycut's own library" in page
         names = [output + ".channel" if output + ".channel" in fmu.variables else output for output in outputs]
         done = subprocess.run([replay, fmu.path, "1e-3", "2", str(len(names)), "switch:panel.start", "real:set.web.speed",
                                *("real:" + name for name in names)],
@@ -153,6 +160,9 @@ def line(program, there):
                 assert instance.set("panel.start", n >= 2000) == OK and instance.step(n * 1e-3, 1e-3) == OK, instance.said
 
         one, other, shorter = begun(), begun(), begun(length=0.5)
+        for name, row in fmu.variables.items():
+            if row["causality"] == "parameter" and row["type"] != "String":
+                assert one.get(name) == float({"true": 1, "false": 0}.get(row["start"], row["start"])), (row, one.get(name))
         go_on(one, 0, 3000)
         kept = one.save()
         go_on(one, 3000, 3600)
@@ -173,6 +183,12 @@ def line(program, there):
         assert bad.initialise() == ERROR and bad.said, "no variable of the program holds that length"
         for instance in (one, other, shorter, bad):
             instance.free()
+    commissioned = there / "commissioned.yaml"
+    commissioned.write_text(f"extends: {own}\ncontroller: {{qmove: {{set: {{AxisX.pgain: 61}}}}}}\n")
+    said = subprocess.run([program, "fmu", commissioned, "--part", "line", "--fmi", "3.0", "--out", there / "commissioned.fmu"], check=True,
+                          capture_output=True, text=True).stdout
+    assert all(name in said for name in ("commissioned.yaml", "line.yaml", "rotary_knife.yaml", "rotary_knife.mod", "rotary_knife.cnf")), said
+    assert float(unpack(there / "commissioned.fmu", there / "commissioned").variables["parameters.AxisX.pgain"]["start"]) == 61
     # Unpacked twice: libraries of their own that share what is loaded once, begun in two threads at the same time.
     for n in range(6):
         folders = [Folder(shutil.copytree(fmu.path, there / f"copy{n}{side}")) for side in "ab"]
@@ -276,7 +292,10 @@ def description(program, there):
                 assert value == (float(row["start"]) if start is None else start), (row, value)
         circumference = fmu.variables["parameters.knife.circumference"]
         assert (float(circumference["start"]), circumference["unit"], circumference["displayUnit"]) == (0.6, "m", "mm")
-        assert (fmu.path / "documentation" / "index.html").read_text().count("<tr>") == len(rows) + 1
+        page = (fmu.path / "documentation" / "index.html").read_text()
+        assert page.count("<tr>") == len(rows) + 1 and "your controller" in page and "None of the files" in page
+        own, carried = HOUSE / "LICENSE", fmu.path / "documentation" / "licenses" / "drycut.txt"
+        assert carried.read_text() == own.read_text() if own.exists() else not carried.exists() and "under no licence" in page
         assert "zlib" in (fmu.path / "documentation" / "licenses" / "libbullet3.24.txt").read_text().lower()
     print("the descriptions")
 
@@ -378,6 +397,12 @@ def refusals(program, there):
         fmu = knife(program, there, version)
         stranger = Instance(fmu, token="{another}")
         assert not stranger.handle and "token" in stranger.said[0]
+        if version == 2:  # as importers give it
+            os.chdir(fmu.path)
+            for where in ("file:resources", "file://resources", "resources", f"file://localhost{fmu.path}/resources"):
+                instance = Instance(fmu, resources=where)
+                assert instance.handle, (where, instance.said)
+                instance.free()
         nowhere = Instance(fmu, resources="/nowhere")
         assert not nowhere.handle and "/nowhere/machine.json" in nowhere.said[0]
 

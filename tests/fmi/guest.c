@@ -31,7 +31,7 @@ typedef struct {
   double u, gain, lag, fail_at, x;
   whole fail, step_by, count;
   flag enable;
-  char label[32];
+  char label[256];
   void* environment;
 #if FMI == 2
   void (*log)(void*, const char*, int, const char*, const char*, ...);
@@ -183,6 +183,11 @@ static int failed(Model* m, double at) {
   switch (m->fail) {
     case CRASH: raise_it: abort();
     case HANG:
+      if (m->label[0] == '/') { /* a pipe, where the test waits for it */
+        FILE* tells = fopen(m->label, "w");
+        fprintf(tells, "%d", getpid());
+        fclose(tells);
+      }
       for (;;) pause();
     case EAT:
       for (;;) {

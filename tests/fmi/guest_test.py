@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
 """Foreign FMUs in a line: guest_test.py PROGRAM KIND. The FMU is guest.c, in both versions of the standard."""
 import csv
+import json
 import os
 import re
+import select
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import xml.etree.ElementTree as xml
 import zipfile
 from pathlib import Path
 
@@ -182,6 +186,18 @@ record: {{every: 1 ms, channels: [one.x, two.x, one.on]}}
                          ("2.INP01: one.on", "wiring.no-terminal"), ("one.on: two.on", "wiring.kinds-differ")):
         wrong = place.run("wrong", text.replace("two.u: one.x, two.enable: one.on", wiring), verb="check")
         assert wrong.returncode == 2 and f"[{code}]" in wrong.stderr, (wiring, wrong.stderr)
+    line_fmu = place.there / "line.fmu"
+    written = subprocess.run([place.program, "fmu", place.there / "wires.yaml", "--part", "line", "--out", line_fmu], capture_output=True, text=True)
+    with zipfile.ZipFile(line_fmu) as archive:
+        xml_text = archive.read("modelDescription.xml").decode()
+    assert written.returncode == 0 and "lag.fmu" in written.stdout, written
+    assert 'name="set.one.u"' in xml_text and 'name="set.two.step_by"' in xml_text
+    assert 'name="set.two.u"' not in xml_text and 'name="set.two.enable"' not in xml_text, "a wire drives it"
+    itself = place.run("itself", text.replace("two.u: one.x", "two.u: two.x"), verb="check")
+    assert itself.returncode == 0 and "two.u takes what two.x was at the end of the step before" in itself.stdout + itself.stderr, itself
+    machine = place.run("machine", "scene: {duration: 1 s}\nplants: {a: {type: rotary_axis}, b: {type: rotary_axis}}\n"
+                        "wiring: {a.servo.reference: b.servo.reference}\n", verb="fmu")
+    assert machine.returncode == 2 and "[scenario.does-not-go-together]" in machine.stderr, machine
     twice = place.run("twice", text.replace("one.u: 1 V", "two.u: 1 V"), verb="check")
     assert twice.returncode == 2 and "[input.driven-twice]" in twice.stderr, twice.stderr
     print("wires: two lags in a row, as on paper")
@@ -202,10 +218,14 @@ def refused(place):
         "no-reference": (dict(xml=good.replace('valueReference="3"', 'valueReference="three"')), "fmu.description"),
         "structure": (dict(xml=good.replace('index="9"', 'index="1"')), "fmu.description"),
         "start": (dict(xml=good.replace('start="1"', 'start="one"')), "fmu.description"),
+        "exponents": (dict(xml=good.replace('m="2"', 'm="300"')), "fmu.description"),
+        "whole-start": (dict(xml=good.replace('<Integer start="0"/>', '<Integer start="3000000000"/>')), "fmu.description"),
+        "half-start": (dict(xml=good.replace('<Integer start="0"/>', '<Integer start="0.5"/>')), "fmu.description"),
         "outside": (dict(files=[("../outside", b"x")]), "fmu.archive"),
         "absolute": (dict(files=[("/tmp/outside", b"x")]), "fmu.archive"),
         "bomb": (dict(files=bomb), "fmu.archive"),
-        "platform": (dict(library=b""), "fmu.refused"),
+        "platform": (dict(library=b"", files=[("binaries/win64/lag.dll", b"MZ")]), "fmu.refused"),
+        "identifier": (dict(xml=good.replace('modelIdentifier="lag"', 'modelIdentifier="drag"')), "fmu.refused"),
         "no-library": (dict(library=b"MZ no library of this system"), "fmu.refused"),
         "lacks": (dict(defined=("LACKS_STEP",)), "fmu.refused"),
         "version": (dict(defined=("OTHER_VERSION",)), "fmu.refused"),
@@ -221,6 +241,8 @@ def refused(place):
         assert done.returncode == 2 and f"[{code}]" in done.stderr, (name, done.returncode, done.stderr)
         assert re.match(rf".*{name}\.yaml:3:\d+: ", done.stderr), (name, done.stderr)
         assert not (done.folder / "trace.csv").exists()
+        told = {"platform": "it has binaries/win64", "identifier": "drag.so; there it has lag.so"}.get(name, "")
+        assert told in done.stderr, (name, done.stderr)
     place.fmu("good.fmu", 2)
     for parameters, more, code in (("gian: 2", "", "scenario.unknown-key"), ("time: {constant: 3 V}", "", "scenario.wrong-unit"),
                                    ("gain: much", "", "scenario.not-a-number"), ("fail: 7", "", "fmu.refused"),
@@ -228,31 +250,157 @@ def refused(place):
         text = line("good.fmu", parameters, more).replace(", every: 1 ms", "", 1 if "every" in more else 0)
         done = place.run("parameters", text, verb="check")
         assert done.returncode == 2 and f"[{code}]" in done.stderr, (parameters, more, done.stderr)
+    many = "".join(f'<Float64 name="a{n}" valueReference="{100 + n}" causality="input" start="0"><Dimension start="10000"/></Float64>' for n in range(11))
+    place.fmu("many.fmu", 3, xml=description(3).replace("</ModelVariables>", many + "</ModelVariables>"))
+    assert "more than 100000 variables [fmu.description]" in re.sub("; [^;]* \\[", " [", place.run("many", line("many.fmu"), verb="check").stderr)
     place.fmu("fixed.fmu", 3, xml=description(3, more=' fixedInternalStepSize="0.003"'))
     assert "[scenario.time-grid]" in place.run("fixed", line("fixed.fmu"), verb="check").stderr
     assert place.run("fixed", line("fixed.fmu", every="6 ms", duration="60 ms"), verb="check").returncode == 0
-    none = place.run("none", "scene: {duration: 1 s}\nplants: {lag: {type: fmu}}\n", verb="check")
-    assert none.returncode == 2 and "[scenario.missing-key]" in none.stderr
+    for file, code in (("", "scenario.missing-key"), (", file: [good.fmu]", "scenario.wrong-kind"), (", file: good.fmu, quite: 1", "scenario.unknown-key")):
+        none = place.run("none", f"scene: {{duration: 1 s}}\nplants: {{lag: {{type: fmu{file}}}}}\n", verb="check")
+        assert none.returncode == 2 and f"[{code}]" in none.stderr, none.stderr
+        assert "[fmu.guest]" not in none.stdout + none.stderr, none.stdout  # beside what is wrong it is of no use
+    assert "drycut plants good.fmu" in none.stderr, none.stderr
     print(f"refused: {len(cases)} files, all told at their place")
 
 
 def failures(place):
-    """What fails in the run ends it with status 3; what was recorded is there. Nothing of the FMU is left."""
+    """What fails in the run ends it with status 3, by its plant, time and code; what was recorded is there, and what held until then
+    is no verdict. Nothing of the FMU is left."""
+    checks = """checks:
+  - {name: early, always: lag.count < 30, until: 10 ms}
+  - {name: late, always: lag.count < 30}
+  - {name: never, never: lag.failed}
+  - {name: once, eventually: lag.count > 5}
+"""
     for version in (2, 3):
         fmu = place.fmu(f"lag{version}.fmu", version)
         for name, how, said in (("crash", CRASH, "crashed"), ("hang", HANG, "limits.time"), ("eat", EAT, "limits.memory"),
                                 ("refuse", REFUSE, "cannot go on"), ("leave", LEAVE, "status 7"),
                                 ("nan", NOT_A_NUMBER, "finite")):
-            text = line(fmu, f"fail: {how}, fail_at: 20 ms", f", limits: {{time: {3 if how == HANG else 200} s, memory: 200}}", rest="timeline: [{at: 0 s, set: {lag.u: 1 V}}]\n")
+            text = line(fmu, f"fail: {how}, fail_at: 20 ms", f", limits: {{time: {3 if how == HANG else 200} s, memory: 200}}", rest="timeline: [{at: 0 s, set: {lag.u: 1 V}}]\n" + checks)
             done = place.run(f"{name}{version}", text)
             assert done.returncode == 3, (name, done.returncode, done.stdout, done.stderr)
             told = done.stdout + done.stderr
-            assert said in told, (name, told)
+            assert said in told and "lag at 0.021 s: " in told and "[fmu.failed]" in told, (name, told)
+            assert {"fmu.failed", "run.failed"} <= set(json.loads((done.folder / "verdict.json").read_text())["codes"])
+            came = {check["name"]: (check["passed"], check["so_far"]) for check in json.loads((done.folder / "checks.json").read_text())["checks"]}
+            assert came == {"early": (True, False), "late": (True, True), "never": (False, False), "once": (True, False)}, came
+            assert re.search("held so far late", told) and re.search("ok +early", told) and re.search("FAIL never", told), told
+            assert re.search(r"^0\.0210*,lag,failed", (done.folder / "events.csv").read_text(), re.MULTILINE)
             rows = place.rows(f"{name}{version}")
             assert 200 <= len(rows) <= 212, (name, len(rows))
             assert float(rows[199]["lag.count"]) == 19
+    why = subprocess.run([place.program, "why", place.there / "out" / "crash2", "--no-pictures", "--out", place.there / "why"], capture_output=True,
+                         text=True)
+    found = json.loads((place.there / "why" / "why.json").read_text())
+    assert why.returncode == 0 and found["failed_at"] == 0.021 and "lag at 0.021 s: lag2.fmu crashed" in found["because"], (why, found)
+    assert "lag2.fmu crashed" in why.stdout, why.stdout
+    again = place.run("crash2", (place.there / "crash2.yaml").read_text(), "--junit", place.there / "junit.xml")
+    assert again.returncode == 3 and (place.there / "junit.xml").read_text().count("<skipped ") == 1
+    drawn = subprocess.run([place.program, "run", place.there / "crash2.yaml", "--out", place.there / "drawn"], capture_output=True, text=True,
+                           env={**os.environ, "TMPDIR": str(place.temporary)})
+    page = (place.there / "drawn" / "crash2" / "report.html").read_text()
+    assert drawn.returncode == 3 and page.count(">HELD SO FAR<") == 1 and page.count(">PASS<") == 2, drawn
     assert not list((place.there / "tmp").iterdir()), "folders of FMUs are left"
     print("failures: six ways, both versions, status 3, rows kept")
+
+
+def ended(place):
+    """A run that is killed leaves nothing of an FMU: neither its process nor its folder. A folder that is named relatively is one, too."""
+    pipe = place.there / "pipe"
+    os.mkfifo(pipe)
+    for version, signals in ((2, (signal.SIGKILL,)), (3, (signal.SIGINT, signal.SIGTERM)), (2, (signal.SIGTERM, signal.SIGINT))):
+        fmu = place.fmu(f"lag{version}.fmu", version)
+        file = place.scenario("ended", line(fmu, f"fail: {HANG}, fail_at: 20 ms, label: \"{pipe}\"", ", limits: {time: 1000 s}"))
+        run = subprocess.Popen([place.program, "run", file, "--no-pictures", "--out", place.there / "out"], cwd=place.there,
+                               env={**os.environ, "TMPDIR": "tmp"}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        guest = os.pidfd_open(int(pipe.read_text()))  # when it hangs
+        assert len(list(place.temporary.iterdir())) == 1
+        for one in signals:
+            run.send_signal(one)
+        assert -run.wait() in signals, run.returncode
+        assert select.select([guest], [], [], 60)[0], "the FMU's process lives on"
+        os.close(guest)
+        assert not list(place.temporary.iterdir()), (version, signals, "its folder is left")
+    print("ended: by three signals, nothing is left")
+
+
+def units(place):
+    """A scenario gives units to variables that declare none: they are wired, recorded and set in them."""
+    for version in (2, 3):
+        bare = description(version).replace(UNITS, "").replace(' unit="V"', "").replace(' unit="turns a minute"', "").replace(' unit="s"', "")
+        place.fmu("bare.fmu", version, xml=bare)
+        text = line("bare.fmu", "time: {constant: 20 ms}", ', units: {u: "rad/s", x: mV, time.constant: ms, shaft: mm/s}',
+                    channels="lag.x, lag.on, lag.count, lag.shaft, lag.u, axis.speed, axis.servo.reference",
+                    rest="wiring: {lag.u: axis.speed, axis.servo.reference: lag.x}\n")
+        text = text.replace("plants:\n", "plants:\n  axis: {type: rotary_axis}\n")
+        without = place.run("without", text.replace('u: "rad/s", x: mV, ', ""), verb="check")
+        assert without.returncode == 2 and without.stderr.count("[scenario.wrong-unit]") == 2, without.stderr
+        done = place.run("units", text)
+        assert done.returncode == 0, done.stdout + done.stderr
+        assert re.search(r"scenario's word.* u in rad/s, x in mV, time.constant in ms", done.stdout), done.stdout
+        head = (done.folder / "trace.csv").read_text().splitlines()[0]
+        assert "lag.x [mV]" in head and "lag.u [rad/s]" in head and "lag.shaft [mm/s]" in head, head
+        # By itself: its number of a time constant is in ms, its number of u in rad/s.
+        alone = line("bare.fmu", "time: {constant: 20 ms}", ", units: {u: km/h, x: mV, time.constant: ms}",
+                     rest="timeline: [{at: 0 s, set: {lag.u: 10 m/s}}]\n")
+        done = place.run("alone", alone)
+        assert done.returncode == 0, done.stdout + done.stderr
+        x = 0.0
+        for row in place.rows("alone")[10::10]:
+            x += 1e-3 / 20 * (36 - x)
+            assert abs(float(row["lag.x"]) - x) < 1e-12 * 36, (row, x)
+        expanded = place.run("alone", alone, "--expand", verb="check")
+        assert expanded.returncode == 0, expanded.stderr
+        again = place.run("again", expanded.stdout)
+        assert again.returncode == 0 and (again.folder / "trace.csv").read_bytes() == (done.folder / "trace.csv").read_bytes(), again.stderr
+        # Declared as V, recorded as mV.
+        fmu = place.fmu(f"lag{version}.fmu", version)
+        text = line(fmu, "time: {constant: 10 ms}", "UNITS", rest="timeline: [{at: 0 s, set: {lag.u: 1 V}}]\n")
+        assert place.run("plain", text.replace("UNITS", "")).returncode == 0
+        assert place.run("milli", text.replace("UNITS", ", units: {x: mV}")).returncode == 0
+        for row, other in zip(place.rows("plain"), place.rows("milli"), strict=True):
+            assert abs(float(row["lag.x"]) * 1000 - float(other["lag.x"])) < 1e-9
+        for given, code in (("{shaft_: mm/s}", "scenario.unknown-name"), ("{x: mm/s}", "scenario.wrong-unit"), ("{x: parsecs per lightyears}", "scenario.unknown-unit"),
+                            ("{count: V}", "scenario.wrong-unit"), ("{on: V}", "scenario.wrong-unit"), ("[x]", "scenario.wrong-kind"), ("{x: [V]}", "scenario.wrong-kind"),
+                            ("{x: V, x: mV}", "scenario.twice")):
+            wrong = place.run("wrong", text.replace("UNITS", f", units: {given}"), verb="check")
+            assert wrong.returncode == 2 and f"[{code}]" in wrong.stderr and "wrong.yaml:3:" in wrong.stderr, (given, wrong.stderr)
+            assert "shaft_" not in given or "did you mean shaft?" in wrong.stderr, wrong.stderr
+    web = place.run("web", "scene: {duration: 1 ms}\nplants: {web: {type: web, units: {speed: V}}}\n", verb="check")
+    assert web.returncode == 2 and "[scenario.unknown-key]" in web.stderr
+    print("units: given, converted, refused")
+
+
+def listed(place):
+    """drycut plants FILE.fmu: what an FMU has; other verbs say who takes it."""
+    for version in (2, 3):
+        place.fmu("lag.fmu", version, xml=description(version).replace('name="u"', 'name="u" description="what it follows"'))
+        done = subprocess.run([place.program, "plants", place.there / "lag.fmu", "--json"], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        shown = json.loads(done.stdout)
+        itself = {row["name"]: row["value"] for row in shown["fmu"]}
+        assert itself["is"].startswith(f"FMI {version}.0, model lag") and itself["state"] == "can be kept", itself
+        rows = {row["name"]: row for row in shown["variables"]}
+        assert list(rows) == [row[0] for row in VARIABLES]
+        for name, reference, causality, kind, start, unit in VARIABLES:
+            row = rows[name]
+            assert row["causality"] == causality, row
+            assert row["type"] == {"real": "real", "flag": "Boolean", "whole": "whole", "text": "text"}[kind] or (kind, version) == ("whole", 3), row
+            wanted = start if kind == "text" else start == "true" if kind == "flag" else float(start or 0)
+            assert row.get("start") == (None if causality == "output" else wanted), row
+        assert rows["u"]["unit"] == "V" and rows["u"]["meaning"] == "what it follows" and rows["time.constant"]["unit"] == "s", rows
+    text = subprocess.run([place.program, "plants", place.there / "lag.fmu"], capture_output=True, text=True).stdout
+    assert all(re.search(rf"^ *{re.escape(row[0])} ", text, re.MULTILINE) for row in VARIABLES), text
+    (place.there / "bad.fmu").write_text("no zip")
+    for file, code in (("bad.fmu", "fmu.archive"), ("none.fmu", "file.missing")):
+        bad = subprocess.run([place.program, "plants", place.there / file], capture_output=True, text=True)
+        assert bad.returncode == 2 and f"[{code}]" in bad.stderr, bad
+    for verb in ("run", "fmu", "check", "live"):
+        other = subprocess.run([place.program, verb, place.there / "lag.fmu"], capture_output=True, text=True)
+        assert other.returncode == 2 and "[file.other-kind]" in other.stderr and "drycut plants" in other.stderr, (verb, other)
+    print("listed: both versions")
 
 
 def state(place):
@@ -275,7 +423,9 @@ def state(place):
         text = line(f"none{version}.fmu")
         assert place.run(f"none{version}", text).returncode == 0
         refused_ = place.run(f"none{version}", text, "--states", "10 ms")
-        assert refused_.returncode == 2 and "[fmu.no-state]" in refused_.stderr, refused_.stderr
+        assert refused_.returncode == 2 and "[fmu.no-state]" in refused_.stderr and "without --states" in refused_.stderr, refused_.stderr
+        refused_ = place.run(f"none{version}", text, verb="faults")
+        assert refused_.returncode == 2 and "[fmu.no-state]" in refused_.stderr and "--states" not in refused_.stderr, refused_.stderr
     print("state: kept and gone on with in another process, the same bytes")
 
 
@@ -303,6 +453,14 @@ def own(place):
     print("own: the knife as an FMU under the QMOVE is the knife, both versions")
 
 
+def outputs_of(fmu):
+    """Their types, by their names."""
+    with zipfile.ZipFile(fmu) as archive:
+        root = xml.fromstring(archive.read("modelDescription.xml"))
+    two = root.get("fmiVersion").startswith("2")
+    return {row.get("name"): (row[0] if two else row).tag for row in root.find("ModelVariables") if row.get("causality") == "output"}
+
+
 def foreign(place):
     """The public reference FMUs, where DRYCUT_REFERENCE_FMUS names a folder with 2.0/*.fmu, 3.0/*.fmu, and NAME_out.csv, their
     published results."""
@@ -317,7 +475,12 @@ def foreign(place):
         with open(results, newline="") as file:
             wanted = list(csv.DictReader(file))
         times = [float(row["time"]) for row in wanted]
-        names = [name for name in wanted[0] if name != "time"]
+        outputs = outputs_of(fmu)
+        # Inputs, local values and texts are published, too.
+        names = [name for name in wanted[0] if outputs.get(name, "String") not in ("String", "Binary", "Clock")]
+        if not names:
+            print(f"{fmu.stem} {fmu.parent.name}: no numbers are published")
+            continue
         step = min(b - a for a, b in zip(times, times[1:]) if b > a)
         name = f"{fmu.stem}{fmu.parent.name[0]}"
         shutil.copy(fmu, place.there / f"{name}.fmu")
@@ -335,7 +498,8 @@ record: {{every: {step:g} s, channels: [CHANNELS]}}
             mine = rows.get(round(float(row["time"]), 9))
             if mine is None:
                 continue
-            numbers = [float(cell) for one in names for cell in row[one].split()]
+            numbers = [float({"true": 1, "false": 0}.get(cell, cell))
+                       for one in names for cell in row[one].split()]
             for one, number in zip(shown, numbers, strict=True):
                 worst = max(worst, abs(float(mine[f"m.{one}"]) - number) / max(1.0, abs(number)))
             compared += 1

@@ -62,6 +62,7 @@ std::optional<ControllerValue> PlcopenController::axis_value(int number, std::st
                           },
                           {},
                           {}};
+    value.meaning = row.meaning;
     const auto wired = [&](const AxisTerminal& terminal) {
       return terminal.kind == Kind::input && terminal.name == row.name &&
              cards_.inputs.contains(terminal.address(number));
@@ -87,6 +88,7 @@ std::optional<ControllerValue> PlcopenController::parameter_value(int number,
                         [this, number, &parameter] { return parameter.value(axis(number).parameters()); },
                         {},
                         {}};
+  value.meaning = parameter.meaning;
   // What an axis is made of has been wired.
   if (parameter.is(&AxisParameters::kind)) return value;
   value.range = ValueRange{parameter.min, parameter.max, parameter.whole};

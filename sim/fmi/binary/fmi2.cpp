@@ -22,12 +22,17 @@ struct CallbackFunctions {
 enum Fmi2Type { model_exchange, co_simulation };
 enum Fmi2StatusKind { do_step_status, pending_status, last_successful_time, terminated };
 
-// "file:///opt/a%20b/resources"; a plain path, which some importers give, is one, too.
+// "file:///opt/a%20b/resources", "file://localhost/opt"; what some importers give is one, too: a plain path,
+// or one that begins in their folder, "file:resources", "file://resources".
 std::filesystem::path folder_of(std::string_view location) {
   constexpr std::string_view scheme = "file:";
   if (!location.starts_with(scheme)) return location;
   location.remove_prefix(scheme.size());
-  if (location.starts_with("//")) location.remove_prefix(std::min(location.find('/', 2), location.size()));
+  constexpr std::string_view host = "//localhost/";
+  if (location.starts_with(host))
+    location.remove_prefix(host.size() - 1);
+  else if (location.starts_with("//"))
+    location.remove_prefix(2);
   std::string path;
   for (std::size_t n = 0; n < location.size(); ++n) {
     unsigned char byte = 0;

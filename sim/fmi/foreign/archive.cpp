@@ -34,7 +34,8 @@ bool stays_inside(const std::string& name) {
 }  // namespace
 
 OwnFolder::OwnFolder() {
-  auto name = (fs::temp_directory_path() / "drycut-fmu-XXXXXX").string();
+  // The process of an FMU has another folder to work in, and begins the standard's URI with it.
+  auto name = fs::absolute(fs::temp_directory_path() / "drycut-fmu-XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr)
     throw std::runtime_error(fmt::format("cannot make the folder {}", name));
   path_ = name;
@@ -92,6 +93,12 @@ void FmuArchive::list() {
 
 bool FmuArchive::has(std::string_view name) const {
   return std::ranges::find(entries_, name, &Entry::name) != entries_.end();
+}
+
+std::vector<std::string> FmuArchive::names() const {
+  std::vector<std::string> names;
+  for (const auto& entry : entries_) names.push_back(entry.name);
+  return names;
 }
 
 std::string FmuArchive::bytes(const std::string& name) const {

@@ -31,6 +31,8 @@ class FmuArchive {
   FmuArchive& operator=(const FmuArchive&) = delete;
 
   [[nodiscard]] bool has(std::string_view name) const;
+  /// The names of its files, with their folders.
+  [[nodiscard]] std::vector<std::string> names() const;
   /// The bytes of an entry.
   [[nodiscard]] std::string bytes(const std::string& name) const;
   /// Writes what begins with one of `prefixes` into `folder`.

@@ -27,6 +27,9 @@ using Node = pugi::xml_node;
                                "it is the exporting tool's: export the FMU again");
 }
 
+constexpr std::size_t most_variables = 100000;  // elements of arrays among them
+constexpr double largest_whole = 2147483647.0;
+
 template <class T>
 T number_in(const std::string& text, const std::string& of) {
   T number{};
@@ -59,12 +62,14 @@ KnownUnit unit_called(const std::string& name, const Node& definition) {
   }
   const double factor = base.attribute("factor").as_double(1);
   const double offset = base.attribute("offset").as_double(0);
-  if (!std::isfinite(factor) || factor == 0 || !std::isfinite(offset))
+  if (!text.empty() && !scenario::is_unit(text))
+    refuse_description(fmt::format("the unit {} has the exponents {}, which no unit has", name, text));
+  if (!std::isfinite(factor) || factor == 0 || !std::isfinite(offset) || !std::isfinite(1 / factor))
     refuse_description(fmt::format("the unit {} has a factor or offset that is no number", name));
   // Angles may be left out of its base, as the standard allows.
   const auto same = [&](const std::string& other) {
     constexpr double slack = 1e-6;
-    if (!known || !scenario::same_dimension(name, other)) return false;
+    if (!known || !scenario::is_unit(other) || !scenario::same_dimension(name, other)) return false;
     const double zero = scenario::to_si(0, name);
     return std::abs(scenario::to_si(1, name) - zero - factor) <= slack * std::abs(factor) &&
            std::abs(zero - offset) <= slack * std::max(1.0, std::abs(offset));
@@ -195,8 +200,8 @@ class Description {
     if (made.type == GuestVariable::Type::flag) made.max = 1;
     if (made.type == GuestVariable::Type::flag) made.min = 0;
     if (made.type == GuestVariable::Type::whole && made.role == GuestVariable::Role::parameter) {
-      made.min = -2147483648.0;
-      made.max = 2147483647.0;
+      made.min = -largest_whole - 1;
+      made.max = largest_whole;
     }
     take_range(made, typed);
     add_elements(std::move(made), element, typed, {reference, *kind, 1});
@@ -213,6 +218,9 @@ class Description {
     const double one = scenario::to_si(1, unit.text) - zero;
     made.si_factor = unit.factor * one;
     made.si_offset = unit.offset * one + zero;
+    if (!std::isfinite(made.si_factor) || !std::isfinite(1 / made.si_factor) ||
+        !std::isfinite(made.si_offset))
+      refuse_description(fmt::format("the unit {} has a factor or offset beyond all measure", name));
     made.is_voltage = scenario::same_dimension(unit.text, "V");
   }
 
@@ -255,6 +263,8 @@ class Description {
     std::size_t count = 1;
     for (const auto size : sizes) count *= size;
     if (count == 0) return;
+    if (made_.variables.size() + count > most_variables)
+      refuse_description(fmt::format("it has more than {} variables", most_variables));
     exchanged.elements = static_cast<std::uint32_t>(count);
     std::vector<std::string> starts;
     if (exchanged.kind == NumberKind::text && !two()) {
@@ -296,8 +306,12 @@ class Description {
       made.start = text == "true" || text == "1" ? 1 : 0;
     else
       made.start = number_in<double>(text, made.name + ".start");
-    if (!std::isfinite(made.start))
+    if (!std::isfinite(made.start) || !std::isfinite(made.in_si(made.start)) ||
+        !std::isfinite(made.in_unit(made.start)))
       refuse_description(fmt::format("{}.start is no finite number", made.name));
+    const bool fits = made.start == std::round(made.start) && std::abs(made.start) <= largest_whole;
+    if (made.type == GuestVariable::Type::whole && !fits)
+      refuse_description(fmt::format("{}.start is no whole number of 32 bits", made.name));
   }
 
   // An output is one, in both places.

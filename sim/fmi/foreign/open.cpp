@@ -1,7 +1,9 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <mutex>
 #include <optional>
+#include <set>
 
 #include "sim/fmi/foreign/archive.hpp"
 #include "sim/fmi/foreign/description.hpp"
@@ -33,10 +35,7 @@ class ForeignType : public plants::GuestType {
       throw scenario::GuestRefused("fmu.archive"_code, "it is no FMU: it has no modelDescription.xml",
                                    "name an .fmu");
     description_ = read_description(archive.bytes("modelDescription.xml"));
-    if (!archive.has(library()))
-      throw scenario::GuestRefused("fmu.refused"_code,
-                                   fmt::format("it has no library for this machine: no {}", library()),
-                                   "export it for 64-bit Linux");
+    if (!archive.has(library())) refuse_without_library(archive);
     origin_ = fmt::format("FMI {}.0, model {}{}{}", description_.version, description_.model,
                           description_.tool.empty() ? "" : ", by ", description_.tool);
   }
@@ -71,6 +70,30 @@ class ForeignType : public plants::GuestType {
   }
 
  private:
+  /// It is of another platform, or its library has another name than the description says.
+  [[noreturn]] void refuse_without_library(const FmuArchive& archive) const {
+    const auto folder = fs::path(library()).parent_path().string() + "/";
+    constexpr std::string_view binaries = "binaries/";
+    std::set<std::string> libraries;
+    std::set<std::string> platforms;
+    for (const auto& name : archive.names()) {
+      if (name.starts_with(folder) && name.ends_with(".so")) libraries.insert(name.substr(folder.size()));
+      if (name.starts_with(binaries)) platforms.insert(name.substr(0, name.find('/', binaries.size())));
+    }
+    if (!libraries.empty())
+      throw scenario::GuestRefused(
+          "fmu.refused"_code,
+          fmt::format("its description says modelIdentifier=\"{0}\", so that its library is {1}{0}.so; there "
+                      "it has {2}",
+                      description_.identifier, folder, fmt::join(libraries, ", ")),
+          "it is the exporting tool's: the library has the name of the modelIdentifier");
+    throw scenario::GuestRefused(
+        "fmu.refused"_code,
+        fmt::format("it has no library for this machine: no {}{}{}", library(),
+                    platforms.empty() ? "" : "; it has ", fmt::join(platforms, ", ")),
+        "export it for 64-bit Linux");
+  }
+
   [[nodiscard]] std::string library() const {
     return fmt::format("binaries/{}/{}.so", description_.version == 2 ? "linux64" : "x86_64-linux",
                        description_.identifier);

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
@@ -15,7 +16,8 @@ namespace drycut::sim::fmi::host {
 
 namespace {
 
-constexpr int line = 3;  // the socket
+constexpr int line = 3;                                  // the socket
+constexpr std::string_view folder_name = "drycut-fmu-";  // as archive.cpp begins it
 
 bool read_all(void* to, std::size_t size) {
   auto* at = static_cast<char*>(to);
@@ -54,12 +56,29 @@ void take_limits(const LoadRequest& load) {
   limit(RLIMIT_AS, load.memory);
 }
 
-// A run that was killed must not leave an FMU that never answers.
+/// The run has ended without its say: a process that it still needs is told of its end, or killed, before the
+/// socket is closed.
+bool is_hung_up(int wait_ms) {
+  pollfd closed{line, 0, 0};
+  return poll(&closed, 1, wait_ms) > 0 && (closed.revents & POLLHUP) != 0;
+}
+
+// What was unpacked for the run, this program among it.
+void remove_folder() {
+  std::error_code none;
+  const auto folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
+  if (!folder.filename().string().starts_with(folder_name)) return;
+  constexpr int most_tries = 10;  // processes of other instances remove it, too
+  for (int tries = 0; tries < most_tries && std::filesystem::exists(folder, none); ++tries)
+    std::filesystem::remove_all(folder, none);
+}
+
+// A run that was killed must leave neither an FMU that never answers nor its files.
 void end_with_the_run() {
   std::thread([] {
-    pollfd closed{line, 0, 0};
-    while (poll(&closed, 1, -1) < 0) {
+    while (!is_hung_up(-1)) {
     }
+    remove_folder();
     _exit(0);
   }).detach();
 }
@@ -111,6 +130,7 @@ int serve() {
       answer(FrameWord::refused, std::as_bytes(std::span(why)));
     }
   }
+  if (is_hung_up(0)) remove_folder();
   model.reset();
   return 0;
 }

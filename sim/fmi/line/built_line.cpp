@@ -54,6 +54,14 @@ void refuse_misfit(const std::optional<devices::ValueFault>& fault) {
   if (fault) throw Refusal(fmt::format("{}; {}", fault->what, fault->remedy));
 }
 
+std::string meaning_of_reading(const std::string& name, const loop::Reading& reading, bool of_controller) {
+  if (!reading.meaning.empty()) return reading.meaning;
+  if (!of_controller) return "channel of a plant";
+  if (name.find_first_of("0123456789") == 0) return "terminal of the controller";
+  return name.find('.') == std::string::npos ? "value of the controller's program"
+                                             : "value of the controller";
+}
+
 bool is_list(const std::string& name) { return name.find('[') != std::string::npos; }
 
 }  // namespace
@@ -174,7 +182,7 @@ void BuiltLine::add_inputs() {
     return fmi_setting(full, meaning, unit, range.low, range.high, range.whole);
   };
   for (const auto& name : names.setting_names()) {
-    if (live_.contains(name)) continue;
+    if (live_.contains(name) || names.is_driven(name)) continue;
     const auto target = names.target(name);
     if (!target) continue;
     const bool panel = name.starts_with("panel.");
@@ -228,12 +236,15 @@ void BuiltLine::add_controller() {
     const auto value = controller != nullptr ? controller->find(name) : std::nullopt;
     if (value && value->of_table) continue;
     const auto unit = unit_or_none(reading->unit);
-    add(fmi_output(structured(name), unit == reading->unit ? "as a run records it" : "in " + reading->unit,
-                   Type::real, unit, reading->read));
+    auto meaning = meaning_of_reading(name, *reading, value.has_value());
+    if (unit != reading->unit) meaning += fmt::format(" [{}]", reading->unit);
+    add(fmi_output(structured(name), meaning, Type::real, unit, reading->read));
     if (!value || !value->write || name.find('.') == std::string::npos || has_variable("set." + name))
       continue;
-    FmiVariable variable{structured("parameters." + name), "of the controller; its program may set it, too",
-                         Type::real, Role::live_parameter};
+    FmiVariable variable{
+        structured("parameters." + name),
+        fmt::format("{}: as it is before the controller's program has run, which may set it, too", meaning),
+        Type::real, Role::live_parameter};
     told_.push_back(std::make_unique<Told>(Told{value->read()}));
     variable.get = [told = told_.back().get()] { return told->value; };
     // What it starts with may lie outside of its range, and an importer may give it all starts back.

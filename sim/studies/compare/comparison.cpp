@@ -159,7 +159,11 @@ std::string apart_text(const ChannelRow& channel, const Comparison& comparison) 
 std::string result_text(const std::optional<record::CheckResult>& result) {
   if (!result) return "-";
   const auto margin = report::margin_text(*result);
-  return fmt::format("{}{}{}", result->passed ? "passed" : "FAILED", margin.empty() ? "" : ", ", margin);
+  return fmt::format("{}{}{}",
+                     result->so_far   ? "held so far"
+                     : result->passed ? "passed"
+                                      : "FAILED",
+                     margin.empty() ? "" : ", ", margin);
 }
 
 Table comparison_table(const Comparison& comparison, const std::vector<Figure>& figures) {
@@ -172,7 +176,8 @@ Table comparison_table(const Comparison& comparison, const std::vector<Figure>& 
   for (const auto& row : comparison.checks) {
     const auto& results = row.results;
     rows.add("check", row.name, "", [&](auto i) -> std::string {
-      return results[i] ? results[i]->passed ? "passed" : "failed" : "";
+      if (!results[i]) return "";
+      return results[i]->so_far ? "held so far" : results[i]->passed ? "passed" : "failed";
     });
     const auto known =
         std::find_if(results.begin(), results.end(), [](const auto& r) { return r && r->margin; });

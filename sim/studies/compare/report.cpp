@@ -66,8 +66,11 @@ std::string run_cell(const ComparedRun& run) {
 
 std::string check_cell(const std::optional<record::CheckResult>& result) {
   if (!result) return "-";
-  return fmt::format("{} {}\n{}; {}", result->passed ? "PASS" : "FAIL", report::margin_text(*result),
-                     result->expectation, result->detail);
+  return fmt::format("{} {}\n{}; {}",
+                     result->so_far   ? "held so far"
+                     : result->passed ? "PASS"
+                                      : "FAIL",
+                     report::margin_text(*result), result->expectation, result->detail);
 }
 
 ReportTable verdict_table(const Comparison& comparison) {

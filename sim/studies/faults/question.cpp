@@ -258,7 +258,8 @@ std::string TriedFault::quantity() const {
 void prepare(FaultQuestion& question, Problems& problems) {
   auto read = std::make_shared<scenario::Scenario>(
       scenario::read_scenario_text(question.text, question.file, question.set, problems));
-  loop::refuse_guests_without_state(*read, problems);
+  loop::refuse_guests_without_state(
+      *read, "drycut faults goes on from moments; put a fault into the timeline of a run", problems);
   if (!problems.empty()) return;
   keep_product(*read);
   question.scenario = read;
