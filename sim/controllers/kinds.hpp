@@ -7,6 +7,7 @@
 
 #include "devices/controller.hpp"
 #include "devices/plcopen/axis_parameters.hpp"
+#include "devices/plcopen/st/dialect.hpp"
 #include "sim/scenario/archive.hpp"
 
 namespace drycut::devices::plcopen {
@@ -55,9 +56,10 @@ struct PlcopenSection final : scenario::ControllerSection {
   /// Files and folders of Structured Text, relative to the scenario: what stands there.
   std::vector<scenario::Text> program;
   std::vector<scenario::Text> program_files;  ///< the same, of a folder its *.st by name
-  Time cycle = 2 * millisecond;       ///< of the axes
+  Time cycle = 2 * millisecond;               ///< of the axes
   Time task_cycle = 2 * millisecond;  ///< of the program, a whole multiple of it; `cycle` if not given
   Time statement_time = 0;            ///< what a statement takes
+  std::optional<devices::plcopen::st::Dialect> dialect;  ///< of the program; not given: CODESYS's, with notes
   struct Axis {
     scenario::Text name;
     devices::plcopen::AxisConfiguration configuration = {};

@@ -110,7 +110,7 @@ void Compiler::declare_task() {
     expect(":=", "stands between a property and its value");
     const Place place = peek().place;
     if (property.word("INTERVAL")) {
-      task.interval_ns = constant_value(*type_of(Basic::time)) * 1'000'000;
+      task.interval_ns = constant_value(*time_type()) * 1'000'000;
       runs = runs || task.interval_ns > 0;
     } else if (property.word("PRIORITY")) {
       task.priority = static_cast<int>(constant_value(*type_of(Basic::uint)));

@@ -17,6 +17,7 @@ std::vector<Cell> Declarations::initial_value(const Type& type) {
 void Declarations::initial_into(const Type& type, std::span<Cell> cells) {
   switch (type.basic) {
     case Basic::array:
+      refuse_open(type, peek().place);
       initial_array(type, cells);
       return;
     case Basic::structure:

@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "devices/cards.hpp"
 #include "devices/plcopen/modbus_map.hpp"
+#include "devices/plcopen/st/dialect.hpp"
 
 // Structured Text (IEC 61131-3) as a cam application on a PLCopen controller uses it.
 namespace drycut::devices::plcopen::st {
@@ -26,12 +27,13 @@ class Program {
     int line = 0;
     int column = 0;
   };
-  /// A BOOL at an input %IXbyte.bit or an output %QXbyte.bit.
+  /// A BOOL at an input %IXbyte.bit or an output %QXbyte.bit, or a bit of a number at several.
   struct Located {
     std::string name;
     Address address;
     int line = 0;
     int column = 0;
+    int bit = -1;  ///< of the number; -1: it is a BOOL
   };
 
   /// A variable AT %M, or an array of them from there on.
@@ -89,7 +91,8 @@ class Program {
 };
 
 struct CompileOptions {
-  bool library = false;  ///< it may have no PROGRAM: then there is nothing to run
+  bool library = false;                 ///< it may have no PROGRAM: then there is nothing to run
+  std::optional<Dialect> dialect = {};  ///< not given: CODESYS's; where it matters that is noted
 };
 
 /// Compiles the files of a program, one at least, whose order is of no account. All its faults go to

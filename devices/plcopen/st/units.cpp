@@ -13,6 +13,7 @@ namespace drycut::devices::plcopen::st {
 
 Compiler::Compiler(std::span<const SourceFile> files, const CompileOptions& options, Problems& problems)
     : Statements(files.front().name, problems), options_(options) {
+  dialect_ = options.dialect;
   lines_ = SourceLines(files);
   tokens_ = tokens_of(standard_blocks(), file_, problems);
   tokens_.pop_back();
@@ -43,6 +44,7 @@ std::shared_ptr<const Compiled> Compiler::run() {
         Unit::Kind::program, Unit::Kind::interface, Unit::Kind::method})
     for (const auto& unit : units_)
       if (unit->kind == kind && !unit->standard) declare(*unit);
+  declare_addresses(user_tokens_);
   check_methods();
   check_programs();
   read_configuration();
