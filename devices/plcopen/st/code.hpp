@@ -301,7 +301,7 @@ struct Compiled {
   std::vector<Program::Name> externals;
   std::vector<int> external_cells;
   std::vector<Program::Located> located;
-  std::vector<int> located_cells;
+  std::vector<SymbolPlace> located_cells;
   std::vector<Program::InMemory> in_memory;
   std::vector<Program::Name> tables;
 

@@ -131,6 +131,8 @@ Cell Declarations::constant_value(const Type& wanted, const char* what, const ch
   const Place place = peek().place;
   TypedExpression value = expression(&wanted);
   if (value.unknown()) throw GiveUp{};
+  if (is_character(wanted.basic) && value.string) value = converted(std::move(value), wanted);
+  if (value.unknown()) throw GiveUp{};
   if (!value.constant || !takes(value.type->basic)) give_up("st.initial-value"_code, place, what, remedy);
   const std::size_t before = told();
   value = converted(value, wanted);

@@ -69,7 +69,8 @@ void Compiler::place_located() {
     const auto instance = std::find_if(code.instances.begin(), code.instances.end(),
                                        [&](const auto& one) { return one.pou == located_in_[i]; });
     if (located_in_[i] >= 0 && instance == code.instances.end()) continue;
-    code.located_cells[kept] = code.located_cells[i] + (located_in_[i] >= 0 ? instance->cell : 0);
+    code.located_cells[kept] = code.located_cells[i];
+    code.located_cells[kept].cell += located_in_[i] >= 0 ? instance->cell : 0;
     if (kept != i) code.located[kept] = std::move(code.located[i]);
     ++kept;
   }

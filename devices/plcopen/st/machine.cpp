@@ -62,12 +62,6 @@ void Machine::fail_value(const StInstruction& at, const std::string& text) const
            : text);
 }
 
-void Machine::set_bit(int place, int bit, bool on) {
-  const std::uint64_t mask = std::uint64_t{1} << bit;
-  const auto value = static_cast<std::uint64_t>(at(place));
-  at(place) = static_cast<Cell>(on ? value | mask : value & ~mask);
-}
-
 void Machine::exhausted(const StInstruction& at) const {
   fail(at, fmt::format("more than {} operations in one scan; a loop does not end, or there is more "
                        "to do than a scan can hold",

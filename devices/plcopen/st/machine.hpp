@@ -51,8 +51,6 @@ class Machine {
   /// The motion block with this cell among its pins.
   [[nodiscard]] const FunctionBlock* motion_at(int place) const;
   void set_cell(int place, Cell value) { memory_[static_cast<std::size_t>(place)] = value; }
-  /// A bit of the whole number at that place.
-  void set_bit(int place, int bit, bool on);
 
   /// A value that did not fit where it was put; told once for each place of the text.
   struct Loss {

