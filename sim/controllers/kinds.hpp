@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -7,12 +8,14 @@
 
 #include "devices/controller.hpp"
 #include "devices/plcopen/axis_parameters.hpp"
-#include "devices/plcopen/st/dialect.hpp"
 #include "sim/scenario/archive.hpp"
 
 namespace drycut::devices::plcopen {
 class PlcopenController;
+namespace st {
+enum class StDialect : std::uint8_t;
 }
+}  // namespace drycut::devices::plcopen
 
 namespace drycut::sim::controllers {
 
@@ -59,7 +62,8 @@ struct PlcopenSection final : scenario::ControllerSection {
   Time cycle = 2 * millisecond;               ///< of the axes
   Time task_cycle = 2 * millisecond;  ///< of the program, a whole multiple of it; `cycle` if not given
   Time statement_time = 0;            ///< what a statement takes
-  std::optional<devices::plcopen::st::Dialect> dialect;  ///< of the program; not given: CODESYS's, with notes
+  std::optional<devices::plcopen::st::StDialect>
+      dialect;  ///< of the program; not given: CODESYS's, with notes
   struct Axis {
     scenario::Text name;
     devices::plcopen::AxisConfiguration configuration = {};

@@ -29,11 +29,11 @@ void check_multiple(scenario::MapReader& reader, std::string_view key, Time time
       fmt::format("for example {}", scenario::format_time(std::max<Time>(1, time / cycle) * cycle)));
 }
 
-scenario::Form dialect_form(std::optional<plcopen::st::Dialect>& dialect) {
+scenario::Form dialect_form(std::optional<plcopen::st::StDialect>& dialect) {
   auto form = scenario::choice_form(
       {plcopen::st::dialect_names.begin(), plcopen::st::dialect_names.end()},
       [&dialect] { return static_cast<std::size_t>(*dialect); },
-      [&dialect](std::size_t number) { dialect = static_cast<plcopen::st::Dialect>(number); });
+      [&dialect](std::size_t number) { dialect = static_cast<plcopen::st::StDialect>(number); });
   form.write = [&dialect, write = form.write] { return dialect ? write() : ""; };
   return form;
 }

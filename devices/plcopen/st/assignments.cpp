@@ -48,7 +48,7 @@ int Expressions::assign(const TypedExpression& target, const TypedExpression& va
 
 /// As CODESYS takes it; told once an input.
 bool Expressions::may_assign_input(const TypedExpression& target) {
-  if (dialect_ == Dialect::iec) {
+  if (dialect_ == StDialect::iec) {
     complain("st.use"_code, target.place,
              fmt::format("{} is an input of {} and is assigned", target.name, unit_->name.text),
              "IEC 61131-3 lets only the caller give it: assign a variable of its own");

@@ -99,7 +99,7 @@ TypedExpression Values::converted(TypedExpression expression, const Type& to) {
            (from.subrange && from.low >= range_of(to.basic).low && from.high <= range_of(to.basic).high);
   };
   if (is_number(from.basic) && is_number(to.basic) && is_bits(from.basic) != is_bits(to.basic) && fits() &&
-      is_iec(Difference::bits_as_numbers, expression.place))
+      is_iec(DialectDifference::bits_as_numbers, expression.place))
     return refuse("st.type"_code, expression.place,
                   fmt::format("a value of type {} does not go into {} by itself", from.name, to.name),
                   fmt::format("{}_TO_{}(...) converts", type_of(from.basic)->name, type_of(to.basic)->name));

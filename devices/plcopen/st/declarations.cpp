@@ -92,7 +92,7 @@ void Declarations::declare_pou(Unit& unit) {
   fill_empty(type);
   name_standard_pins(type);
   // F_TRIG of IEC 61131-3: before its first scan CLK was TRUE.
-  if (unit.standard && dialect_ == Dialect::iec && type.name == "F_TRIG")
+  if (unit.standard && dialect_ == StDialect::iec && type.name == "F_TRIG")
     type.initial[static_cast<std::size_t>(find_member(type, "last")->offset)] = 1;
   Pou& own = pou(unit);
   own.type = &type;
@@ -236,7 +236,7 @@ std::optional<bool> Declarations::edge(const Unit& unit, const VarSection& secti
     give_up("st.declaration"_code, word.place, fmt::format("{} stands behind no input", upper(word.text)),
             "it follows a BOOL in VAR_INPUT of a FUNCTION_BLOCK or PROGRAM");
   const bool rises = word.word("R_EDGE");
-  if (!rises) is_iec(Difference::first_falling_edge, word.place);
+  if (!rises) is_iec(DialectDifference::first_falling_edge, word.place);
   return rises;
 }
 
@@ -245,7 +245,7 @@ void Declarations::add_edge(Unit& unit, Type& owner, const StToken& name, bool r
   for (const std::string_view what : {edge_mark, last_mark})
     append(owner, {.name = fmt::format("{}{}", name.text, what), .type = boolean, .place = name.place},
            boolean->initial);
-  if (!rising && dialect_ == Dialect::iec) owner.initial.back() = 1;
+  if (!rising && dialect_ == StDialect::iec) owner.initial.back() = 1;
   unit.edges.push_back({name, rising});
 }
 

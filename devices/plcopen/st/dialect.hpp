@@ -5,12 +5,8 @@
 
 namespace drycut::devices::plcopen::st {
 
-/// Whose Structured Text a program is written in, where IEC 61131-3 (third edition) and CODESYS differ.
-enum class Dialect : std::uint8_t { iec, codesys };
-inline constexpr std::array<std::string_view, 2> dialect_names{"iec", "codesys"};
-
-/// What they take differently; in the order of `differences`.
-enum class Difference : std::uint8_t {
+/// What IEC 61131-3 (third edition) and CODESYS take differently; in the order of `differences`.
+enum class DialectDifference : std::uint8_t {
   negative_time,
   reals_of_bits,
   arithmetic_on_bits,

@@ -94,7 +94,7 @@ TypedExpression Expressions::signed_tree(const Tree& tree, const Type* wanted) {
       return part.kind == Tree::Kind::literal && part.token->whole() && part.token->value % 2 != 0;
     };
     if (!std::all_of(of.parts.begin() + 1, of.parts.end(), odd) &&
-        is_iec(Difference::negated_power, tree.token->place))
+        is_iec(DialectDifference::negated_power, tree.token->place))
       return chain(of, signed_value(*this, *tree.token, typed(of.parts[0], wanted), wanted), wanted);
   }
   return signed_value(*this, *tree.token, typed(of, wanted), wanted);

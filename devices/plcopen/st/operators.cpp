@@ -123,7 +123,7 @@ struct Operation {
   /// Told where the program is of IEC 61131-3.
   [[nodiscard]] bool refuses_bits() const {
     return ((is_bits(a.type->basic) && !a.untyped) || (is_bits(b.type->basic) && !b.untyped)) &&
-           values.is_iec(Difference::arithmetic_on_bits, told.place);
+           values.is_iec(DialectDifference::arithmetic_on_bits, told.place);
   }
   TypedExpression bits_are_no_numbers() {
     return mismatch("bits are no numbers in IEC 61131-3: BYTE_TO_USINT(...) makes one");
@@ -169,7 +169,7 @@ struct Operation {
 
   /// What comes of it may be below 0, which a TIME of CODESYS is not.
   void note_below_zero() {
-    if (!a.type->is_long()) values.is_iec(Difference::negative_time, told.place);
+    if (!a.type->is_long()) values.is_iec(DialectDifference::negative_time, told.place);
   }
 
   TypedExpression clock_arithmetic() {
@@ -223,7 +223,7 @@ struct Operation {
     if (type == nullptr || (lazy && !booleans))
       return mismatch(lazy ? "it takes BOOL" : "it takes two BOOL or two whole numbers");
     if ((is_number_with_type(a) || is_number_with_type(b)) &&
-        values.is_iec(Difference::logic_on_numbers, told.place))
+        values.is_iec(DialectDifference::logic_on_numbers, told.place))
       return mismatch("numbers are no bits in IEC 61131-3: INT_TO_WORD(...) makes bits of one");
     convert_both(*type);
     return apply(sign.op, type, a, b);
@@ -290,7 +290,7 @@ TypedExpression signed_value(Values& values, const StToken& sign, TypedExpressio
         values, sign, operand,
         basic == Basic::time ? "it takes numbers; a TIME is below 0 under dialect: iec" : "it takes numbers");
   if (sign.is("+")) return operand;
-  if (is_bits(basic) && !operand.untyped && values.is_iec(Difference::arithmetic_on_bits, sign.place))
+  if (is_bits(basic) && !operand.untyped && values.is_iec(DialectDifference::arithmetic_on_bits, sign.place))
     return no_operand(values, sign, operand, "it takes numbers: BYTE_TO_USINT(...) makes one");
   if (operand.constant && operand.untyped && is_integer(basic)) {
     operand.place = sign.place;
@@ -304,7 +304,7 @@ TypedExpression complement(Values& values, const StToken& sign, TypedExpression 
   operand = literal_for_bits(values, std::move(operand), wanted, sign);
   if (operand.unknown()) return operand;
   const Basic basic = operand.type->basic;
-  if (is_number_with_type(operand) && values.is_iec(Difference::logic_on_numbers, sign.place))
+  if (is_number_with_type(operand) && values.is_iec(DialectDifference::logic_on_numbers, sign.place))
     return no_operand(values, sign, operand, "it takes BOOL and bits: INT_TO_WORD(...) makes them");
   if (basic == Basic::boolean || is_integer(basic))
     return values.apply_op(StOp::bit_not, operand.type, sign.place, operand);

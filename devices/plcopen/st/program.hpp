@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,7 +12,6 @@
 #include "base/text.hpp"
 #include "devices/cards.hpp"
 #include "devices/plcopen/modbus_map.hpp"
-#include "devices/plcopen/st/dialect.hpp"
 
 // Structured Text (IEC 61131-3) as a cam application on a PLCopen controller uses it.
 namespace drycut::devices::plcopen::st {
@@ -90,9 +91,13 @@ class Program {
   std::shared_ptr<const Compiled> compiled_;
 };
 
+/// Whose Structured Text a program is written in, where IEC 61131-3 (third edition) and CODESYS differ.
+enum class StDialect : std::uint8_t { iec, codesys };
+inline constexpr std::array<std::string_view, 2> dialect_names{"iec", "codesys"};
+
 struct CompileOptions {
-  bool library = false;                 ///< it may have no PROGRAM: then there is nothing to run
-  std::optional<Dialect> dialect = {};  ///< not given: CODESYS's; where it matters that is noted
+  bool library = false;                   ///< it may have no PROGRAM: then there is nothing to run
+  std::optional<StDialect> dialect = {};  ///< not given: CODESYS's; where it matters that is noted
 };
 
 /// Compiles the files of a program, one at least, whose order is of no account. All its faults go to

@@ -39,7 +39,7 @@ TypedExpression StandardCall::shift() {
   if (bits.unknown()) return bits;
   if (!is_integer(bits.type->basic)) return refused(bits, "it takes whole numbers");
   if (!is_integer(basic(1))) return refused(inputs[1], "the number of places is a whole number");
-  if (!is_bits(bits.type->basic) && values.is_iec(Difference::logic_on_numbers, place()))
+  if (!is_bits(bits.type->basic) && values.is_iec(DialectDifference::logic_on_numbers, place()))
     return refused(bits, "it takes bits in IEC 61131-3: INT_TO_WORD(...) makes them");
   return values.apply_op(function.op, bits.type, place(), bits, inputs[1]);
 }
@@ -53,7 +53,7 @@ const TypedExpression* StandardCall::no_number() const {
 const TypedExpression* StandardCall::bits_of_iec() const {
   for (const TypedExpression& value : inputs)
     if (is_bits(value.type->basic) && !value.untyped &&
-        values.is_iec(Difference::arithmetic_on_bits, place()))
+        values.is_iec(DialectDifference::arithmetic_on_bits, place()))
       return &value;
   return nullptr;
 }
@@ -289,7 +289,7 @@ TypedExpression StandardCall::converted(const Type& target) {
     return refused(value, "it takes numbers, BOOL, TIME and STRING");
   const bool bits = (is_bits(from) && is_real(to)) || (is_real(from) && is_bits(to));
   if (bits && bits_of(from) == bits_of(to) && !value.untyped &&
-      values.is_iec(Difference::reals_of_bits, place()))
+      values.is_iec(DialectDifference::reals_of_bits, place()))
     return values.apply_op(is_real(to) ? StOp::bits_to_real : StOp::real_to_bits, type_of(to), place(),
                            value);
   if (value.untyped && (from == Basic::lint || from == Basic::ulint || from == Basic::lreal))

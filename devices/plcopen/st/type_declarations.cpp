@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "devices/plcopen/pins.hpp"
 #include "devices/plcopen/st/compiler.hpp"
 
 // TYPE sections, and what may stand behind a ':'.
@@ -15,6 +16,17 @@ const Type* type_of_pin(const Pin& pin, const PinValue& value, const Type* cam_r
   constexpr std::array basics{Basic::boolean, Basic::int_,  Basic::uint,
                               Basic::dint,    Basic::udint, Basic::lreal};
   return type_of(basics.at(value.index()));
+}
+
+/// What a pin holds, if it is of one cell and no AXIS_REF.
+std::optional<Cell> cell_of_pin(const PinValue& pin) {
+  const auto cell = [](const auto* held) -> std::optional<Cell> {
+    using T = std::remove_cvref_t<decltype(*held)>;
+    if constexpr (std::is_same_v<T, double>) return cell_of(*held);
+    if constexpr (std::is_integral_v<T>) return static_cast<Cell>(*held);
+    return std::nullopt;
+  };
+  return std::visit(cell, pin);
 }
 
 }  // namespace
@@ -291,7 +303,8 @@ const Type* Declarations::named_type() {
     if (open_units_ > deepest)
       give_up("st.too-large"_code, name.place, "the types are nested too deeply",
               fmt::format("declare {} before what is made of it", in_quotes(name.text)));
-    if (unit->standard && same_word(name.text, "F_TRIG")) is_iec(Difference::first_falling_edge, name.place);
+    if (unit->standard && same_word(name.text, "F_TRIG"))
+      is_iec(DialectDifference::first_falling_edge, name.place);
     declare(*unit);
     return unit->type;
   }

@@ -119,16 +119,6 @@ const std::vector<std::string>& elementary_names() {
   return names;
 }
 
-std::optional<Cell> cell_of_pin(const PinValue& pin) {
-  const auto cell = [](const auto* held) -> std::optional<Cell> {
-    using T = std::remove_cvref_t<decltype(*held)>;
-    if constexpr (std::is_same_v<T, double>) return cell_of(*held);
-    if constexpr (std::is_integral_v<T>) return static_cast<Cell>(*held);
-    return std::nullopt;
-  };
-  return std::visit(cell, pin);
-}
-
 const Variable* find_member(const Type& type, std::string_view name) {
   const auto found = type.index.find(lower(name));
   return found == type.index.end() ? nullptr : &type.members[found->second];

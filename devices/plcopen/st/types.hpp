@@ -9,7 +9,10 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "devices/plcopen/pins.hpp"
+
+namespace drycut::devices::plcopen {
+struct BlockType;
+}
 
 namespace drycut::devices::plcopen::st {
 
@@ -38,7 +41,7 @@ enum class Basic : std::uint8_t {
   real,
   lreal,
   time,            ///< whole ms in 32 bit, wraps after 49 days, as on CODESYS and TwinCAT
-  signed_time,     ///< the same with a sign: TIME of Dialect::iec
+  signed_time,     ///< the same with a sign: TIME of StDialect::iec
   ltime,           ///< ns in 64 bit with a sign, as of the other long ones
   tod,             ///< ms since midnight
   ltod,            ///< ns since midnight
@@ -225,8 +228,6 @@ int string_cells(std::size_t length);
 inline constexpr std::size_t default_string_length = 80;
 inline constexpr std::size_t most_string_length = 32767;
 const std::vector<std::string>& elementary_names();
-/// What a pin holds, if it is of one cell and no AXIS_REF.
-std::optional<Cell> cell_of_pin(const PinValue& pin);
 /// The member called `name`, any case; nullptr if there is none.
 const Variable* find_member(const Type& type, std::string_view name);
 

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "devices/plcopen/st/dialect.hpp"
 #include "devices/plcopen/st/nodes.hpp"
 #include "devices/plcopen/st/parser.hpp"
 
@@ -126,10 +127,10 @@ class Values : public Parser {
 
   /// Whether the program is of IEC 61131-3 where it comes upon this difference. Where the scenario says
   /// nothing it is not, and that is noted once.
-  bool is_iec(Difference difference, Place place);
+  bool is_iec(DialectDifference difference, Place place);
   /// TIME of the dialect.
   [[nodiscard]] const Type* time_type() const {
-    return type_of(dialect_ == Dialect::iec ? Basic::signed_time : Basic::time);
+    return type_of(dialect_ == StDialect::iec ? Basic::signed_time : Basic::time);
   }
   /// BOOL..WSTRING by name; nullptr if there is none.
   [[nodiscard]] const Type* type_named(std::string_view name) const {
@@ -181,7 +182,7 @@ class Values : public Parser {
   Nodes nodes_;
   std::vector<Cell> pool_;  ///< literals and scratch, placed last
   Unit* unit_ = nullptr;    ///< whose text is being read
-  std::optional<Dialect> dialect_;
+  std::optional<StDialect> dialect_;
   int right_sides_ = 0;  ///< what is read stands right of so many AND and OR
 
  private:
@@ -193,7 +194,7 @@ class Values : public Parser {
   int bits_node(const TypedExpression& expression);
   int in_pool(std::size_t cells);
 
-  std::set<Difference> differences_;  ///< that have been noted
+  std::set<DialectDifference> differences_;  ///< that have been noted
   std::unordered_map<std::string, int> strings_;
   const Type* longest_string_ = nullptr;
   const Type* longest_wide_ = nullptr;

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "devices/plcopen/st/dialect.hpp"
 #include "tests/devices/st/bench.hpp"
 
 namespace drycut::devices::plcopen::st {
@@ -13,8 +14,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-constexpr CompileOptions iec{.dialect = Dialect::iec};
-constexpr CompileOptions codesys{.dialect = Dialect::codesys};
+constexpr CompileOptions iec{.dialect = StDialect::iec};
+constexpr CompileOptions codesys{.dialect = StDialect::codesys};
 
 /// The notes of differences among those of a program.
 std::vector<std::string> differences_in(const Bench& bench) {
