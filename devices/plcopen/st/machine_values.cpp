@@ -129,9 +129,11 @@ Cell Machine::text_value(const StInstruction& of, const Bases& bases) {
   const bool wide = list[1] != 0;
   list += 2;
   const auto value = [&](int operand) { return at(bases, unpacked(operand)); };
+  // Of the place that the result has.
+  const std::size_t room = wide ? longest_bytes() : code_.longest_text;
   const Cell target = op < TextOp::length ? value(*list++) : 0;
   if (op == TextOp::from_value) {
-    put_string(text_of(of.basic, value(*list)), target, longest_bytes());
+    put_string(text_of(of.basic, value(*list)), target, room);
     return target;
   }
   const std::size_t texts = texts_of(op, static_cast<std::size_t>(end - list));
@@ -159,7 +161,7 @@ Cell Machine::text_value(const StInstruction& of, const Bases& bases) {
   }
   if (wide) numbers = in_bytes(op, parts[0], numbers);
   if (op == TextOp::to_value) return value_of(of.basic, parts[0]);
-  put_string(edited(op, parts, numbers), target, longest_bytes());
+  put_string(edited(op, parts, numbers), target, room);
   return target;
 }
 

@@ -41,9 +41,9 @@ TypedExpression Values::refuse(Code code, Place place, std::string what, std::st
   return unknown_at(of);
 }
 
-bool Values::is_iec(Difference difference, Place place) {
+bool Values::is_iec(DialectDifference difference, Place place) {
   if (unit_ != nullptr && unit_->standard) return false;
-  if (dialect_) return *dialect_ == Dialect::iec;
+  if (dialect_) return *dialect_ == StDialect::iec;
   if (!differences_.insert(difference).second) return false;
   const auto& [of, iec, codesys] = differences.at(static_cast<std::size_t>(difference));
   code_->doubts.push_back(

@@ -116,6 +116,14 @@ TEST(StCharacters, AreOneOfAText) {
                           StartsWith("4:6: "), StartsWith("5:8: '+' does not go with CHAR and CHAR")));
 }
 
+TEST(StCharacters, ShortTextsLeaveWhatStandsBehindThem) {
+  // The place of a STRING on its way is a quarter of a WSTRING's.
+  EXPECT_EQ(run("x, i : INT := 5; s : STRING; w : WSTRING;",
+                "s := INT_TO_STRING(i); w := CONCAT(\"a\", \"b\"); IF s = '5' AND w = \"ab\" AND "
+                "LEN(\"long\") = 4 THEN x := 1; END_IF"),
+            1);
+}
+
 TEST(StCharacters, TextsOfTwoKindsDoNotMix) {
   for (const char* expression :
        {"SEL(b, 'a', \"b\")", "MUX(0, 'a', \"b\")", "CONCAT('a', \"b\")", "\"text\""})
