@@ -90,6 +90,7 @@ class Expressions : public Values {
     int cell = 0;
   };
   std::map<std::string, Seat> seats_;
+  bool addresses_declared_ = false;
   std::set<std::string> told_;                           ///< names that are not known, told once a POU
   std::set<std::string> method_names_;                   ///< keys of all methods
   std::unordered_map<std::string, int> method_numbers_;  ///< of those that are called, by their keys

@@ -196,7 +196,7 @@ void Compiler::check_instances() {
     const auto count = std::count_if(code_->instances.begin(), code_->instances.end(),
                                      [&](const Compiled::Instance& instance) { return instance.pou == pou; });
     const Program::Located& located = code_->located[i];
-    if (pou >= 0 && count > 1)
+    if (pou >= 0 && count > 1 && located.bit <= 0)
       complain("st.declared-twice"_code, {located.line, located.column},
                fmt::format("{} is in {} programs at one terminal", in_quotes(located.name), count),
                "declare it in VAR_GLOBAL");

@@ -188,6 +188,7 @@ Declarations::Location Declarations::location() {
 
 /// %QW2 in the statements, where no variable is declared AT it, is a variable of all units.
 void Declarations::declare_addresses(std::size_t first) {
+  addresses_declared_ = true;
   std::set<std::string> told;
   for (std::size_t i = first; i < tokens_.size(); ++i) {
     if (tokens_[i].kind != StToken::Kind::address || tokens_[i - 1].is(".") || tokens_[i - 1].word("AT"))
@@ -230,6 +231,9 @@ void Declarations::declare_address(const StToken& token, const std::string& name
 }
 
 TypedExpression Expressions::direct_place(const StToken& token) {
+  if (!addresses_declared_)
+    give_up("st.initial-value"_code, token.place, fmt::format("{} is not constant", in_quotes(token.text)),
+            "an address stands in statements");
   const auto bits = located_bits(token.text);
   const auto memory = bits ? std::nullopt : parse_memory_place(token.text);
   const auto found = bits     ? seats_.find(place_name(bits->first, bits->count))

@@ -91,6 +91,8 @@ TEST(StPlaces, AreRefusedWhereTheyCannotBe) {
   EXPECT_THAT(told("i := %ZX1;"), ElementsAre(StartsWith("2:6: '%ZX1' is no terminal that is known")));
   EXPECT_THAT(told("r := %ML3;"), ElementsAre(StartsWith("2:6: %ML3 stands without a variable")));
   EXPECT_THAT(told("i := %IB3;"), IsEmpty());
+  EXPECT_THAT(problems_of("PROGRAM p VAR w : WORD := %MW0; END_VAR END_PROGRAM"),
+              ElementsAre(StartsWith("1:27: '%MW0' is not constant; an address stands in statements")));
   EXPECT_THAT(told("r := %MD0;").size(), 1);
   EXPECT_THAT(problems_of("PROGRAM a VAR x AT %IX0.0 : BOOL; END_VAR END_PROGRAM PROGRAM b VAR y : BOOL; "
                           "END_VAR\ny := %IX0.0; END_PROGRAM"),
