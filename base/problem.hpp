@@ -223,6 +223,7 @@ inline constexpr CodeRow code_rows[] = {
     {"plant.unknown-type", "There is no such type of plant", "It is misspelt.", "Take the one that the line suggests; drycut plants lists them."},
     {"plant.wrong-reference", "A plant refers to one of another type", "A knife needs a web, and the like.", "Name a plant of the type that the line names."},
     {"program.block-elsewhere", "A DECAM works on another block than ECAMTBX makes", "The two name different registers.", "Let both name one block."},
+    {"program.dialect", "A program says what IEC 61131-3 and CODESYS take differently", "The scenario names no dialect: it is taken as CODESYS takes it.", "Give controller.plcopen.dialect: iec or codesys."},
     {"program.input-assigned", "A block assigns its own input", "What the caller gave is lost, until the next call gives it again.", "Assign a variable of the block's own."},
     {"program.never-called", "Nothing calls a function block", "Its call is missing.", "Call it, or take it out."},
     {"program.never-set", "A variable is read, and nothing sets it", "Its assignment is missing, or its name is misspelt.", "Set it, or take it out."},

@@ -95,8 +95,11 @@ inline constexpr std::array readings = {
         "event value_cut, once for each place of the program; an infinite REAL is recorded as the largest "
         "number, one that is no number as 0",
         "IEC 61131-3 calls them errors"},
-    ManualReading{"ST", "a block may assign its own inputs; it is told as a note",
-                  "IEC 61131-3 forbids it, CODESYS takes it"},
+    ManualReading{
+        "ST",
+        "a program whose scenario names no dialect is CODESYS's; where that matters it is noted, the "
+        "first line of each difference",
+        "IEC 61131-3 and CODESYS differ"},
     ManualReading{
         "ST", "a function that EN leaves out gives the initial value of its type, a block keeps its outputs",
         "IEC 61131-3 leaves it to the implementer"},
@@ -116,8 +119,11 @@ inline constexpr std::array readings = {
     ManualReading{"ST", "places outside of a STRING are cut off", "IEC 61131-3 calls them errors"},
     ManualReading{"ST", "whole numbers wrap in their width; conversions round halves to the even number",
                   "IEC 61131-3 leaves overflow to the implementer"},
-    ManualReading{"ST", "TIME counts milliseconds in 32 bit; TOD begins anew at midnight",
-                  "IEC 61131-3 leaves range and precision to the implementer"},
+    ManualReading{
+        "ST",
+        "TIME counts milliseconds in 32 bit, LTIME nanoseconds in 64 with a sign; TOD and LTOD begin "
+        "anew at midnight",
+        "IEC 61131-3 leaves range and precision to the implementer"},
     ManualReading{"ST", "AND and OR take both sides", "IEC 61131-3 lets the implementer choose"},
 };
 

@@ -64,6 +64,31 @@ std::optional<Address> located_address(std::string_view text) {
   return Address{letter == 'Q' ? Kind::output : Kind::input, 0, static_cast<int>(bits_per_byte * byte + bit)};
 }
 
+std::optional<LocatedBits> located_bits(std::string_view text) {
+  if (const auto bit = located_address(text)) return LocatedBits{*bit, 1};
+  const std::string name = upper(text);
+  constexpr std::string_view sizes = "BWDL";
+  const std::size_t size = name.size() > 3 ? sizes.find(name[2]) : std::string_view::npos;
+  if (name[0] != '%' || size == std::string_view::npos || (name[1] != 'I' && name[1] != 'Q'))
+    return std::nullopt;
+  const int count = bits_per_byte << size;
+  constexpr int last_bit = bits_per_byte * 65535 + bits_per_byte - 1;
+  int number = 0;
+  const char* const end = name.data() + name.size();
+  const auto read = std::from_chars(name.data() + 3, end, number);
+  if (read.ec != std::errc() || read.ptr != end || number < 0 || number > last_bit / count)
+    return std::nullopt;
+  return LocatedBits{{name[1] == 'Q' ? Kind::output : Kind::input, 0, number * count}, count};
+}
+
+std::string place_name(const Address& first, int count) {
+  if (count == 1) return "%" + located_name(first);
+  constexpr std::string_view sizes = "BWDL";
+  std::size_t size = 0;
+  while (bits_per_byte << size < count) ++size;
+  return fmt::format("%{}{}{}", first.kind == Kind::output ? 'Q' : 'I', sizes[size], first.number / count);
+}
+
 Address AxisTerminal::address(int axis) const {
   return {kind, axis + 1, kind == Kind::interrupt ? axis + 1 : number};
 }

@@ -42,5 +42,15 @@ std::optional<TerminalName> parse_terminal(std::string_view text);
 std::string located_name(const Address& address);
 /// Address of the program's BOOL at "IX0.3" or "%QX1.0", any case; nullopt if `text` is written otherwise.
 std::optional<Address> located_address(std::string_view text);
+/// BOOLs of the program that a number takes together, the lowest bit first.
+struct LocatedBits {
+  Address first;
+  int count = 1;
+};
+/// "%IX0.3", or a whole number at "%IB3", "%QW1", "%ID0", "%IL0", any case: its number counts places of its
+/// own size, so that %QW1 is %QX2.0 to %QX3.7. nullopt if `text` is written otherwise.
+std::optional<LocatedBits> located_bits(std::string_view text);
+/// "%IX0.3", "%QW1"
+std::string place_name(const Address& first, int count);
 
 }  // namespace drycut::devices::plcopen

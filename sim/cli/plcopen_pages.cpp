@@ -11,6 +11,7 @@
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/pins.hpp"
 #include "devices/plcopen/readings.hpp"
+#include "devices/plcopen/st/dialect.hpp"
 #include "devices/plcopen/st/language.hpp"
 #include "devices/plcopen/terminals.hpp"
 #include "sim/cli/pages.hpp"
@@ -121,6 +122,13 @@ Sheet rows_of(const std::string& key, const std::string& title,
   return sheet;
 }
 
+Sheet dialects_sheet() {
+  Sheet sheet("dialects", "Where IEC 61131-3 and CODESYS differ: controller.plcopen.dialect",
+              {"of", "iec", "codesys"});
+  for (const auto& [of, iec, codesys] : plcopen::st::differences) sheet.add({of, iec, codesys});
+  return sheet;
+}
+
 Page structured_text_page() {
   return {"ST",
           "Structured Text of IEC 61131-3, as the PLCopen controller takes it",
@@ -131,7 +139,7 @@ Page structured_text_page() {
            rows_of("functions", "Standard functions", plcopen::st::standard_functions),
            rows_of("blocks", "Standard blocks; those of motion are PLCOPEN's",
                    plcopen::st::standard_function_blocks),
-           readings_about({"ST"})}};
+           dialects_sheet(), readings_about({"ST"})}};
 }
 
 Page block_page(const plcopen::BlockType& type) {

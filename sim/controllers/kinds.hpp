@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,7 +12,10 @@
 
 namespace drycut::devices::plcopen {
 class PlcopenController;
+namespace st {
+enum class StDialect : std::uint8_t;
 }
+}  // namespace drycut::devices::plcopen
 
 namespace drycut::sim::controllers {
 
@@ -55,9 +59,11 @@ struct PlcopenSection final : scenario::ControllerSection {
   /// Files and folders of Structured Text, relative to the scenario: what stands there.
   std::vector<scenario::Text> program;
   std::vector<scenario::Text> program_files;  ///< the same, of a folder its *.st by name
-  Time cycle = 2 * millisecond;       ///< of the axes
+  Time cycle = 2 * millisecond;               ///< of the axes
   Time task_cycle = 2 * millisecond;  ///< of the program, a whole multiple of it; `cycle` if not given
   Time statement_time = 0;            ///< what a statement takes
+  std::optional<devices::plcopen::st::StDialect>
+      dialect;  ///< of the program; not given: CODESYS's, with notes
   struct Axis {
     scenario::Text name;
     devices::plcopen::AxisConfiguration configuration = {};

@@ -29,6 +29,15 @@ void check_multiple(scenario::MapReader& reader, std::string_view key, Time time
       fmt::format("for example {}", scenario::format_time(std::max<Time>(1, time / cycle) * cycle)));
 }
 
+scenario::Form dialect_form(std::optional<plcopen::st::StDialect>& dialect) {
+  auto form = scenario::choice_form(
+      {plcopen::st::dialect_names.begin(), plcopen::st::dialect_names.end()},
+      [&dialect] { return static_cast<std::size_t>(*dialect); },
+      [&dialect](std::size_t number) { dialect = static_cast<plcopen::st::StDialect>(number); });
+  form.write = [&dialect, write = form.write] { return dialect ? write() : ""; };
+  return form;
+}
+
 // tasks: {fast: {cycle: 2 ms, priority: 1, programs: [Main]}}
 void visit_task(scenario::Archive& archive, PlcopenSection& section, std::size_t number) {
   constexpr int last_priority = 65535;
@@ -223,6 +232,8 @@ void PlcopenSection::visit(scenario::Archive& archive) {
   archive.value({"program", "Structured Text: a file, a folder for its *.st, or a list of both"},
                 scenario::paths_form(program));
   archive.require("program", "add program: programs/knife.st");
+  archive.value({"dialect", "of the program, where IEC 61131-3 and CODESYS differ: 'drycut devices ST'"},
+                dialect_form(dialect));
   archive.value({"cycle", "of the axes"}, scenario::form(cycle, scenario::Sign::positive));
   if (archive.reads()) task_cycle = cycle;
   archive.value({"task_cycle", "of the program, a whole multiple of cycle"},
@@ -329,7 +340,7 @@ std::unique_ptr<devices::Controller> PlcopenSection::load(const scenario::Scenar
     names.push_back(file.text);
   }
   if (!sources.empty() && sources.size() == program_files.size()) {
-    compiled = plcopen::st::compile(sources, {}, problems);
+    compiled = plcopen::st::compile(sources, {.dialect = dialect}, problems);
     // A table that could not be read is not missing.
     if (tables_sound) check_names(compiled, configuration, problems);
     if (problems.size() == before) check_tasks(compiled, *this, scenario, problems);

@@ -49,14 +49,22 @@ struct Played {
 
 class Scenes : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(Scenes, PassTheirChecks) {
-  const Played run(source_root / "scenes" / (GetParam() + ".yaml"));
+void expect_passed(const Played& run) {
   ASSERT_EQ(lines_of(run.problems), "");
   EXPECT_EQ(run.outcome.failure, "");
   EXPECT_EQ(run.outcome.end, run.scenario.scene.duration);
   EXPECT_FALSE(run.outcome.checks.empty());
   for (const auto& check : run.outcome.checks)
     EXPECT_TRUE(check.passed) << check.name << ": " << check.detail;
+}
+
+TEST_P(Scenes, PassTheirChecks) { expect_passed(Played(source_root / "scenes" / (GetParam() + ".yaml"))); }
+
+/// A program as a user writes it: recipes, orders, alarms, in three files.
+TEST(Programs, OfSeveralFilesRunAMachine) {
+  const Played run(source_root / "tests/scenes/drill_table/drill_table.yaml");
+  expect_passed(run);
+  for (const auto& warning : run.simulation->warnings()) ADD_FAILURE() << warning.text;
 }
 
 class ComparingScenes : public ::testing::TestWithParam<std::string> {};

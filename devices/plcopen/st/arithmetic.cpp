@@ -1,6 +1,7 @@
 #include "devices/plcopen/st/code.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -57,6 +58,18 @@ Cell shifted(StOp op, Basic basic, Cell a, Cell count) {
   return wrapped(basic, cell(op == StOp::shift_left ? value << by : value >> by));
 }
 
+bool holds_bcd(std::uint64_t digits) {
+  for (; digits != 0; digits >>= 4)
+    if ((digits & 15) > 9) return false;
+  return true;
+}
+
+std::uint64_t swapped(std::uint64_t value, int bytes) {
+  std::uint64_t result = 0;
+  for (int i = 0; i < bytes; ++i, value >>= 8) result = (result << 8) | (value & 255);
+  return result;
+}
+
 double real_result(StOp op, double a, double b) {
   switch (op) {
     case StOp::add_real:
@@ -97,6 +110,10 @@ double real_result(StOp op, double a, double b) {
       return std::log10(a);
     case StOp::power:
       return std::pow(a, b);
+    case StOp::floor:
+      return std::floor(a);
+    case StOp::ceiling:
+      return std::ceil(a);
     case StOp::minimum_real:
       return b < a ? b : a;
     default:
@@ -218,6 +235,18 @@ Cell apply(StOp op, Basic basic, Cell a, Cell b) {
       return whole_in(basic, std::trunc(real_of(a)));
     case StOp::seconds_of_day:
       return a % 86400;
+    case StOp::bits_to_real:
+      if (basic == Basic::lreal) return a;
+      return cell_of(static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(a))));
+    case StOp::real_to_bits:
+      if (basic == Basic::lword) return a;
+      return static_cast<Cell>(std::bit_cast<std::uint32_t>(static_cast<float>(real_of(a))));
+    case StOp::valid_real:
+      return std::isfinite(real_of(a)) ? 1 : 0;
+    case StOp::valid_bcd:
+      return holds_bcd(bits(a)) ? 1 : 0;
+    case StOp::swap_bytes:
+      return wrapped(basic, cell(swapped(bits(a), bits_of(basic) / 8)));
     case StOp::nonzero:
       return a != 0 ? 1 : 0;
     case StOp::nonzero_real:

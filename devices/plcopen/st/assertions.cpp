@@ -168,10 +168,10 @@ void Compiler::find_tests() {
   }
 }
 
-void Machine::run(const Compiled::Test& test, std::int64_t time_ms) {
+void Machine::run(const Compiled::Test& test, std::int64_t time_ns) {
   const Compiled::Instance& instance = code_.instances[test.instance];
-  if (test.method < 0) return run(instance, time_ms);
-  time_ms_ = wrapped(Basic::time, time_ms);
+  if (test.method < 0) return run(instance, time_ns);
+  time_ns_ = time_ns;
   work_ = most_work;
   active_.assign(code_.pous.size(), false);
   const Pou& method = code_.pous[static_cast<std::size_t>(test.method)];

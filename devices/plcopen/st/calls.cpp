@@ -6,7 +6,7 @@
 #include "devices/plcopen/st/compiler.hpp"
 #include "devices/plcopen/st/values.hpp"
 
-// Assignments, and calls of functions and function blocks.
+// Calls of functions and function blocks.
 namespace drycut::devices::plcopen::st {
 namespace {
 
@@ -21,72 +21,6 @@ std::vector<const Variable*> inputs_of(const Type& type) {
 }
 
 }  // namespace
-
-int Expressions::assign(const TypedExpression& target, const TypedExpression& value) {
-  if (target.unknown()) return -1;
-  if (!target.locked.empty() || !target.address) {
-    complain("st.call"_code, target.place,
-             target.locked.empty() ? "this is no variable"
-                                   : fmt::format("{} {}", in_quotes(target.name), target.locked),
-             target.locked.empty() ? "a variable stands before ':='"
-                                   : "only variables and input pins are assigned");
-    return -1;
-  }
-  const Type& type = *target.type;
-  if ((type.basic == Basic::axis && target.place.line > 0 &&
-       find_member(*globals_, target.name) != nullptr) ||
-      type.holds_block) {
-    complain("st.call"_code, target.place,
-             fmt::format("{} is {} and is not assigned", in_quotes(target.name), type.name),
-             type.basic == Basic::axis    ? "connect it in a call"
-             : type.basic == Basic::block ? "assign its inputs"
-                                          : "it holds function blocks: assign its other members");
-    return -1;
-  }
-  const bool interface = type.basic == Basic::reference && value.type->basic == Basic::block;
-  const TypedExpression source = converted(interface ? interface_value(value, type) : value, type);
-  if (source.unknown() || target.node < 0) return -1;
-  if (target.own_input) note_own_input(target);
-  return store(target, value_node(source));
-}
-
-/// As CODESYS takes it; told once an input.
-void Expressions::note_own_input(const TypedExpression& target) {
-  auto text = fmt::format("{} is an input of {} and is assigned here: what the caller gave is lost",
-                          target.name, unit_->name.text);
-  const auto same = [&](const Compiled::Doubt& doubt) { return doubt.text == text; };
-  if (std::none_of(code_->doubts.begin(), code_->doubts.end(), same))
-    code_->doubts.push_back(
-        {"program.input-assigned"_code, target.place.line, target.place.column, std::move(text), ""});
-}
-
-int Expressions::store(const TypedExpression& target, int value) {
-  const Type& type = *target.type;
-  if (target.bits)
-    return add_node(StOp::store_bits, target.bits->of->basic, target.place, target.node, value,
-                    target.bits->width, target.bits->shift);
-  if (is_single(type.basic)) {
-    if (target.reference >= 0)
-      return add_node(StOp::store_by, type.basic, target.place, target.reference, value);
-    const Node address = node(target.node);
-    if (address.op == StOp::address || address.op == StOp::address_own)
-      return add_node(address.op == StOp::address ? StOp::store : StOp::store_own, type.basic, target.place,
-                      value, -1, -1, address.imm);
-    return add_node(StOp::store_at, type.basic, target.place, target.node, value);
-  }
-  if (type.basic == Basic::string)
-    return add_node(StOp::copy_string, type.basic, target.place, target.node, value,
-                    type.wide ? static_cast<int>(type.length) : -1,
-                    static_cast<std::int64_t>(bytes_of_text(type)));
-  return add_node(StOp::copy, type.basic, target.place, target.node, value, -1, type.cells);
-}
-
-void Expressions::cam_file(const StToken& text) {
-  const auto known = std::any_of(code_->tables.begin(), code_->tables.end(),
-                                 [&](const Program::Name& table) { return table.name == text.string; });
-  if (text.kind == StToken::Kind::string && !text.string.empty() && !known)
-    code_->tables.push_back({text.string, text.place.line, text.place.column});
-}
 
 /// Takes EN and ENO out of the arguments of what does not declare them itself.
 Expressions::Enable Expressions::take_enable(std::vector<Argument>& given, const Type* callee) {
@@ -185,6 +119,7 @@ TypedExpression Expressions::function_call(const StToken& name, const std::vecto
   const auto argument_of = [this](const Tree& tree, const Type* type) { return typed(tree, type); };
   if (auto value = reference_call(name, given)) return std::move(*value);
   if (auto value = assertion_call(name, given)) return std::move(*value);
+  if (auto value = bound_call(name, given, wanted)) return std::move(*value);
   if (auto value = standard_call(*this, name, given, wanted, argument_of)) return std::move(*value);
   for (const Argument& argument : given) typed(*argument.tree);
   const bool block = find_block_type(name.text) != nullptr || find_unit(name.text) != nullptr;
@@ -233,43 +168,6 @@ const Variable* Expressions::pin_of(const Type& type, const StToken& name, bool 
   return nullptr;
 }
 
-int Expressions::in_out_store(const Type& type, const Variable& pin, const TypedExpression& value,
-                              int place) {
-  if (value.unknown()) return -1;
-  // A motion block takes its axes by value: they do not change.
-  const bool by_value = type.motion != nullptr;
-  if (!value.address || value.bits ||
-      !(same_type(*value.type, *pin.type) || extends(*value.type, *pin.type))) {
-    complain("st.type"_code, value.place,
-             value.address && !value.bits
-                 ? fmt::format("{} is {}, not {}", in_quotes(value.name), value.type->name, pin.type->name)
-                 : fmt::format("{} takes a variable", in_quotes(pin.name)),
-             fmt::format("connect a variable of type {}", pin.type->name));
-    return -1;
-  }
-  if (!value.locked.empty()) {
-    complain("st.call"_code, value.place, fmt::format("{} {}", in_quotes(value.name), value.locked),
-             fmt::format("{} may write it: connect a variable", in_quotes(pin.name)));
-    return -1;
-  }
-  return add_node(StOp::store_at, pin.type->basic, value.place, place,
-                  by_value ? value_node(value) : value.node);
-}
-
-int Expressions::output_store(const Type& owner, const Variable& pin, const Argument& argument, int place) {
-  const TypedExpression target = typed(*argument.tree);
-  if (target.unknown()) return -1;
-  if (!target.address) {
-    complain("st.call"_code, target.place,
-             fmt::format("the output {} goes into a variable", in_quotes(pin.name)),
-             fmt::format("{} => variable", pin.name));
-    return -1;
-  }
-  TypedExpression value = variable_at(pin.type, place, owner.name + "." + pin.name, argument.name->place);
-  if (argument.negated != nullptr) value = complement(*this, *argument.negated, std::move(value), nullptr);
-  return assign(target, value);
-}
-
 void Expressions::input_of(const TypedExpression& instance, const Argument& argument, BlockCall& call) {
   const Type& type = *instance.type;
   const std::vector<const Variable*> inputs = inputs_of(type);
@@ -298,7 +196,15 @@ void Expressions::input_of(const TypedExpression& instance, const Argument& argu
   if (argument.output) {
     call.after.push_back(output_store(type, *pin, argument, place));
   } else if (pin->section == VarClass::in_out) {
-    call.before.push_back(in_out_store(type, *pin, typed(*argument.tree), place));
+    const TypedExpression value = typed(*argument.tree);
+    call.before.push_back(in_out_store(type, *pin, value, place));
+    if (pin->type->open == 0 || call.before.back() < 0) return;
+    const std::vector<TypedExpression> bounds = bounds_of(value, told);
+    for (std::size_t i = 0; i < 2 * static_cast<std::size_t>(pin->type->open); ++i) {
+      const Variable* bound = find_member(type, bound_name(pin->name, i));
+      call.before.push_back(
+          assign(variable_at(bound->type, address_plus(instance.node, bound->offset), "", told), bounds[i]));
+    }
   } else {
     const TypedExpression target = variable_at(pin->type, place, instance.name + "." + pin->name, told);
     call.before.push_back(assign(target, typed(*argument.tree, pin->type)));
@@ -365,10 +271,16 @@ std::vector<int> Expressions::input_triple(const Type& function, const Variable&
   const int at = frame + pin.offset;
   const TypedExpression given = typed(*argument.tree, pin.type);
   depth = std::max(depth, given.depth + 1);
-  if (pin.section == VarClass::in_out) {
+  if (pin.section == VarClass::in_out || pin.type->open > 0) {
     const int place = leaf_node(StOp::address, pin.type->basic, given.place, at);
     if (in_out_store(function, pin, given, place) < 0) return {};
-    return {given.node, at, 1};
+    std::vector<int> triples{given.node, at, 1};
+    if (pin.type->open == 0) return triples;
+    const std::vector<TypedExpression> bounds = bounds_of(given, given.place);
+    for (std::size_t i = 0; i < 2 * static_cast<std::size_t>(pin.type->open); ++i)
+      triples.insert(triples.end(), {value_node(bounds[i]),
+                                     frame + find_member(function, bound_name(pin.name, i))->offset, 1});
+    return triples;
   }
   const TypedExpression value = converted(given, *pin.type);
   if (value.unknown()) return {};
@@ -421,7 +333,7 @@ TypedExpression Expressions::user_call(Unit& unit, const StToken& name, const st
     const std::vector<int> triple = input_triple(*unit.type, *pin, argument, frame, result.depth);
     sound = sound && !triple.empty();
     list.insert(list.end(), triple.begin(), triple.end());
-    list[0] += triple.empty() ? 0 : 1;
+    list[0] += static_cast<int>(triple.size() / 3);
   }
   if (!sound || problems_.size() != before || !all_connected(unit, name, given, connected, number) ||
       unit.result->basic == Basic::unknown)
@@ -446,7 +358,7 @@ bool Expressions::all_connected(const Unit& unit, const StToken& name, const std
                                 const std::set<const Variable*>& connected, std::size_t number) {
   const std::vector<const Variable*> inputs = inputs_of(*unit.type);
   for (const Variable* input : inputs)
-    if (input->section == VarClass::in_out && !connected.contains(input)) {
+    if ((input->section == VarClass::in_out || input->type->open > 0) && !connected.contains(input)) {
       complain("st.call"_code, name.place,
                fmt::format("{} is not connected in the call of {}", input->name, unit.name.text),
                fmt::format("{} := variable", input->name));

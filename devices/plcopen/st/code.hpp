@@ -48,6 +48,7 @@ enum class StOp : std::uint8_t {
   follow,        ///< imm behind the address that the cell at address a holds: VAR_IN_OUT
   dereference,   ///< imm behind what the reference a is of, which must be of the type of Referent c
   element,       ///< imm behind element b of the array at address a; c its Span
+  index,         ///< index a less the lower bound b; the upper bound is c
 
   // Values by references.
   make_reference,  ///< to the address a, Referent c
@@ -92,11 +93,18 @@ enum class StOp : std::uint8_t {
   to_real,           ///< a whole number to REAL or LREAL
   unsigned_to_real,  ///< ULINT or LWORD to REAL or LREAL
   seconds_of_day,    ///< of a DT
-  round_real,        ///< LREAL to REAL
-  to_whole,          ///< to the nearest whole number, halves to the even one
-  truncate,          ///< towards zero
-  nonzero,           ///< a whole number to BOOL
-  nonzero_real,      ///< REAL or LREAL to BOOL
+  bits_to_real,      ///< the bits of a DWORD or LWORD as those of a REAL or LREAL
+  real_to_bits,
+  round_real,  ///< LREAL to REAL
+  to_whole,    ///< to the nearest whole number, halves to the even one
+  truncate,    ///< towards zero
+  valid_real,  ///< to BOOL: finite
+  valid_bcd,   ///< to BOOL: all digits are 0 to 9
+  swap_bytes,  ///< the first byte becomes the last one
+  floor,       ///< of real numbers
+  ceiling,
+  nonzero,       ///< a whole number to BOOL
+  nonzero_real,  ///< REAL or LREAL to BOOL
   absolute,
   absolute_real,
   square_root,
@@ -124,7 +132,7 @@ enum class StOp : std::uint8_t {
   compare_strings,  ///< -1, 0, 1 for the strings at addresses a and b
   text,             ///< TextOp imm of b nodes from list a on
   in_range,         ///< value a, which must lie in the Span c
-  time_now,         ///< of the controller [ms]
+  time_now,         ///< of the controller, [ns] of an LTIME, else [ms]
   /// AssertEquals and its like: Assertion imm; from list a on the nodes of what is expected, what is, how far
   /// they may lie apart, and the address of a text.
   assertion,
@@ -245,14 +253,15 @@ constexpr StOperand unpacked(int number) {
 /// b into the cell d behind the address a. follow: d behind the address b. element: element c of the array at
 /// the address b, d its Span. dereference: d behind what the reference b is of, Referent c. make_reference:
 /// to the address b, Referent d. load_by: by the reference b. store_by: b by the reference a. instance: what
-/// the interface b stands for. select: b if the cell d holds, else c. compare_strings, passes: as the node,
-/// its step in the cell d. in_range: b in Span d. text: TextOp b, whose texts and numbers stand in list d
-/// behind their number and whether they are WSTRINGs. store_bits: b into c bits from bit d on at the address
-/// a. copy: d cells from the address b to a. copy_string: from the address b to a, d bytes at most, and c - 1
-/// characters of a WSTRING. call_function, call_method: list d has the instance and the method's number of a
-/// method, then the POU, how many inputs, and for each its cell, its place and the cells to copy (as in the
-/// node); c cells of the result go to the address b, if any. call_block: POU d at the address a. call_motion:
-/// the block that begins at the cell a; with c the one at the address a.
+/// the interface b stands for. index: b less the bound c, the upper one in the cell d. select: b if the cell
+/// d holds, else c. compare_strings, passes: as the node, its step in the cell d. in_range: b in Span d.
+/// text: TextOp b, whose texts and numbers stand in list d behind their number and whether they are WSTRINGs.
+/// store_bits: b into c bits from bit d on at the address a. copy: d cells from the address b to a.
+/// copy_string: from the address b to a, d bytes at most, and c - 1 characters of a WSTRING. call_function,
+/// call_method: list d has the instance and the method's number of a method, then the POU, how many inputs,
+/// and for each its cell, its place and the cells to copy (as in the node); c cells of the result go to the
+/// address b, if any. call_block: POU d at the address a. call_motion: the block that begins at the cell a;
+/// with c the one at the address a.
 ///
 /// jump: on at d. jump_if, jump_unless: if the cell a holds, or does not; unless_...: unless b compares so
 /// with c. choose: where one of c Choices from b on says by the value a, else at d. multiplex: where list d
@@ -272,9 +281,10 @@ struct Origin {
   int node = 0;
   int line = 0;
   int column = 0;
-  int statement = 0;      ///< line of the one that begins here; 0 in standard blocks
-  bool shown = false;     ///< that line has been come by then; it has no condition
-  bool standard = false;  ///< it is none of the text
+  int statement = 0;        ///< line of the one that begins here; 0 in standard blocks
+  bool shown = false;       ///< that line has been come by then; it has no condition
+  bool standard = false;    ///< it is none of the text
+  bool right_side = false;  ///< it stands right of an AND or OR, which take both sides
   /// It decides a condition: by its jump to FALSE, and as the last of several by going on to TRUE.
   enum class Condition : std::uint8_t { none, part, last } condition = Condition::none;
   int decision = -1;  ///< it jumps where this condition of the text does not hold; they are counted up
@@ -301,7 +311,7 @@ struct Compiled {
   std::vector<Program::Name> externals;
   std::vector<int> external_cells;
   std::vector<Program::Located> located;
-  std::vector<int> located_cells;
+  std::vector<SymbolPlace> located_cells;
   std::vector<Program::InMemory> in_memory;
   std::vector<Program::Name> tables;
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "devices/plcopen/st/values.hpp"
+#include "devices/plcopen/terminals.hpp"
 
 namespace drycut::devices::plcopen::st {
 
@@ -31,7 +32,17 @@ class Expressions : public Values {
   /// Reads the declarations of a unit that may be needed before its turn.
   virtual void declare(Unit& unit) = 0;
 
-  // calls.cpp
+  // arrays.cpp
+  /// Where the bounds of an ARRAY [*] are kept that the member is: behind it, without a name of the text.
+  static std::string bound_name(std::string_view member, std::size_t number);
+  /// Gives a variable of such a type its bounds, which `node_at` finds by the cell of its owner.
+  void know_bounds(TypedExpression& array, const Type& owner, const std::function<int(int)>& node_at);
+  /// Whether an array may stand for an ARRAY [*].
+  static bool goes_into_open(const Type& array, const Type& open);
+  /// Of an array, as the pin of that type wants them.
+  std::vector<TypedExpression> bounds_of(const TypedExpression& array, Place place);
+
+  // assignments.cpp
   int assign(const TypedExpression& target, const TypedExpression& value);
   // methods.cpp
   /// A method, and the instance that it is called of.
@@ -76,6 +87,15 @@ class Expressions : public Values {
   std::multimap<std::string, std::pair<const Type*, std::int64_t>> enum_values_;
   std::unordered_map<std::string, Unit*> global_sections_;  ///< VAR_GLOBAL by what it declares
   const Type* cam_ref_ = nullptr;
+  /// What is at a place, by the place's name, "%QW2": of VAR_GLOBAL or a PROGRAM, cells behind its beginning.
+  struct Seat {
+    const Type* owner = nullptr;
+    const Type* type = nullptr;
+    std::string name;
+    int cell = 0;
+  };
+  std::map<std::string, Seat> seats_;
+  bool addresses_declared_ = false;
   std::set<std::string> told_;                           ///< names that are not known, told once a POU
   std::set<std::string> method_names_;                   ///< keys of all methods
   std::unordered_map<std::string, int> method_numbers_;  ///< of those that are called, by their keys
@@ -91,6 +111,9 @@ class Expressions : public Values {
   TypedExpression interface_value(const TypedExpression& instance, const Type& interface);
 
   // expressions.cpp
+  TypedExpression chain(const Tree& tree, std::optional<TypedExpression> first, const Type* wanted);
+  TypedExpression signed_tree(const Tree& tree, const Type* wanted);
+  TypedExpression direct_place(const StToken& token);  // places.cpp
   TypedExpression literal(const StToken& token);
   TypedExpression typed_literal(const Tree& tree);
   TypedExpression name_expression(const StToken& name, const Type* wanted);
@@ -105,6 +128,9 @@ class Expressions : public Values {
   std::optional<TypedExpression> reference_call(const StToken& name, const std::vector<Argument>& given);
   int referent(const Type& type);
   TypedExpression element_at(TypedExpression owner, const TypedExpression& index);
+  TypedExpression open_element(TypedExpression array, const Tree& tree);
+  std::optional<TypedExpression> bound_call(const StToken& name, const std::vector<Argument>& given,
+                                            const Type* wanted);
   [[nodiscard]] std::vector<std::string> known_names() const;
 
   // calls.cpp
@@ -114,7 +140,7 @@ class Expressions : public Values {
     const Tree* result = nullptr;
   };
   int store(const TypedExpression& target, int value);
-  void note_own_input(const TypedExpression& target);
+  bool may_assign_input(const TypedExpression& target);
   Enable take_enable(std::vector<Argument>& given, const Type* callee);
   int enable_condition(const Enable& enable, Place place);
   int enable_store(const Enable& enable, bool on);
@@ -150,10 +176,19 @@ class Declarations : public Expressions {
                       const char* remedy = "use literals, constants and functions of them",
                       bool (*takes)(Basic) = is_elementary);
 
+  /// Of what the text names by addresses only, from token `first` on.
+  void declare_addresses(std::size_t first);
+
   std::vector<int> located_in_;  ///< the POU of each variable at a terminal, -1: VAR_GLOBAL
   std::vector<int> memory_in_;   ///< the same of those in memory
 
  private:
+  /// AT: terminals from one on, or a place in memory.
+  struct Location {
+    std::optional<Address> terminal;
+    int width = 1;  ///< so many of them
+    std::optional<MemoryPlace> memory;
+  };
   // declarations.cpp: VAR sections.
   struct VarSection {
     VarClass section = VarClass::local;
@@ -161,11 +196,6 @@ class Declarations : public Expressions {
     bool retain = false;
     bool external = false;
     bool global = false;
-  };
-  /// AT: a terminal, or a place in memory.
-  struct Location {
-    std::optional<Address> terminal;
-    std::optional<MemoryPlace> memory;
   };
   void declare_pou(Unit& unit);
   void declare_function_result(Unit& unit, Type& type);
@@ -182,11 +212,17 @@ class Declarations : public Expressions {
   bool check_section(const Unit& unit, const VarSection& section, const StToken& name, const Type& type,
                      const Location& location);
   std::optional<bool> edge(const Unit& unit, const VarSection& section, const Type& type);
-  static void add_edge(Unit& unit, Type& owner, const StToken& name, bool rising);
+  void add_edge(Unit& unit, Type& owner, const StToken& name, bool rising);
   void external(const StToken& name, const Type* type);
+  // places.cpp
   Location location();
+  bool check_location(const Unit& unit, const VarSection& section, const StToken& name, const Type& type,
+                      const Location& located);
   bool check_memory(const StToken& name, const Type& type, const MemoryPlace& place);
+  void keep_at_place(const Type& owner, const StToken& name, const Type& type, const Location& located,
+                     int pou);
   void keep_in_memory(const StToken& name, const Type& type, const MemoryPlace& place, int pou);
+  void declare_address(const StToken& token, const std::string& name, const Location& place);
   bool name_is_free(const Unit& unit, const Type& owner, const StToken& name);
 
   // type_declarations.cpp
@@ -197,6 +233,8 @@ class Declarations : public Expressions {
   void declare_enumeration(Type& type);
   const Type* parse_type();
   const Type* array_type();
+  const Type* open_array_type();
+  void refuse_open(const Type& type, Place place);
   const Type* string_type();
   const Type* subrange(const Type& base);
   const Type* named_type();
@@ -215,6 +253,7 @@ class Declarations : public Expressions {
 
   std::map<const BlockType*, const Type*> motions_;
   std::map<Address, std::string> terminals_;
+  std::vector<std::unique_ptr<std::string>> address_names_;  ///< that tokens point to
   struct Occupied {
     std::int64_t first;
     std::int64_t end;
@@ -262,6 +301,8 @@ class Statements : public Declarations {
   int for_statement();
   int while_statement();
   int repeat_statement();
+  void note_endless(const TypedExpression& counter, const TypedExpression& from, const TypedExpression& to,
+                    const TypedExpression& step);
   int loop_body(std::initializer_list<std::string_view> closing);
   int jump(StOp op);
 

@@ -110,7 +110,7 @@ void Compiler::declare_task() {
     expect(":=", "stands between a property and its value");
     const Place place = peek().place;
     if (property.word("INTERVAL")) {
-      task.interval_ns = constant_value(*type_of(Basic::time)) * 1'000'000;
+      task.interval_ns = constant_value(*time_type()) * 1'000'000;
       runs = runs || task.interval_ns > 0;
     } else if (property.word("PRIORITY")) {
       task.priority = static_cast<int>(constant_value(*type_of(Basic::uint)));
@@ -196,7 +196,7 @@ void Compiler::check_instances() {
     const auto count = std::count_if(code_->instances.begin(), code_->instances.end(),
                                      [&](const Compiled::Instance& instance) { return instance.pou == pou; });
     const Program::Located& located = code_->located[i];
-    if (pou >= 0 && count > 1)
+    if (pou >= 0 && count > 1 && located.bit <= 0)
       complain("st.declared-twice"_code, {located.line, located.column},
                fmt::format("{} is in {} programs at one terminal", in_quotes(located.name), count),
                "declare it in VAR_GLOBAL");

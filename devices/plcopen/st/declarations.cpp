@@ -8,7 +8,6 @@
 
 #include "base/text.hpp"
 #include "devices/plcopen/st/lexer.hpp"
-#include "devices/plcopen/terminals.hpp"
 
 // The VAR sections of POUs and VAR_GLOBAL.
 namespace drycut::devices::plcopen::st {
@@ -29,42 +28,6 @@ std::string_view name_of(VarClass section) {
   return std::find_if(section_names.begin(), section_names.end(),
                       [&](const SectionName& known) { return known.section == section; })
       ->name;
-}
-
-/// How a value of the type lies in memory of that size; nullopt if it does not fit.
-std::optional<ModbusFormat> memory_format(char size, Basic basic) {
-  switch (basic) {
-    case Basic::boolean:
-      return size == 'X' ? std::optional(ModbusFormat::bit) : std::nullopt;
-    case Basic::int_:
-      return size == 'W' ? std::optional(ModbusFormat::int16) : std::nullopt;
-    case Basic::uint:
-    case Basic::word:
-      return size == 'W' ? std::optional(ModbusFormat::uint16) : std::nullopt;
-    case Basic::dint:
-      return size == 'D' ? std::optional(ModbusFormat::int32) : std::nullopt;
-    case Basic::udint:
-    case Basic::dword:
-      return size == 'D' ? std::optional(ModbusFormat::uint32) : std::nullopt;
-    case Basic::real:
-      return size == 'D' ? std::optional(ModbusFormat::real32) : std::nullopt;
-    case Basic::lreal:
-      return size == 'L' ? std::optional(ModbusFormat::real64) : std::nullopt;
-    default:
-      return std::nullopt;
-  }
-}
-std::string_view memory_types(char size) {
-  switch (size) {
-    case 'X':
-      return "a BOOL";
-    case 'W':
-      return "an INT, UINT or WORD";
-    case 'D':
-      return "a DINT, UDINT, DWORD or REAL";
-    default:
-      return "an LREAL";
-  }
 }
 
 /// The pins of standard blocks have the names of CODESYS, and those of IEC 61131-3 as well.
@@ -128,6 +91,9 @@ void Declarations::declare_pou(Unit& unit) {
   }
   fill_empty(type);
   name_standard_pins(type);
+  // F_TRIG of IEC 61131-3: before its first scan CLK was TRUE.
+  if (unit.standard && dialect_ == StDialect::iec && type.name == "F_TRIG")
+    type.initial[static_cast<std::size_t>(find_member(type, "last")->offset)] = 1;
   Pou& own = pou(unit);
   own.type = &type;
   if (unit.framed()) own.resets.push_back({0, type.cells - 1});
@@ -155,6 +121,7 @@ void Declarations::declare_function_result(Unit& unit, Type& type) {
       expect(":", fmt::format("and a type are the result: FUNCTION {} : LREAL", unit.name.text));
       const Place place = peek().place;
       result.type = parse_type();
+      refuse_open(*result.type, place);
       accept(";");
       if (result.type->holds_block || result.type->holds_axis) {
         complain("st.declaration"_code, place,
@@ -268,7 +235,9 @@ std::optional<bool> Declarations::edge(const Unit& unit, const VarSection& secti
   if (section.section != VarClass::input || !keeps || type.basic != Basic::boolean)
     give_up("st.declaration"_code, word.place, fmt::format("{} stands behind no input", upper(word.text)),
             "it follows a BOOL in VAR_INPUT of a FUNCTION_BLOCK or PROGRAM");
-  return word.word("R_EDGE");
+  const bool rises = word.word("R_EDGE");
+  if (!rises) is_iec(DialectDifference::first_falling_edge, word.place);
+  return rises;
 }
 
 void Declarations::add_edge(Unit& unit, Type& owner, const StToken& name, bool rising) {
@@ -276,6 +245,7 @@ void Declarations::add_edge(Unit& unit, Type& owner, const StToken& name, bool r
   for (const std::string_view what : {edge_mark, last_mark})
     append(owner, {.name = fmt::format("{}{}", name.text, what), .type = boolean, .place = name.place},
            boolean->initial);
+  if (!rising && dialect_ == StDialect::iec) owner.initial.back() = 1;
   unit.edges.push_back({name, rising});
 }
 
@@ -286,6 +256,12 @@ bool Declarations::check_section(const Unit& unit, const VarSection& section, co
     return false;
   };
   const std::string_view in = section.global ? "VAR_GLOBAL" : name_of(section.section);
+  const bool takes_open =
+      section.section == VarClass::in_out || (section.section == VarClass::input && unit.framed());
+  if (type.open > 0 && (!takes_open || unit.kind == Unit::Kind::program))
+    return refuse("st.declaration"_code,
+                  fmt::format("the {} {} in {} has no length", type.name, in_quotes(name.text), in),
+                  "it stands in VAR_IN_OUT, and in VAR_INPUT of a FUNCTION or METHOD: the caller's array");
   if (type.holds_axis && (section.section != VarClass::in_out || type.basic != Basic::axis))
     return refuse("st.declaration"_code,
                   fmt::format("the AXIS_REF {} in {} has no axis", in_quotes(name.text), in),
@@ -300,69 +276,7 @@ bool Declarations::check_section(const Unit& unit, const VarSection& section, co
       block != nullptr && block->abstract && section.section != VarClass::in_out)
     return refuse("st.declaration"_code, fmt::format("{} is ABSTRACT and has no instances", type.name),
                   "declare one of a block that EXTENDS it");
-  if (!located.terminal && !located.memory) return true;
-  if (located.terminal && type.basic != Basic::boolean)
-    return refuse("st.place"_code,
-                  fmt::format("{} at a terminal is a BOOL, not {}", in_quotes(name.text), type.name),
-                  "start AT %IX0.0 : BOOL;");
-  if ((unit.kind != Unit::Kind::program && unit.kind != Unit::Kind::globals) ||
-      section.section != VarClass::local)
-    return refuse("st.place"_code,
-                  fmt::format("{} cannot have {} here", in_quotes(name.text),
-                              located.terminal ? "a terminal" : "a place in memory"),
-                  "AT stands in VAR of a PROGRAM or in VAR_GLOBAL");
-  if (located.memory) return check_memory(name, type, *located.memory);
-  const auto [other, fresh] = terminals_.emplace(*located.terminal, name.text);
-  if (!fresh)
-    return refuse(
-        "st.declared-twice"_code,
-        fmt::format("{} and {} are at one terminal", in_quotes(name.text), in_quotes(other->second)),
-        "each terminal has one variable");
-  return true;
-}
-
-bool Declarations::check_memory(const StToken& name, const Type& type, const MemoryPlace& place) {
-  const bool array = type.basic == Basic::array;
-  const Basic basic = array ? type.element->basic : type.basic;
-  if (!memory_format(place.size, basic)) {
-    complain("st.place"_code, name.place,
-             fmt::format("{} at {} is {}, or an array of them, not {}", in_quotes(name.text),
-                         to_string(place), memory_types(place.size), type.name),
-             "%MX0.0 has a bit, %MW0 a word, %MD0 two words, %ML0 four");
-    return false;
-  }
-  const std::int64_t count = array ? type.high - type.low + 1 : 1;
-  constexpr std::int64_t addresses = 65536;
-  const bool bits = place.size == 'X';
-  const std::int64_t first = static_cast<std::int64_t>(place.number) * addresses_of(place);
-  const std::int64_t end = first + count * addresses_of(place);
-  if (end > addresses) {
-    complain("st.place"_code, name.place,
-             fmt::format("{} does not end within the memory", in_quotes(name.text)),
-             fmt::format("it has {} {}", addresses, bits ? "bits" : "words"));
-    return false;
-  }
-  for (const auto& [other_first, other_end, other_bits, other] : occupied_) {
-    if (other_bits != bits || first >= other_end || end <= other_first) continue;
-    complain("st.declared-twice"_code, name.place,
-             fmt::format("{} and {} share memory", in_quotes(name.text), in_quotes(other)),
-             "each place has one variable");
-    return false;
-  }
-  occupied_.push_back({first, end, bits, std::string(name.text)});
-  return true;
-}
-
-void Declarations::keep_in_memory(const StToken& name, const Type& type, const MemoryPlace& place, int pou) {
-  Program::InMemory kept{std::string(name.text), place, {}, {}, 1, name.place.line, name.place.column};
-  const bool array = type.basic == Basic::array;
-  kept.format = *memory_format(place.size, array ? type.element->basic : type.basic);
-  if (array) {
-    kept.low = type.low;
-    kept.count = static_cast<int>(type.high - type.low + 1);
-  }
-  code_->in_memory.push_back(std::move(kept));
-  memory_in_.push_back(pou);
+  return (!located.terminal && !located.memory) || check_location(unit, section, name, type, located);
 }
 
 void Declarations::add_variable(Unit& unit, Type& owner, const VarSection& section, const StToken& name,
@@ -386,16 +300,17 @@ void Declarations::add_variable(Unit& unit, Type& owner, const VarSection& secti
   if (owner.cells + type->cells > most_cells)
     give_up("st.too-large"_code, name.place, "the variables take too much memory", "8 MB at most");
   const int pou = &owner == globals_ ? -1 : unit.pou;
-  if (located.terminal && type->basic == Basic::boolean) {
-    variable.reads_terminal = located.terminal->kind == Kind::input;
-    code_->located.push_back({std::string(name.text), *located.terminal, name.place.line, name.place.column});
-    code_->located_cells.push_back(owner.cells);
-    located_in_.push_back(pou);
+  if (type->basic != Basic::unknown) {
+    variable.reads_terminal = located.terminal && located.terminal->kind == devices::Kind::input;
+    keep_at_place(owner, name, *type, located, pou);
   }
-  if (located.memory && type->basic != Basic::unknown) keep_in_memory(name, *type, *located.memory, pou);
   const std::vector<Cell> pointer(1, 0);
   append(owner, std::move(variable),
          section.section == VarClass::in_out ? std::span<const Cell>(pointer) : initial);
+  // Until a call gives it an array it has no element.
+  for (std::size_t i = 0; i < 2 * static_cast<std::size_t>(type->open); ++i)
+    append(owner, {.name = bound_name(name.text, i), .type = type_of(Basic::lint), .place = name.place},
+           std::vector<Cell>(1, i % 2 == 0 ? 0 : -1));
 }
 
 bool Declarations::name_is_free(const Unit& unit, const Type& owner, const StToken& name) {
@@ -434,19 +349,6 @@ void Declarations::external(const StToken& name, const Type* type) {
   }
   complain("st.unknown-name"_code, name.place, fmt::format("there is no VAR_GLOBAL {}", in_quotes(name.text)),
            "VAR_EXTERNAL names what VAR_GLOBAL declares, or an AXIS_REF of the configuration");
-}
-
-Declarations::Location Declarations::location() {
-  const StToken token = take();
-  if (token.kind == StToken::Kind::address) {
-    if (const auto address = located_address(token.text)) return {*address, {}};
-    if (const auto place = parse_memory_place(token.text)) return {{}, *place};
-  }
-  if (upper(token.text).starts_with("%M"))
-    give_up("st.place"_code, token.place, in_quotes(token.text) + " is no memory that is known",
-            "%MX0.0 is a BOOL, %MW0 a word, %MD0 two, %ML0 four: bits and words 0 to 65535");
-  give_up("st.place"_code, token.place, in_quotes(token.text) + " is no terminal that is known",
-          "%IX0.0 is an input, %QX0.0 an output: byte 0 to 65535 and bit 0 to 7");
 }
 
 }  // namespace drycut::devices::plcopen::st

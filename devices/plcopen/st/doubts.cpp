@@ -85,7 +85,10 @@ void Compiler::doubt_variable(const Variable& variable, const Type& owner, const
   };
   if (use.read.line == 0) return;
   if (variable.type->basic == Basic::block) {
-    if (!use.called && variable.section == VarClass::local)
+    // One with methods may be all of them.
+    const Unit* block = find_unit(variable.type->name);
+    const bool by_methods = block != nullptr && !block->methods.empty();
+    if (!use.called && !by_methods && variable.section == VarClass::local)
       tell("program.never-called"_code, use.read,
            fmt::format("nothing calls {} ({}): its outputs stay as they are at power-up", variable.name,
                        variable.type->name));

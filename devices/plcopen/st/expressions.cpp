@@ -8,11 +8,9 @@
 #include "base/text.hpp"
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/lexer.hpp"
-#include "devices/plcopen/st/references.hpp"
 #include "devices/plcopen/st/values.hpp"
 
-// What the tree of an expression means: its literals, its names and what may follow them, .member and
-// [index].
+// What the tree of an expression means: its literals, its names and their members.
 namespace drycut::devices::plcopen::st {
 namespace {
 
@@ -55,9 +53,11 @@ TypedExpression Expressions::typed(const Tree& tree, const Type* wanted) {
     case Tree::Kind::call:
       return call(tree, wanted);
     case Tree::Kind::sign:
-      return signed_value(*this, *tree.token, typed(tree.parts[0], wanted), wanted);
+      return signed_tree(tree, wanted);
     case Tree::Kind::chain:
-      break;
+      return chain(tree, std::nullopt, wanted);
+    case Tree::Kind::address:
+      return direct_place(*tree.token);
     case Tree::Kind::parenthesised: {
       TypedExpression inner = typed(tree.parts[0], wanted);
       // (x) is a value, nothing to assign to.
@@ -65,20 +65,51 @@ TypedExpression Expressions::typed(const Tree& tree, const Type* wanted) {
       return inner;
     }
   }
-  TypedExpression result = typed(tree.parts[0], wanted);
+  return unknown_at(tree.token->place);
+}
+
+/// Signs of one precedence, from the left; `first` stands for the first part if it is given.
+TypedExpression Expressions::chain(const Tree& tree, std::optional<TypedExpression> first,
+                                   const Type* wanted) {
+  TypedExpression result = first ? std::move(*first) : typed(tree.parts[0], wanted);
   for (std::size_t i = 0; i < tree.tokens.size(); ++i) {
     const StToken& sign = *tree.tokens[i];
     // A name of two enumerations is one of the other side's.
     const Type* const other = result.type->basic == Basic::enumeration ? result.type : wanted;
+    const bool both = sign.word("AND") || sign.word("OR") || sign.is("&");
+    std::optional<Nested> right_side;
+    if (both) right_side.emplace(right_sides_);
     TypedExpression right = typed(tree.parts[i + 1], other);
     result = binary(*this, sign.text, sign, std::move(result), std::move(right), wanted);
   }
   return result;
 }
 
+/// -a, +a, NOT a; -a ** b is read in two ways.
+TypedExpression Expressions::signed_tree(const Tree& tree, const Type* wanted) {
+  const Tree& of = tree.parts[0];
+  if (tree.token->is("-") && of.kind == Tree::Kind::chain && of.tokens[0]->is("**")) {
+    // Odd powers are the same in both.
+    const auto odd = [](const Tree& part) {
+      return part.kind == Tree::Kind::literal && part.token->whole() && part.token->value % 2 != 0;
+    };
+    if (!std::all_of(of.parts.begin() + 1, of.parts.end(), odd) &&
+        is_iec(DialectDifference::negated_power, tree.token->place))
+      return chain(of, signed_value(*this, *tree.token, typed(of.parts[0], wanted), wanted), wanted);
+  }
+  return signed_value(*this, *tree.token, typed(of, wanted), wanted);
+}
+
 TypedExpression Expressions::literal(const StToken& token) {
-  if (token.kind == StToken::Kind::number)
-    return constant(type_of(token.basic), token.value, token.place, is_number(token.basic));
+  if (token.kind == StToken::Kind::number) {
+    const Type* type = token.basic == Basic::time ? time_type() : type_of(token.basic);
+    if (token.basic == Basic::time && wrapped(type->basic, token.value) != token.value)
+      return refuse("st.out-of-range"_code, token.place,
+                    fmt::format("{} is out of the range of TIME", in_quotes(token.text)),
+                    type->basic == Basic::time ? "a TIME is below 0 under controller.plcopen.dialect: iec"
+                                               : "it goes from T#-24d20h31m23s648ms to T#24d20h31m23s647ms");
+    return constant(type, token.value, token.place, is_number(token.basic));
+  }
   TypedExpression text{elementary_type(token.wide ? "WSTRING" : "STRING"), token.place,
                        literal_string(token.string, token.place)};
   text.string = token.string;
@@ -129,8 +160,17 @@ std::optional<TypedExpression> Expressions::variable(const StToken& name) {
   const int frame = own && function ? pou(*unit_).frame : 0;
   int node = leaf_node(own && !function ? StOp::address_own : StOp::address, basic, name.place,
                        frame + found->offset);
-  if (found->section == VarClass::in_out) node = add_node(StOp::follow, basic, name.place, node);
+  const bool open = found->type->open > 0;
+  if (found->section == VarClass::in_out || open) node = add_node(StOp::follow, basic, name.place, node);
   TypedExpression result = variable_of(*found, node, found->name, name.place);
+  if (open) {
+    const Type& owner = of_unit ? *unit_->type : *unit_->owner->type;
+    know_bounds(result, owner, [&](int offset) {
+      return leaf_node(own && !function ? StOp::address_own : StOp::address, Basic::lint, name.place,
+                       frame + offset);
+    });
+    if (found->section == VarClass::input) result.locked = "is an input without a copy of its own";
+  }
   // A FUNCTION's inputs are its own; a block's are kept for the next call.
   result.own_input = own && found->section == VarClass::input && !function;
   return result;
@@ -196,7 +236,10 @@ TypedExpression Expressions::typed_literal(const Tree& tree) {
   const StToken& value = *tree.tokens[0];
   if (const Type* type = enumeration(name.text)) return qualified_enum(*type, value);
   const Type* type = elementary_type(name.text);
-  if (type == nullptr || !is_elementary(type->basic) || is_clock(type->basic))
+  if (value.kind == StToken::Kind::string && type != nullptr &&
+      (is_character(type->basic) || type->basic == Basic::string))
+    return converted(literal(value), *type);
+  if (type == nullptr || !is_elementary(type->basic) || is_clock(type->basic) || is_character(type->basic))
     give_up("st.use"_code, name.place, fmt::format("{} is no type of a literal", in_quotes(name.text)),
             "INT#5, WORD#16#FF, LREAL#1.5, T#1s");
   if (type->basic == Basic::boolean && (value.word("TRUE") || value.word("FALSE")))
@@ -307,62 +350,6 @@ TypedExpression Expressions::no_member(const TypedExpression& owner, const StTok
                 fmt::format("{} has no {} {}", type.name, type.basic == Basic::block ? "pin" : "member",
                             in_quotes(name.text)),
                 suggestion(name.text, names, "it has " + listed(names)));
-}
-
-TypedExpression Expressions::element_of(const Tree& tree) {
-  TypedExpression result = typed(tree.parts[0]);
-  for (std::size_t i = 1; i < tree.parts.size(); ++i) {
-    const TypedExpression index = typed(tree.parts[i]);
-    if (result.unknown() || index.unknown())
-      result.type = type_of(Basic::unknown);
-    else
-      result = element_at(std::move(result), index);
-  }
-  return result;
-}
-
-TypedExpression Expressions::element_at(TypedExpression owner, const TypedExpression& index) {
-  const Type& type = *owner.type;
-  const Place place = index.place;
-  if (type.basic != Basic::array)
-    give_up("st.use"_code, place,
-            fmt::format("{} is {} and has no elements", in_quotes(owner.name), type.name),
-            "only an ARRAY has an index");
-  if (!owner.address)
-    give_up("st.use"_code, place, fmt::format("an element of an {} that is no variable", type.name),
-            "assign it to a variable before");
-  const bool huge = index.constant && index.value < 0 && is_wide(index.type->basic);  // a ULINT
-  const bool outside = index.constant && (huge || index.value < type.low || index.value > type.high);
-  if (!is_integer(index.type->basic))
-    complain("st.type"_code, place, fmt::format("the index is {}", index.type->name),
-             "an index is a whole number");
-  else if (outside)
-    complain("st.out-of-range"_code, place,
-             fmt::format("the index {} is out of the bounds of {}", whole_text(index), in_quotes(owner.name)),
-             fmt::format("{} to {}", type.low, type.high));
-  if (!is_integer(index.type->basic) || outside) {
-    owner.type = type_of(Basic::unknown);
-    return owner;
-  }
-  if (owner.reference >= 0) {
-    const Type* lint = type_of(Basic::lint);
-    const auto number = [&](std::int64_t value) { return constant(lint, value, place); };
-    const TypedExpression from_first = apply_op(StOp::subtract, lint, place, index, number(type.low));
-    const TypedExpression bytes =
-        apply_op(StOp::multiply, lint, place, from_first, number(bytes_of(*type.element)));
-    const TypedExpression begin{owner.type, place, owner.reference, owner.depth};
-    owner.reference = value_node(apply_op(StOp::add, null_reference(), place, begin, bytes));
-  }
-  if (index.constant) {
-    owner.node = address_plus(owner.node, (index.value - type.low) * type.element->cells);
-    owner.name += fmt::format("[{}]", index.value);
-  } else {
-    const int span = add_span({type.low, type.high, type.element->cells});
-    owner.node = add_node(StOp::element, type.element->basic, place, owner.node, value_node(index), span);
-    owner.depth = std::max(owner.depth, index.depth) + 1;
-  }
-  owner.type = type.element;
-  return owner;
 }
 
 }  // namespace drycut::devices::plcopen::st

@@ -17,6 +17,7 @@ std::vector<Cell> Declarations::initial_value(const Type& type) {
 void Declarations::initial_into(const Type& type, std::span<Cell> cells) {
   switch (type.basic) {
     case Basic::array:
+      refuse_open(type, peek().place);
       initial_array(type, cells);
       return;
     case Basic::structure:
@@ -129,6 +130,8 @@ Cell Declarations::constant_value(const Type& wanted, const char* what, const ch
                                   bool (*takes)(Basic)) {
   const Place place = peek().place;
   TypedExpression value = expression(&wanted);
+  if (value.unknown()) throw GiveUp{};
+  if (is_character(wanted.basic) && value.string) value = converted(std::move(value), wanted);
   if (value.unknown()) throw GiveUp{};
   if (!value.constant || !takes(value.type->basic)) give_up("st.initial-value"_code, place, what, remedy);
   const std::size_t before = told();

@@ -46,6 +46,7 @@ class InstructionMaker {
     const auto standard = [&](int one) { return static_cast<std::size_t>(one) >= nodes_.of_text; };
     Origin origin{number, of.line, of.column};
     origin.standard = standard(number);
+    origin.right_side = of.right_side;
     if (statement_ >= 0) {
       const Node& begun = node(statement_);
       origin.statement = standard(statement_) ? 0 : begun.line;
@@ -102,6 +103,7 @@ class InstructionMaker {
         return acts(n.a) || any(listed(n.b, n.c));
       case StOp::select:
       case StOp::passes:
+      case StOp::index:
         return any({n.a, n.b, n.c});
       default:
         return any({n.a, n.b});
@@ -201,6 +203,12 @@ class InstructionMaker {
         const StOperand on = value(n.b, {n.c, n.a});
         const StOperand off = value(n.c, {n.a});
         emit(n.op, number, to, on, off, packed(value(n.a)));
+        return;
+      }
+      case StOp::index: {
+        const StOperand index = value(n.a, {n.b, n.c});
+        const StOperand low = value(n.b, {n.c});
+        emit(n.op, number, to, index, low, packed(value(n.c)));
         return;
       }
       case StOp::passes: {

@@ -28,6 +28,7 @@ StSymbol symbol_of(const Type& type, const std::string& name, bool writable, boo
     symbol.max = static_cast<double>(std::numeric_limits<std::uint64_t>::max());
   if (is_clock(type.basic)) {
     symbol.unit = "s";
+    symbol.min /= per_second(type.basic);
     symbol.max /= per_second(type.basic);
   }
   if (type.basic == Basic::enumeration) {
@@ -68,7 +69,8 @@ void Compiler::place_located() {
     const auto instance = std::find_if(code.instances.begin(), code.instances.end(),
                                        [&](const auto& one) { return one.pou == located_in_[i]; });
     if (located_in_[i] >= 0 && instance == code.instances.end()) continue;
-    code.located_cells[kept] = code.located_cells[i] + (located_in_[i] >= 0 ? instance->cell : 0);
+    code.located_cells[kept] = code.located_cells[i];
+    code.located_cells[kept].cell += located_in_[i] >= 0 ? instance->cell : 0;
     if (kept != i) code.located[kept] = std::move(code.located[i]);
     ++kept;
   }
@@ -148,7 +150,7 @@ void Compiler::find_kinds() {
 
 void Compiler::mark_kinds(const Type& type, int cell) {
   for (const Variable& member : type.members)
-    if (member.section != VarClass::in_out && member.name != kind_name)
+    if (member.section != VarClass::in_out && member.type->open == 0 && member.name != kind_name)
       mark_kinds(*member.type, cell + member.offset);
   if (type.basic == Basic::array)
     for (int at = 0; at < type.cells; at += type.element->cells) mark_kinds(*type.element, cell + at);

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "devices/plcopen/st/clock_literals.hpp"
 #include "devices/plcopen/st/pragmas.hpp"
 
 namespace drycut::devices::plcopen::st {
@@ -118,7 +118,11 @@ class StLexer : public Lexer<StToken> {
   void word() {
     const std::size_t size = length(in_name);
     const std::string_view name = text_.substr(at_, size);
-    const Basic basic = peek(size) == '#' ? clock_type(name) : Basic::unknown;
+    Basic basic = peek(size) == '#' ? clock_type(name) : Basic::unknown;
+    // A program may have a type of that name of its own: LT#Left.
+    const char first = peek(size + 1);
+    if (is_clock(basic) && long_clock(basic) == basic && !is_digit(first) && first != '-')
+      basic = Basic::unknown;
     if (basic == Basic::unknown)
       add(Kind::name, size);
     else
@@ -129,6 +133,8 @@ class StLexer : public Lexer<StToken> {
   static Basic clock_type(std::string_view name) {
     if (same_word(name, "T")) return Basic::time;
     if (same_word(name, "D")) return Basic::date;
+    if (same_word(name, "LT")) return Basic::ltime;
+    if (same_word(name, "LD")) return Basic::ldate;
     const Type* type = elementary_type(name);
     return type != nullptr && is_clock(type->basic) ? type->basic : Basic::unknown;
   }
@@ -181,26 +187,54 @@ class StLexer : public Lexer<StToken> {
 
   // T#1s500ms, D#1996-08-15, TOD#15:36:55.36, DT#1996-08-15-15:36:55.
   void clock(Basic basic, std::size_t prefix) {
-    const bool time = basic == Basic::time;
+    const bool time = is_span(basic);
     // T#5s-e is a difference: only dates have a '-' within them.
-    int dashes = basic == Basic::date ? 2 : basic == Basic::dt ? 3 : 0;
+    const Basic kind = long_clock(basic);
+    int dashes = kind == Basic::ldate ? 2 : kind == Basic::ldt ? 3 : 0;
     const auto belongs = [&](char x) {
       return in_name(x) || x == '.' || (x == '-' && dashes-- > 0) || (x == ':' && !time);
     };
     StToken& token = literal(basic, length(belongs, peek(prefix) == '-' ? prefix + 1 : prefix));
     const std::string text = without_underscores(token.text.substr(prefix));
-    if (time)
+    if (basic == Basic::ltime)
+      read_long_time(token, text);
+    else if (time)
       read_time(token, text);
-    else if (const std::optional<std::int64_t> number = clock_number(basic, text))
+    else if (const auto number = kind == basic ? long_clock_number(basic, text) : clock_number(basic, text))
       token.value = *number;
     else
       complain("st.literal"_code, token, in_quotes(token.text) + " is no " + type_of(basic)->name,
-               basic == Basic::tod    ? "TOD#00:00:00 to TOD#23:59:59.999"
-               : basic == Basic::date ? "D#1970-01-01 to D#2106-02-06"
-                                      : "DT#1970-01-01-00:00:00 to DT#2106-02-06-06:28:15");
+               basic == Basic::tod     ? "TOD#00:00:00 to TOD#23:59:59.999"
+               : basic == Basic::date  ? "D#1970-01-01 to D#2106-02-06"
+               : basic == Basic::dt    ? "DT#1970-01-01-00:00:00 to DT#2106-02-06-06:28:15"
+               : basic == Basic::ltod  ? "LTOD#00:00:00 to LTOD#23:59:59.999999999"
+               : basic == Basic::ldate ? "LDATE#1970-01-01 to LDATE#2262-04-11"
+                                       : "LDT#1970-01-01-00:00:00 to LDT#2262-04-11-23:47:16.854775807");
+  }
+
+  /// T#-5s is of IEC 61131-3; who reads the token knows whether it may be.
+  static bool take_minus(std::string_view& text) {
+    const bool minus = text.starts_with('-');
+    if (minus) text.remove_prefix(1);
+    return minus;
+  }
+
+  void read_long_time(StToken& token, std::string_view text) {
+    const bool minus = take_minus(text);
+    bool fits = true;
+    const auto ns = nanoseconds(text, fits);
+    if (!ns)
+      complain("st.literal"_code, token, in_quotes(token.text) + " is no time",
+               "parts with d, h, m, s, ms, us or ns, the largest first: LTIME#1s500us");
+    else if (!fits)
+      complain("st.literal"_code, token, in_quotes(token.text) + " is out of range, or finer than an LTIME",
+               "an LTIME counts nanoseconds, to LTIME#106751d23h47m16s854ms775us807ns");
+    else
+      token.value = minus ? -*ns : *ns;
   }
 
   void read_time(StToken& token, std::string_view text) {
+    const bool minus = take_minus(text);
     const std::optional<double> ms = milliseconds(text);
     if (!ms)
       complain("st.literal"_code, token, in_quotes(token.text) + " is no time",
@@ -212,69 +246,7 @@ class StLexer : public Lexer<StToken> {
       complain("st.literal"_code, token, in_quotes(token.text) + " is finer than a TIME",
                "a TIME counts whole milliseconds");
     else
-      token.value = std::llround(*ms);
-  }
-
-  static std::optional<std::int64_t> clock_number(Basic basic, std::string_view text) {
-    constexpr std::int64_t day = 86400;
-    std::int64_t seconds = 0;
-    if (basic != Basic::tod) {
-      const auto year = leading(text, '-');
-      const auto month = leading(text, '-');
-      const auto days = leading(text, basic == Basic::dt ? '-' : '\0');
-      if (!year || !month || !days) return std::nullopt;
-      const std::chrono::year_month_day date{std::chrono::year{static_cast<int>(*year)},
-                                             std::chrono::month{static_cast<unsigned>(*month)},
-                                             std::chrono::day{static_cast<unsigned>(*days)}};
-      if (!date.ok()) return std::nullopt;
-      seconds = std::chrono::sys_days(date).time_since_epoch().count() * day;
-    }
-    double clock = 0;
-    if (basic != Basic::date) {
-      const auto hours = leading(text, ':');
-      const auto minutes = leading(text, text.find(':') == std::string_view::npos ? '\0' : ':');
-      if (!hours || !minutes || *hours > 23 || *minutes > 59) return std::nullopt;
-      const auto rest = text.empty() ? std::optional(0.0) : parsed<double>(text, std::chars_format::fixed);
-      if (!rest || *rest < 0 || *rest >= 60) return std::nullopt;
-      clock = static_cast<double>(*hours * 3600 + *minutes * 60) + *rest;
-    }
-    if (basic == Basic::tod) return std::llround(clock * 1000) % (day * 1000);
-    seconds += static_cast<std::int64_t>(clock);
-    const bool kept = seconds >= 0 && seconds <= std::numeric_limits<std::uint32_t>::max();
-    return kept ? std::optional(seconds) : std::nullopt;
-  }
-
-  /// The number at the beginning of `text`, up to `until`, which goes too ('\0': the end).
-  static std::optional<std::int64_t> leading(std::string_view& text, char until) {
-    const std::size_t size = until == '\0' ? text.size() : text.find(until);
-    constexpr std::size_t longest = 5;
-    if (size > longest) return std::nullopt;
-    const auto number = parsed<std::uint32_t>(text.substr(0, size));
-    text.remove_prefix(std::min(size + 1, text.size()));
-    return number;
-  }
-
-  static std::optional<double> milliseconds(std::string_view text) {
-    if (text.empty()) return std::nullopt;
-    double sum = 0;
-    std::size_t largest = 0;
-    while (!text.empty()) {
-      double value = 0;
-      if (!is_digit(text.front())) return std::nullopt;
-      const auto [end, error] =
-          std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
-      if (error != std::errc{}) return std::nullopt;
-      text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-      std::size_t letters = 0;
-      while (letters < text.size() && is_letter(text[letters])) ++letters;
-      std::size_t unit = largest;
-      while (unit < time_units.size() && !same_word(time_units[unit].name, text.substr(0, letters))) ++unit;
-      if (unit == time_units.size()) return std::nullopt;
-      sum += value * static_cast<double>(time_units[unit].ms);
-      largest = unit + 1;
-      text.remove_prefix(letters);
-    }
-    return sum;
+      token.value = std::llround(minus ? -*ms : *ms);
   }
 
   /// With its quotes, and whether it has both.

@@ -14,7 +14,7 @@ namespace drycut::devices::plcopen::st {
 /// A word, literal or sign of a Structured Text file. Signs are
 /// ( ) [ ] , ; : . + - * / < > = & # := => ** <= >= <> .. and times and dates are numbers too.
 struct StToken : drycut::Token {
-  Basic basic = Basic::unknown;  ///< of a number: LINT, above it ULINT, LREAL, TIME, TOD, DATE or DT
+  Basic basic = Basic::unknown;  ///< of a number: LINT, above it ULINT, LREAL, TIME, TOD, DATE, DT, or long
   Cell value = 0;
   std::string string;  ///< without quotes and escapes
   bool wide = false;   ///< "text": of WSTRING
@@ -29,6 +29,18 @@ struct TimeUnit {
 };
 inline constexpr std::array<TimeUnit, 5> time_units{
     {{"d", 86'400'000}, {"h", 3'600'000}, {"m", 60'000}, {"s", 1000}, {"ms", 1}}};
+/// The same of an LTIME.
+struct LongTimeUnit {
+  std::string_view name;
+  Cell ns;
+};
+inline constexpr std::array<LongTimeUnit, 7> long_time_units{{{"d", 86'400'000'000'000},
+                                                              {"h", 3'600'000'000'000},
+                                                              {"m", 60'000'000'000},
+                                                              {"s", 1'000'000'000},
+                                                              {"ms", 1'000'000},
+                                                              {"us", 1000},
+                                                              {"ns", 1}}};
 
 /// The tokens of a file, comments, pragmas `{...}` and what they switch off left out, ended by one of
 /// Kind::end; the first line has the number `first_line`.

@@ -37,6 +37,7 @@ int Statements::for_statement() {
       complain("st.loop"_code, step.place, "FOR with a step of 0 never ends", "BY 1 or BY -1");
     expect_word("DO", fmt::format("FOR {} := 0 TO 9 DO", name.text));
     if (!counter.unknown() && !to.unknown() && !step.unknown() && counter.address) {
+      note_endless(counter, from, to, step);
       // The end and the step are computed once.
       const auto kept = [&](const TypedExpression& value) {
         if (value.constant) return value;
@@ -62,6 +63,29 @@ int Statements::for_statement() {
   all.insert(all.begin(), start);
   all.push_back(add_node(StOp::loop, Basic::unknown, place, test, body, step_on));
   return sequence_node(std::move(all), place);
+}
+
+/// FOR i := 0 TO 127 of a SINT: behind 127 comes -128.
+void Statements::note_endless(const TypedExpression& counter, const TypedExpression& from,
+                              const TypedExpression& to, const TypedExpression& step) {
+  const Basic basic = counter.type->basic;
+  if (!to.constant || !step.constant || step.value == 0 || is_wide(basic)) return;
+  const bool up = step.value > 0;
+  const Subrange range = range_of(basic);
+  std::int64_t last = to.value;
+  if (from.constant && (up ? from.value <= to.value : from.value >= to.value))
+    last = to.value - (to.value - from.value) % step.value;
+  else if (step.value != 1 && step.value != -1)
+    return;
+  if (up ? last <= range.high - step.value : last >= range.low - step.value) return;
+  code_->doubts.push_back(
+      {"st.loop"_code, counter.place.line, counter.place.column,
+       fmt::format("FOR counts {}, which is {}, to {}: behind it comes {}, and only EXIT ends the loop; "
+                   "count with a wider type",
+                   counter.name, type_of(basic)->name, last,
+                   wrapped(basic, static_cast<Cell>(static_cast<std::uint64_t>(last) +
+                                                    static_cast<std::uint64_t>(step.value)))),
+       ""});
 }
 
 int Statements::loop_body(std::initializer_list<std::string_view> closing) {

@@ -42,8 +42,8 @@ void Machine::start(bool all) {
   }
 }
 
-void Machine::run(const Compiled::Instance& program, std::int64_t time_ms) {
-  time_ms_ = wrapped(Basic::time, time_ms);
+void Machine::run(const Compiled::Instance& program, std::int64_t time_ns) {
+  time_ns_ = time_ns;
   work_ = most_work;
   const Pou& pou = code_.pous[static_cast<std::size_t>(program.pou)];
   reset(pou, program.cell);
@@ -54,6 +54,13 @@ void Machine::run(const Compiled::Instance& program, std::int64_t time_ms) {
 
 void Machine::fail(const StInstruction& at, const std::string& text) const {
   throw StError(origin(at).line, origin(at).column, text);
+}
+
+void Machine::fail_value(const StInstruction& at, const std::string& text) const {
+  fail(at,
+       origin(at).right_side
+           ? text + " (AND and OR take both sides; AND_THEN and OR_ELSE the right one only where it counts)"
+           : text);
 }
 
 void Machine::exhausted(const StInstruction& at) const {
@@ -255,11 +262,14 @@ void Machine::steps(int first, std::int64_t own) {
           truth(cell(unpacked(i.d)) >= 0 ? a <= b : a >= b);
         break;
       }
+      case StOp::index:
+        cell(i.a) = index(i, cell(i.b), cell(i.c), cell(unpacked(i.d)));
+        break;
       case StOp::in_range:
         cell(i.a) = in_range(i, cell(i.b));
         break;
       case StOp::time_now:
-        cell(i.a) = time_ms_;
+        cell(i.a) = i.basic == Basic::ltime ? time_ns_ : wrapped(i.basic, time_ns_ / 1'000'000);
         break;
       case StOp::compare_strings:
         cell(i.a) = compare(cell(i.b), cell(i.c));

@@ -45,9 +45,9 @@ class Machine {
   /// Initial values and new motion blocks; RETAIN variables keep theirs unless `all`.
   void start(bool all);
   /// Runs one program once; throws RuntimeError.
-  void run(const Compiled::Instance& program, std::int64_t time_ms);
+  void run(const Compiled::Instance& program, std::int64_t time_ns);
   /// The same of a test.
-  void run(const Compiled::Test& test, std::int64_t time_ms);
+  void run(const Compiled::Test& test, std::int64_t time_ns);
 
   /// What is executed from now on goes there; nullptr: nowhere, and costs nothing.
   void trace(Trace* to) { trace_ = to; }
@@ -95,6 +95,8 @@ class Machine {
     return code_.origins[static_cast<std::size_t>(&of - code_.code.data())];
   }
   [[noreturn]] void fail(const StInstruction& at, const std::string& text) const;
+  /// Of a value that the program may have meant to test left of an AND.
+  [[noreturn]] void fail_value(const StInstruction& at, const std::string& text) const;
   [[noreturn]] void exhausted(const StInstruction& at) const;
 
   // machine.cpp
@@ -117,6 +119,7 @@ class Machine {
   void look_at(const StInstruction& of, Cell before, Cell result);
   void tell_loss(const StInstruction& of, std::string text);
   Cell element(const StInstruction& of, Cell array, Cell index) const;
+  Cell index(const StInstruction& of, Cell value, Cell low, Cell high) const;
   Cell in_range(const StInstruction& of, Cell value) const;
   Cell dereference(const StInstruction& of, Cell value) const;
   /// The first of the cells that a value by a reference lies in, and how many bytes behind.
@@ -151,7 +154,7 @@ class Machine {
   std::vector<Loss> losses_;
   std::set<int> told_;        ///< nodes whose loss has been told
   std::vector<bool> active_;  ///< methods that run
-  std::int64_t time_ms_ = 0;
+  std::int64_t time_ns_ = 0;
   std::int64_t work_ = 0;  ///< that is left in this scan
   std::int64_t statements_ = 0;
   Trace* trace_ = nullptr;

@@ -11,7 +11,7 @@
 namespace drycut::devices::plcopen::st {
 
 Cell Machine::operation(const StInstruction& of, Cell a, Cell b) {
-  if (const auto none = no_result(of.op, of.basic, a, b)) fail(of, none->what + "; " + none->remedy);
+  if (const auto none = no_result(of.op, of.basic, a, b)) fail_value(of, none->what + "; " + none->remedy);
   const Cell result = apply(of.op, of.basic, a, b);
   // Real numbers overflow, conversions leave their type; whole numbers wrap.
   if (is_real(of.basic) ? !std::isfinite(real_of(result))
@@ -31,7 +31,7 @@ void Machine::look_at(const StInstruction& of, Cell before, Cell result) {
     return;
   }
   // BYTE to LWORD and the parts of numbers take the lower bits by intention.
-  const bool number = is_integer(of.basic) && of.basic <= Basic::ulint;
+  const bool number = (is_integer(of.basic) && of.basic <= Basic::ulint) || is_span(of.basic);
   if (of.op == StOp::wrap) {
     if (number && result != before)
       tell_loss(of, fmt::format("{} does not fit in {}, which makes {} of it", before, type(), result));
@@ -56,8 +56,14 @@ void Machine::tell_loss(const StInstruction& of, std::string text) {
 Cell Machine::element(const StInstruction& of, Cell array, Cell index) const {
   const Span& span = code_.spans[static_cast<std::size_t>(of.d)];
   if (index < span.low || index > span.high)
-    fail(of, fmt::format("the index {} is out of bounds; {} to {}", index, span.low, span.high));
+    fail_value(of, fmt::format("the index {} is out of bounds; {} to {}", index, span.low, span.high));
   return array + (index - span.low) * span.cells + span.behind;
+}
+
+Cell Machine::index(const StInstruction& of, Cell value, Cell low, Cell high) const {
+  if (value < low || value > high)
+    fail_value(of, fmt::format("the index {} is out of bounds; {} to {}", value, low, high));
+  return value - low;
 }
 
 Cell Machine::in_range(const StInstruction& of, Cell value) const {
@@ -69,7 +75,7 @@ Cell Machine::in_range(const StInstruction& of, Cell value) const {
 
 Cell Machine::dereference(const StInstruction& of, Cell value) const {
   const Reference reference = reference_of(value);
-  if (reference.referent < 0) fail(of, "the reference is NULL; test it before: p <> NULL");
+  if (reference.referent < 0) fail_value(of, "the reference is NULL; test it before: p <> NULL");
   const Referent& wanted = code_.referents[of.c.cells];
   const bool known = reference.referent < static_cast<std::int64_t>(code_.referents.size());
   if (!known || reference.bytes != 0 ||
@@ -81,7 +87,7 @@ Cell Machine::dereference(const StInstruction& of, Cell value) const {
 std::pair<const Referent*, Cell*> Machine::seen_by(const StInstruction& by, Cell reference,
                                                    std::int64_t& bytes) {
   const Reference at = reference_of(reference);
-  if (at.referent < 0) fail(by, "the reference is NULL; test it before: p <> NULL");
+  if (at.referent < 0) fail_value(by, "the reference is NULL; test it before: p <> NULL");
   const auto outside = [&] {
     fail(by, "the reference is outside of what it is of; see how many bytes it was moved by");
   };
@@ -123,9 +129,11 @@ Cell Machine::text_value(const StInstruction& of, const Bases& bases) {
   const bool wide = list[1] != 0;
   list += 2;
   const auto value = [&](int operand) { return at(bases, unpacked(operand)); };
+  // Of the place that the result has.
+  const std::size_t room = wide ? longest_bytes() : code_.longest_text;
   const Cell target = op < TextOp::length ? value(*list++) : 0;
   if (op == TextOp::from_value) {
-    put_string(text_of(of.basic, value(*list)), target, longest_bytes());
+    put_string(text_of(of.basic, value(*list)), target, room);
     return target;
   }
   const std::size_t texts = texts_of(op, static_cast<std::size_t>(end - list));
@@ -153,7 +161,7 @@ Cell Machine::text_value(const StInstruction& of, const Bases& bases) {
   }
   if (wide) numbers = in_bytes(op, parts[0], numbers);
   if (op == TextOp::to_value) return value_of(of.basic, parts[0]);
-  put_string(edited(op, parts, numbers), target, longest_bytes());
+  put_string(edited(op, parts, numbers), target, room);
   return target;
 }
 

@@ -15,6 +15,7 @@ struct Node {
   int b = -1;
   int c = -1;
   std::int64_t imm = 0;
+  bool right_side = false;  ///< it stands right of an AND or OR, which take both sides
 };
 
 struct Nodes {

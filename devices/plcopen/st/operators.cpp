@@ -64,6 +64,11 @@ const Type* common_literals(const TypedExpression& a, const TypedExpression& b, 
   return nullptr;
 }
 
+/// No literal, and no bits.
+bool is_number_with_type(const TypedExpression& value) {
+  return !value.untyped && is_integer(value.type->basic) && !is_bits(value.type->basic);
+}
+
 /// One operator between two values.
 struct Operation {
   Values& values;
@@ -115,8 +120,18 @@ struct Operation {
     return values.apply_op(op, type, told.place, x, y);
   }
 
+  /// Told where the program is of IEC 61131-3.
+  [[nodiscard]] bool refuses_bits() const {
+    return ((is_bits(a.type->basic) && !a.untyped) || (is_bits(b.type->basic) && !b.untyped)) &&
+           values.is_iec(DialectDifference::arithmetic_on_bits, told.place);
+  }
+  TypedExpression bits_are_no_numbers() {
+    return mismatch("bits are no numbers in IEC 61131-3: BYTE_TO_USINT(...) makes one");
+  }
+
   TypedExpression power() {
     if (!is_number(a.type->basic) || !is_number(b.type->basic)) return mismatch("it takes numbers");
+    if (refuses_bits()) return bits_are_no_numbers();
     const Type* type = real_result(a, wanted);
     return apply(StOp::power, type, values.cast(a, type->basic, a.place),
                  values.cast(b, Basic::lreal, b.place));
@@ -130,6 +145,7 @@ struct Operation {
         is_number(a.type->basic) && is_number(b.type->basic) ? common_type(a, b, wanted) : nullptr;
     if (type == nullptr || (modulo && is_real(type->basic)))
       return mismatch(modulo ? "it takes whole numbers" : "convert one: X_TO_Y(...)");
+    if (refuses_bits()) return bits_are_no_numbers();
     convert_both(*type);
     if ((modulo || sign.op == StOp::divide) && is_zero(b)) return division_by_zero();
     return apply(is_real(type->basic) ? sign.real_op : sign.op, type, a, b);
@@ -138,34 +154,50 @@ struct Operation {
   TypedExpression time_arithmetic() {
     if (is_clock(a.type->basic) && is_clock(b.type->basic)) return clock_arithmetic();
     const bool times = sign.op == StOp::multiply;
-    if (times && b.type->basic == Basic::time) std::swap(a, b);
-    if ((!times && sign.op != StOp::divide) || !is_number(b.type->basic) || a.type->basic != Basic::time)
+    if (times && is_span(b.type->basic)) std::swap(a, b);
+    if ((!times && sign.op != StOp::divide) || !is_number(b.type->basic) || !is_span(a.type->basic))
       return mismatch("TIME + TIME, TIME - TIME, TIME * number and TIME / number are times");
+    if (refuses_bits()) return bits_are_no_numbers();
     if (!times && is_zero(b)) return division_by_zero();
     const bool real = is_real(b.type->basic);
+    if (b.constant && (real ? real_of(b.value) < 0 : b.value < 0 && !is_wide(b.type->basic)))
+      note_below_zero();
     if (real) b = values.cast(b, Basic::lreal, b.place);
     const StOp scaled = times ? StOp::scale_time : StOp::divide_time;
-    return apply(real ? scaled : sign.op, type_of(Basic::time), a, b);
+    return apply(real ? scaled : sign.op, a.type, a, b);
+  }
+
+  /// What comes of it may be below 0, which a TIME of CODESYS is not.
+  void note_below_zero() {
+    if (!a.type->is_long()) values.is_iec(DialectDifference::negative_time, told.place);
   }
 
   TypedExpression clock_arithmetic() {
     const bool plus = sign.op == StOp::add;
-    if (plus && a.type->basic == Basic::time) std::swap(a, b);
+    if (plus && is_span(a.type->basic)) std::swap(a, b);
+    // One long one makes the result long.
+    if (a.type->is_long() || b.type->is_long())
+      for (TypedExpression* of : {&a, &b}) *of = values.cast(*of, long_clock(of->type->basic), of->place);
     const Basic basic = a.type->basic;
-    const bool times = basic == Basic::time && b.type->basic == Basic::time;
-    const bool moved = (basic == Basic::tod || basic == Basic::dt) && b.type->basic == Basic::time;
+    const Basic kind = long_clock(basic);
+    const bool times = is_span(basic) && is_span(b.type->basic);
+    const bool moved = (kind == Basic::ltod || kind == Basic::ldt) && is_span(b.type->basic);
     const bool between = !plus && basic == b.type->basic;
     if ((!plus && sign.op != StOp::subtract) || (!times && !moved && !between))
       return mismatch("a TIME goes to a TOD or DT, and lies between two of a kind");
-    const Type* time = type_of(Basic::time);
+    const bool now = a.node >= 0 && !a.address && values.computes(a.node) == StOp::time_now;
+    if (between && !now && !(a.constant && b.constant && a.value >= b.value)) note_below_zero();
+    const Type* time = a.type->is_long() ? type_of(Basic::ltime) : values.time_type();
     const auto number = [&](std::int64_t value) { return constant(time, value, told.place); };
     if (between || times) {
       TypedExpression way = apply(sign.op, time, a, b);
       return per_second(basic) == 1 ? apply(StOp::multiply, time, way, number(1000)) : way;
     }
-    if (basic == Basic::dt) return apply(sign.op, a.type, a, apply(StOp::divide, time, b, number(1000)));
+    if (kind == Basic::ldt)
+      return apply(sign.op, a.type, a,
+                   per_second(basic) == 1 ? apply(StOp::divide, time, b, number(1000)) : b);
     // The clock begins anew at midnight.
-    constexpr std::int64_t day = 86'400'000;
+    const std::int64_t day = std::int64_t{86400} * per_second(basic);
     const TypedExpression way = apply(StOp::modulo, time, b, number(day));
     const TypedExpression later = apply(StOp::add, time, a, number(day));
     return apply(StOp::modulo, a.type, apply(sign.op, time, later, way), number(day));
@@ -190,6 +222,9 @@ struct Operation {
     const bool booleans = type != nullptr && type->basic == Basic::boolean;
     if (type == nullptr || (lazy && !booleans))
       return mismatch(lazy ? "it takes BOOL" : "it takes two BOOL or two whole numbers");
+    if ((is_number_with_type(a) || is_number_with_type(b)) &&
+        values.is_iec(DialectDifference::logic_on_numbers, told.place))
+      return mismatch("numbers are no bits in IEC 61131-3: INT_TO_WORD(...) makes bits of one");
     convert_both(*type);
     return apply(sign.op, type, a, b);
   }
@@ -249,9 +284,14 @@ TypedExpression signed_value(Values& values, const StToken& sign, TypedExpressio
   if (operand.unknown()) return operand;
   const Basic basic = operand.type->basic;
   if (sign.word("NOT")) return complement(values, sign, std::move(operand), wanted);
-  if (!is_number(basic) && !(is_clock(basic) && sign.is("+")))
-    return no_operand(values, sign, operand, "it takes numbers");
+  const bool below_zero = basic == Basic::ltime || basic == Basic::signed_time;
+  if (!is_number(basic) && !(is_clock(basic) && sign.is("+")) && !below_zero)
+    return no_operand(
+        values, sign, operand,
+        basic == Basic::time ? "it takes numbers; a TIME is below 0 under dialect: iec" : "it takes numbers");
   if (sign.is("+")) return operand;
+  if (is_bits(basic) && !operand.untyped && values.is_iec(DialectDifference::arithmetic_on_bits, sign.place))
+    return no_operand(values, sign, operand, "it takes numbers: BYTE_TO_USINT(...) makes one");
   if (operand.constant && operand.untyped && is_integer(basic)) {
     operand.place = sign.place;
     return values.negated_literal(std::move(operand));
@@ -264,6 +304,8 @@ TypedExpression complement(Values& values, const StToken& sign, TypedExpression 
   operand = literal_for_bits(values, std::move(operand), wanted, sign);
   if (operand.unknown()) return operand;
   const Basic basic = operand.type->basic;
+  if (is_number_with_type(operand) && values.is_iec(DialectDifference::logic_on_numbers, sign.place))
+    return no_operand(values, sign, operand, "it takes BOOL and bits: INT_TO_WORD(...) makes them");
   if (basic == Basic::boolean || is_integer(basic))
     return values.apply_op(StOp::bit_not, operand.type, sign.place, operand);
   return no_operand(values, sign, operand, "it takes BOOL and whole numbers");
@@ -290,6 +332,7 @@ const Type* common_type(const TypedExpression& a, const TypedExpression& b, cons
   if (x.basic == Basic::enumeration && y.basic == Basic::enumeration) return nullptr;
   if (widens(x.basic, y.basic) && y.basic != Basic::enumeration) return &y;
   if (widens(y.basic, x.basic) && x.basic != Basic::enumeration) return &x;
+  if (is_clock(x.basic) || is_clock(y.basic)) return nullptr;
   for (const Basic wider : {Basic::int_, Basic::dint, Basic::lint, Basic::real, Basic::lreal})
     if (widens(x.basic, wider) && widens(y.basic, wider)) return type_of(wider);
   return nullptr;

@@ -99,8 +99,7 @@ Tree Parser::primary_tree() {
     case StToken::Kind::name:
       return name_tree();
     case StToken::Kind::address:
-      give_up("st.syntax"_code, token.place, in_quotes(token.text) + " stands in an expression",
-              "declare a variable at it: start AT %IX0.0 : BOOL;");
+      return name_tree();
     default:
       break;
   }
@@ -116,6 +115,7 @@ Tree Parser::primary_tree() {
 
 Tree Parser::name_tree() {
   const StToken& name = peek();
+  if (name.kind == StToken::Kind::address) return leaf(Tree::Kind::address, take());
   const bool value = name.word("TRUE") || name.word("FALSE");
   const bool function =
       peek(1).is("(") && (is_operator_function(name) || (name.word("NOT") && peek(3).is(":=")));

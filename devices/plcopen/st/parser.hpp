@@ -12,6 +12,7 @@ struct Tree {
     literal,        ///< token: a number, time, date or text
     typed,          ///< token # tokens[0]: INT#5, State#Idle; `negative`: INT#-5
     name,           ///< token
+    address,        ///< token: %IX0.0, %MW3
     member,         ///< parts[0] . token, which is an integer or address for bits
     element,        ///< parts[0] [ the other parts ]
     dereference,    ///< parts[0] ^
@@ -52,7 +53,7 @@ class Parser : public Reader {
 
  protected:
   Tree tree();
-  /// A name and what follows it: .member, [index] and (arguments).
+  /// A name and what follows it: .member, [index] and (arguments); or an address.
   Tree name_tree();
   Tree call_tree(Tree callee);
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,12 +28,13 @@ class Program {
     int line = 0;
     int column = 0;
   };
-  /// A BOOL at an input %IXbyte.bit or an output %QXbyte.bit.
+  /// A BOOL at an input %IXbyte.bit or an output %QXbyte.bit, or a bit of a number at several.
   struct Located {
     std::string name;
     Address address;
     int line = 0;
     int column = 0;
+    int bit = -1;  ///< of the number; -1: it is a BOOL
   };
 
   /// A variable AT %M, or an array of them from there on.
@@ -88,9 +91,14 @@ class Program {
   std::shared_ptr<const Compiled> compiled_;
 };
 
+/// Whose Structured Text a program is written in, where IEC 61131-3 (third edition) and CODESYS differ.
+enum class StDialect : std::uint8_t { iec, codesys };
+inline constexpr std::array<std::string_view, 2> dialect_names{"iec", "codesys"};
+
 struct CompileOptions {
   bool library = false;  ///< it may have no PROGRAM: then there is nothing to run
   bool tests = false;    ///< what runs are its tests: see tests.hpp
+  std::optional<StDialect> dialect = {};  ///< not given: CODESYS's; where it matters that is noted
 };
 
 /// Compiles the files of a program, one at least, whose order is of no account. All its faults go to

@@ -39,6 +39,7 @@ const Type* Declarations::reference_type() {
   const Type* element = open ? unit->type : parse_type();
   if (element->basic == Basic::axis)
     give_up("st.declaration"_code, place, "a reference to an AXIS_REF", "it is one itself: connect it");
+  refuse_open(*element, place);
   Type& type = new_type(Basic::reference, "REF_TO " + element->name);
   type.element = element;
   return &type;
@@ -90,6 +91,9 @@ std::optional<TypedExpression> Expressions::reference_call(const StToken& name,
       return constant(type_of(Basic::lint), bytes_of(*type), name.place, true);
   const TypedExpression of = typed(tree);
   if (of.unknown()) return unknown_at(name.place);
+  if (of.type->open > 0)
+    give_up("st.call"_code, of.place, fmt::format("{} of {}", upper(name.text), of.type->name),
+            "take it of an element, UPPER_BOUND(a, 1) - LOWER_BOUND(a, 1) + 1 is how many there are");
   if (size) return constant(type_of(Basic::lint), bytes_of(*of.type), name.place, true);
   if (!of.address || of.bits || of.type->basic == Basic::axis || !of.locked.empty())
     give_up("st.call"_code, of.place,

@@ -74,13 +74,12 @@ struct Runtime::State {
 
   /// The programs of a task; false after a fault.
   bool run(const ScheduledTask& task, std::int64_t time_ns) {
-    constexpr std::int64_t ns_per_ms = 1'000'000;
     const auto& instances = program.compiled().instances;
     order.clear();
     try {
       for (const std::size_t number : task.programs) {
         if (watched || counts) trace(number);
-        machine.run(instances[number], time_ns / ns_per_ms);
+        machine.run(instances[number], time_ns);
       }
     } catch (const StError& error) {
       fault = RuntimeFault{error.line, error.column, error.what()};
@@ -231,10 +230,19 @@ int Runtime::line_at(std::int64_t into_ns) const {
 }
 
 bool Runtime::located(std::size_t i) const {
-  return state_->machine.cell(state_->program.compiled().located_cells.at(i)) != 0;
+  const Compiled& code = state_->program.compiled();
+  const Cell cell = state_->machine.cell(code.located_cells.at(i).cell);
+  const int bit = code.located[i].bit;
+  return bit < 0 ? cell != 0 : (static_cast<std::uint64_t>(cell) >> bit & 1U) != 0;
 }
 void Runtime::set_located(std::size_t i, bool level) {
-  state_->machine.set_cell(state_->program.compiled().located_cells.at(i), level ? 1 : 0);
+  const Compiled& code = state_->program.compiled();
+  const auto& [place, basic] = code.located_cells.at(i);
+  const int bit = code.located[i].bit;
+  if (bit < 0) return state_->machine.set_cell(place, level ? 1 : 0);
+  const std::uint64_t mask = std::uint64_t{1} << bit;
+  const auto value = static_cast<std::uint64_t>(state_->machine.cell(place));
+  state_->machine.set_cell(place, wrapped(basic, static_cast<Cell>(level ? value | mask : value & ~mask)));
 }
 std::vector<RuntimeFault> Runtime::take_losses() {
   std::vector<RuntimeFault> losses;

@@ -120,7 +120,11 @@ int Statements::statement() {
 
 int Statements::assignment_or_call() {
   const StToken first = peek();
-  if (first.kind != StToken::Kind::name || is_keyword(first.text)) {
+  if (first.is("("))
+    give_up("st.syntax"_code, first.place, "no dialect assigns several variables at once",
+            "give a function's outputs in its call: a := f(In := x, Out => b);");
+  const bool address = first.kind == StToken::Kind::address;
+  if (!address && (first.kind != StToken::Kind::name || is_keyword(first.text))) {
     const bool declares = first.kind == StToken::Kind::name && upper(first.text).starts_with("VAR");
     give_up("st.syntax"_code, first.place, fmt::format("{} begins no statement", in_quotes(first.text)),
             declares ? "variables are declared before the statements"

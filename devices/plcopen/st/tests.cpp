@@ -11,7 +11,6 @@ namespace {
 
 TestResult run_test(const Program& program, const Compiled::Test& test, const TestTimes& times,
                     Counts* counts) {
-  constexpr std::int64_t ns_per_ms = 1'000'000;
   const Compiled& code = program.compiled();
   const auto place = code.lines.at(test.line);
   TestResult result{test.name, code.files[place.file].name, place.line};
@@ -28,7 +27,7 @@ TestResult run_test(const Program& program, const Compiled::Test& test, const Te
         log.failures.push_back(not_finished(result, times, "it calls TEST_FINISHED at its end"));
         break;
       }
-      machine.run(test, result.took_ns / ns_per_ms);
+      machine.run(test, result.took_ns);
       if (!test.finishes || log.finished) break;
     }
   } catch (const StError& error) {

@@ -17,7 +17,8 @@ std::size_t within(Cell number, std::size_t most) {
 }
 
 std::string time_text(Cell ms) {
-  std::string text = "T#";
+  std::string text = ms < 0 ? "T#-" : "T#";
+  ms = ms < 0 ? -ms : ms;
   for (const TimeUnit& unit : time_units) {
     if (ms >= unit.ms) text += fmt::format("{}{}", ms / unit.ms, unit.name);
     ms %= unit.ms;
@@ -25,8 +26,22 @@ std::string time_text(Cell ms) {
   return text.size() > 2 ? text : "T#0ms";
 }
 
+std::string long_time_text(Cell ns) {
+  if (ns == 0) return "LTIME#0ns";
+  std::string text = ns < 0 ? "LTIME#-" : "LTIME#";
+  auto rest = ns < 0 ? 0 - static_cast<std::uint64_t>(ns) : static_cast<std::uint64_t>(ns);
+  for (const LongTimeUnit& unit : long_time_units) {
+    const auto size = static_cast<std::uint64_t>(unit.ns);
+    if (rest >= size) text += fmt::format("{}{}", rest / size, unit.name);
+    rest %= size;
+  }
+  return text;
+}
+
 std::string date_text(Cell seconds) {
-  const std::chrono::sys_days day{std::chrono::days(seconds / 86400)};
+  // The day of a moment before 1970 has begun before it.
+  const std::chrono::sys_days day =
+      std::chrono::floor<std::chrono::days>(std::chrono::sys_seconds(std::chrono::seconds(seconds)));
   const std::chrono::year_month_day date(day);
   return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
                      static_cast<unsigned>(date.day()));
@@ -36,10 +51,47 @@ std::string clock_text(Cell seconds) {
   return fmt::format("{:02}:{:02}:{:02}", seconds / 3600 % 24, seconds / 60 % 60, seconds % 60);
 }
 
+/// Of an LTOD or LDT; before 1970 it counts from the midnight before.
+std::string long_clock_text(Cell ns) {
+  constexpr Cell second = 1'000'000'000;
+  constexpr Cell day = 86400 * second;
+  const Cell of_day = (ns % day + day) % day;
+  return fmt::format("{}.{:09}", clock_text(of_day / second), of_day % second);
+}
+Cell whole_seconds(Cell ns) {
+  constexpr Cell second = 1'000'000'000;
+  return ns / second - (ns % second < 0 ? 1 : 0);
+}
+
 Cell time_value(Basic basic, std::string_view text) {
   Problems problems;
   const std::vector<StToken> tokens = tokens_of(text, "", problems);
-  return tokens[0].kind == StToken::Kind::number && tokens[0].basic == basic ? tokens[0].value : 0;
+  const Basic written = basic == Basic::signed_time ? Basic::time : basic;
+  const Cell value =
+      tokens[0].kind == StToken::Kind::number && tokens[0].basic == written ? tokens[0].value : 0;
+  return wrapped(basic, value) == value ? value : 0;
+}
+
+/// A character's UTF-8.
+std::string wide_text(Cell character) {
+  const auto code = static_cast<unsigned>(character);
+  const auto byte = [](unsigned bits) { return static_cast<char>(static_cast<unsigned char>(bits)); };
+  if (code < 0x80) return {byte(code)};
+  if (code < 0x800) return {byte(0xC0U | code >> 6), byte(0x80U | (code & 0x3FU))};
+  return {byte(0xE0U | code >> 12), byte(0x80U | (code >> 6 & 0x3FU)), byte(0x80U | (code & 0x3FU))};
+}
+
+/// The first character of a UTF-8 text; what a WCHAR does not hold is U+FFFD.
+Cell wide_value(std::string_view text) {
+  const auto byte = [&](std::size_t at) {
+    return at < text.size() ? static_cast<unsigned char>(text[at]) : 0U;
+  };
+  const unsigned first = byte(0);
+  if (first < 0x80) return static_cast<Cell>(first);
+  if (first < 0xE0) return static_cast<Cell>((first & 0x1FU) << 6 | (byte(1) & 0x3FU));
+  if (first < 0xF0)
+    return static_cast<Cell>((first & 0x0FU) << 12 | (byte(1) & 0x3FU) << 6 | (byte(2) & 0x3FU));
+  return 0xFFFD;
 }
 
 }  // namespace
@@ -120,7 +172,20 @@ std::string text_of(Basic basic, Cell value) {
     case Basic::lword:
       return fmt::format("{}", static_cast<std::uint64_t>(value));
     case Basic::time:
+    case Basic::signed_time:
       return time_text(value);
+    case Basic::ltime:
+      return long_time_text(value);
+    case Basic::ltod:
+      return "LTOD#" + long_clock_text(value);
+    case Basic::ldate:
+      return "LDATE#" + date_text(whole_seconds(value));
+    case Basic::ldt:
+      return fmt::format("LDT#{}-{}", date_text(whole_seconds(value)), long_clock_text(value));
+    case Basic::character:
+      return value == 0 ? "" : std::string(1, static_cast<char>(value));
+    case Basic::wide_character:
+      return value == 0 ? "" : wide_text(value);
     case Basic::tod:
       return fmt::format("TOD#{}.{:03}", clock_text(value / 1000), value % 1000);
     case Basic::date:
@@ -134,6 +199,8 @@ std::string text_of(Basic basic, Cell value) {
 
 Cell value_of(Basic basic, std::string_view text) {
   if (is_clock(basic)) return time_value(basic, text);
+  if (basic == Basic::character) return text.empty() ? 0 : static_cast<unsigned char>(text.front());
+  if (basic == Basic::wide_character) return wide_value(text);
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
   if (text.starts_with('+')) text.remove_prefix(1);
   if (basic == Basic::boolean) return same_word(text, "TRUE") || text == "1" ? 1 : 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "devices/plcopen/pins.hpp"
 #include "devices/plcopen/st/compiler.hpp"
 
 // TYPE sections, and what may stand behind a ':'.
@@ -15,6 +16,17 @@ const Type* type_of_pin(const Pin& pin, const PinValue& value, const Type* cam_r
   constexpr std::array basics{Basic::boolean, Basic::int_,  Basic::uint,
                               Basic::dint,    Basic::udint, Basic::lreal};
   return type_of(basics.at(value.index()));
+}
+
+/// What a pin holds, if it is of one cell and no AXIS_REF.
+std::optional<Cell> cell_of_pin(const PinValue& pin) {
+  const auto cell = [](const auto* held) -> std::optional<Cell> {
+    using T = std::remove_cvref_t<decltype(*held)>;
+    if constexpr (std::is_same_v<T, double>) return cell_of(*held);
+    if constexpr (std::is_integral_v<T>) return static_cast<Cell>(*held);
+    return std::nullopt;
+  };
+  return std::visit(cell, pin);
 }
 
 }  // namespace
@@ -172,8 +184,38 @@ const Type* Declarations::parse_type() {
   return named_type();
 }
 
+/// ARRAY [*, *] OF T: the caller says how long each dimension is.
+const Type* Declarations::open_array_type() {
+  const Place place = peek().place;
+  int dimensions = 0;
+  std::string stars;
+  do {
+    expect("*", "stands for each of the bounds: ARRAY [*, *] OF INT");
+    stars += dimensions++ == 0 ? "*" : ", *";
+  } while (accept(","));
+  expect("]", "closes the bounds");
+  expect_word("OF", "ARRAY [*] OF LREAL");
+  const Type* element = parse_type();
+  if (element->basic == Basic::array || element->basic == Basic::axis)
+    give_up("st.declaration"_code, place, fmt::format("an ARRAY [*] of {}", element->name),
+            "of numbers, texts or structures: ARRAY [*, *] OF INT");
+  Type& type = new_type(Basic::array, fmt::format("ARRAY [{}] OF {}", stars, element->name));
+  type.element = element;
+  type.open = dimensions;
+  type.depth = element->depth + 1;
+  type.holds_block = element->holds_block;
+  return &type;
+}
+
+void Declarations::refuse_open(const Type& type, Place place) {
+  if (type.open > 0)
+    give_up("st.declaration"_code, place, fmt::format("{} has no length here", type.name),
+            "it stands in VAR_IN_OUT, and in VAR_INPUT of a FUNCTION or METHOD: the caller's array");
+}
+
 const Type* Declarations::array_type() {
   expect("[", "opens the bounds: ARRAY [0..7] OF LREAL");
+  if (peek().is("*")) return open_array_type();
   struct Bounds {
     std::int64_t low = 0;
     std::int64_t high = 0;
@@ -198,6 +240,7 @@ const Type* Declarations::array_type() {
   const Type* element = parse_type();
   if (element->basic == Basic::axis)
     give_up("st.declaration"_code, place, "an array of AXIS_REF", "name each axis in VAR_EXTERNAL");
+  refuse_open(*element, place);
   for (auto bounds = dimensions.rbegin(); bounds != dimensions.rend(); ++bounds) {
     const std::int64_t most = most_cells / std::max(element->cells, 1);
     if (bounds->high - bounds->low < 0 || bounds->high - bounds->low >= most)
@@ -244,10 +287,10 @@ const Type* Declarations::string_type() {
 
 const Type* Declarations::named_type() {
   const StToken name = expect_name("a type");
-  if (const Type* type = elementary_type(name.text)) {
+  Unit* const unit = find_unit(name.text);
+  if (const Type* type = type_named(name.text); type != nullptr && unit == nullptr)
     return peek().is("(") ? subrange(*type) : type;
-  }
-  if (Unit* unit = find_unit(name.text)) {
+  if (unit != nullptr) {
     const bool type = unit->kind == Unit::Kind::type || unit->kind == Unit::Kind::function_block ||
                       unit->kind == Unit::Kind::interface;
     if (!type)
@@ -260,6 +303,8 @@ const Type* Declarations::named_type() {
     if (open_units_ > deepest)
       give_up("st.too-large"_code, name.place, "the types are nested too deeply",
               fmt::format("declare {} before what is made of it", in_quotes(name.text)));
+    if (unit->standard && same_word(name.text, "F_TRIG"))
+      is_iec(DialectDifference::first_falling_edge, name.place);
     declare(*unit);
     return unit->type;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 namespace drycut::devices::plcopen::st {
 namespace {
@@ -58,13 +59,17 @@ Subrange range_of(const Type& type) {
   return type.subrange ? Subrange{type.low, type.high} : range_of(type.basic);
 }
 
-int per_second(Basic basic) { return basic == Basic::time || basic == Basic::tod ? 1000 : 1; }
+int per_second(Basic basic) {
+  if (long_clock(basic) == basic) return 1'000'000'000;
+  return is_span(basic) || basic == Basic::tod ? 1000 : 1;
+}
 
 bool widens(Basic from, Basic to) {
   // Structures, arrays, blocks and enumerations are alike by their names, not by their kinds.
   if (from == to) return is_elementary(from) && from != Basic::enumeration;
   if (from == Basic::enumeration) from = Basic::int_;
   if (from == Basic::real) return to == Basic::lreal;
+  if (is_clock(from)) return to == long_clock(from);
   if (!is_integer(from)) return false;
   // A REAL holds whole numbers of 24 bit exactly, an LREAL of 53.
   if (to == Basic::real) return bits_of(from) <= 16;
@@ -77,7 +82,8 @@ bool widens(Basic from, Basic to) {
 bool same_type(const Type& a, const Type& b) {
   if (&a == &b) return true;
   if (a.basic != b.basic) return false;
-  if (a.basic == Basic::array) return a.low == b.low && a.high == b.high && same_type(*a.element, *b.element);
+  if (a.basic == Basic::array)
+    return a.low == b.low && a.high == b.high && a.open == b.open && same_type(*a.element, *b.element);
   if (a.basic == Basic::reference)
     return a.element != nullptr && b.element != nullptr && same_type(*a.element, *b.element);
   if (a.basic == Basic::string) return a.length == b.length && a.wide == b.wide;
@@ -85,8 +91,11 @@ bool same_type(const Type& a, const Type& b) {
 }
 
 const Type* elementary_type(std::string_view name) {
-  if (same_word(name, "TIME_OF_DAY")) name = "TOD";
-  if (same_word(name, "DATE_AND_TIME")) name = "DT";
+  for (const auto& [second, first] : {std::pair{"TIME_OF_DAY", "TOD"},
+                                      {"DATE_AND_TIME", "DT"},
+                                      {"LTIME_OF_DAY", "LTOD"},
+                                      {"LDATE_AND_TIME", "LDT"}})
+    if (same_word(name, second)) name = first;
   for (const Type& type : elementary())
     if (same_word(type.name, name)) return &type;
   return nullptr;
@@ -104,20 +113,10 @@ const std::vector<std::string>& elementary_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> result;
     for (const Type& type : elementary())
-      if (type.basic != Basic::unknown) result.push_back(type.name);
+      if (type.basic != Basic::unknown && type.basic != Basic::signed_time) result.push_back(type.name);
     return result;
   }();
   return names;
-}
-
-std::optional<Cell> cell_of_pin(const PinValue& pin) {
-  const auto cell = [](const auto* held) -> std::optional<Cell> {
-    using T = std::remove_cvref_t<decltype(*held)>;
-    if constexpr (std::is_same_v<T, double>) return cell_of(*held);
-    if constexpr (std::is_integral_v<T>) return static_cast<Cell>(*held);
-    return std::nullopt;
-  };
-  return std::visit(cell, pin);
 }
 
 const Variable* find_member(const Type& type, std::string_view name) {

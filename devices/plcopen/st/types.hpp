@@ -9,7 +9,10 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "devices/plcopen/pins.hpp"
+
+namespace drycut::devices::plcopen {
+struct BlockType;
+}
 
 namespace drycut::devices::plcopen::st {
 
@@ -37,10 +40,17 @@ enum class Basic : std::uint8_t {
   lword,
   real,
   lreal,
-  time,  ///< whole ms in 32 bit, wraps after 49 days, as on CODESYS and TwinCAT
-  tod,   ///< ms since midnight
-  date,  ///< s since 1970-01-01 in 32 bit, whole days
-  dt,    ///< s since 1970-01-01 in 32 bit
+  time,            ///< whole ms in 32 bit, wraps after 49 days, as on CODESYS and TwinCAT
+  signed_time,     ///< the same with a sign: TIME of StDialect::iec
+  ltime,           ///< ns in 64 bit with a sign, as of the other long ones
+  tod,             ///< ms since midnight
+  ltod,            ///< ns since midnight
+  date,            ///< s since 1970-01-01 in 32 bit, whole days
+  ldate,           ///< ns since 1970-01-01, whole days
+  dt,              ///< s since 1970-01-01 in 32 bit
+  ldt,             ///< ns since 1970-01-01
+  character,       ///< CHAR: a byte of a STRING
+  wide_character,  ///< WCHAR: a character of a WSTRING, to U+FFFF
   string,
   axis,
   enumeration,
@@ -58,18 +68,36 @@ struct TypeRow {
   bool sign;
 };
 /// In the order of Basic.
-inline constexpr std::array<TypeRow, 22> type_rows{{
-    {Basic::unknown, "?", 64, true},     {Basic::boolean, "BOOL", 1, false},
-    {Basic::sint, "SINT", 8, true},      {Basic::int_, "INT", 16, true},
-    {Basic::dint, "DINT", 32, true},     {Basic::lint, "LINT", 64, true},
-    {Basic::usint, "USINT", 8, false},   {Basic::uint, "UINT", 16, false},
-    {Basic::udint, "UDINT", 32, false},  {Basic::ulint, "ULINT", 64, false},
-    {Basic::byte, "BYTE", 8, false},     {Basic::word, "WORD", 16, false},
-    {Basic::dword, "DWORD", 32, false},  {Basic::lword, "LWORD", 64, false},
-    {Basic::real, "REAL", 32, true},     {Basic::lreal, "LREAL", 64, true},
-    {Basic::time, "TIME", 32, false},    {Basic::tod, "TOD", 32, false},
-    {Basic::date, "DATE", 32, false},    {Basic::dt, "DT", 32, false},
-    {Basic::string, "STRING", 0, false}, {Basic::axis, "AXIS_REF", 32, true},
+inline constexpr std::array<TypeRow, 29> type_rows{{
+    {Basic::unknown, "?", 64, true},
+    {Basic::boolean, "BOOL", 1, false},
+    {Basic::sint, "SINT", 8, true},
+    {Basic::int_, "INT", 16, true},
+    {Basic::dint, "DINT", 32, true},
+    {Basic::lint, "LINT", 64, true},
+    {Basic::usint, "USINT", 8, false},
+    {Basic::uint, "UINT", 16, false},
+    {Basic::udint, "UDINT", 32, false},
+    {Basic::ulint, "ULINT", 64, false},
+    {Basic::byte, "BYTE", 8, false},
+    {Basic::word, "WORD", 16, false},
+    {Basic::dword, "DWORD", 32, false},
+    {Basic::lword, "LWORD", 64, false},
+    {Basic::real, "REAL", 32, true},
+    {Basic::lreal, "LREAL", 64, true},
+    {Basic::time, "TIME", 32, false},
+    {Basic::signed_time, "TIME", 32, true},
+    {Basic::ltime, "LTIME", 64, true},
+    {Basic::tod, "TOD", 32, false},
+    {Basic::ltod, "LTOD", 64, true},
+    {Basic::date, "DATE", 32, false},
+    {Basic::ldate, "LDATE", 64, true},
+    {Basic::dt, "DT", 32, false},
+    {Basic::ldt, "LDT", 64, true},
+    {Basic::character, "CHAR", 8, false},
+    {Basic::wide_character, "WCHAR", 16, false},
+    {Basic::string, "STRING", 0, false},
+    {Basic::axis, "AXIS_REF", 32, true},
 }};
 
 /// An enumeration is kept as an INT.
@@ -118,6 +146,7 @@ struct Type {
   const Type* element = nullptr;  ///< of an array; what a reference is of
   std::int64_t low = 0;           ///< bounds of an array, or of a subrange INT (0..9)
   std::int64_t high = 0;
+  int open = 0;  ///< of ARRAY [*, *] OF element: how many dimensions the caller gives; it is where that is
   bool subrange = false;
   int depth = 1;             ///< of arrays and structures within each other
   bool holds_block = false;  ///< it is a function block, or an array or structure with one in it
@@ -130,6 +159,9 @@ struct Type {
   int pou = -1;           ///< number of a user's function block
   bool standard = false;  ///< TON and its like
   bool broken = false;    ///< a declaration was given up: what is missing has been told
+
+  /// LTIME, LTOD, LDATE, LDT
+  [[nodiscard]] bool is_long() const;
 };
 
 /// SINT..ULINT, BYTE..LWORD
@@ -138,11 +170,27 @@ constexpr bool is_integer(Basic basic) { return basic >= Basic::sint && basic <=
 constexpr bool is_wide(Basic basic) { return basic == Basic::ulint || basic == Basic::lword; }
 constexpr bool is_real(Basic basic) { return basic == Basic::real || basic == Basic::lreal; }
 constexpr bool is_number(Basic basic) { return is_integer(basic) || is_real(basic); }
-/// TIME, TOD, DATE, DT
-constexpr bool is_clock(Basic basic) { return basic >= Basic::time && basic <= Basic::dt; }
-/// What is kept as a whole number: integers, BOOL, times, dates, enumerations.
+/// BYTE, WORD, DWORD, LWORD
+constexpr bool is_bits(Basic basic) { return basic >= Basic::byte && basic <= Basic::lword; }
+/// TIME, TOD, DATE, DT, and the long ones
+constexpr bool is_clock(Basic basic) { return basic >= Basic::time && basic <= Basic::ldt; }
+/// TIME, LTIME
+constexpr bool is_span(Basic basic) { return basic >= Basic::time && basic <= Basic::ltime; }
+/// The long one of a kind: LTOD of TOD and LTOD.
+constexpr Basic long_clock(Basic basic) {
+  if (is_span(basic)) return Basic::ltime;
+  if (basic == Basic::tod) return Basic::ltod;
+  if (basic == Basic::date) return Basic::ldate;
+  return basic == Basic::dt ? Basic::ldt : basic;
+}
+inline bool Type::is_long() const { return is_clock(basic) && long_clock(basic) == basic; }
+constexpr bool is_character(Basic basic) {
+  return basic == Basic::character || basic == Basic::wide_character;
+}
+/// What is kept as a whole number: integers, BOOL, times, dates, characters, enumerations.
 constexpr bool is_whole(Basic basic) {
-  return is_integer(basic) || basic == Basic::boolean || is_clock(basic) || basic == Basic::enumeration;
+  return is_integer(basic) || basic == Basic::boolean || is_clock(basic) || is_character(basic) ||
+         basic == Basic::enumeration;
 }
 constexpr bool is_elementary(Basic basic) { return is_whole(basic) || is_real(basic); }
 bool is_single(Basic basic);  ///< of one cell, which is its value
@@ -180,8 +228,6 @@ int string_cells(std::size_t length);
 inline constexpr std::size_t default_string_length = 80;
 inline constexpr std::size_t most_string_length = 32767;
 const std::vector<std::string>& elementary_names();
-/// What a pin holds, if it is of one cell and no AXIS_REF.
-std::optional<Cell> cell_of_pin(const PinValue& pin);
 /// The member called `name`, any case; nullptr if there is none.
 const Variable* find_member(const Type& type, std::string_view name);
 

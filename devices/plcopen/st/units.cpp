@@ -13,6 +13,7 @@ namespace drycut::devices::plcopen::st {
 
 Compiler::Compiler(std::span<const SourceFile> files, const CompileOptions& options, Problems& problems)
     : Statements(files.front().name, problems), options_(options) {
+  dialect_ = options.dialect;
   lines_ = SourceLines(files);
   tokens_ = tokens_of(standard_blocks(), file_, problems);
   tokens_.pop_back();
@@ -44,6 +45,7 @@ std::shared_ptr<const Compiled> Compiler::run() {
         Unit::Kind::program, Unit::Kind::interface, Unit::Kind::method})
     for (const auto& unit : units_)
       if (unit->kind == kind && !unit->standard) declare(*unit);
+  declare_addresses(user_tokens_);
   check_methods();
   check_programs();
   if (options_.tests)
@@ -200,8 +202,11 @@ void Compiler::add_unit(Unit unit) {
       if (!unit.standard) tell_twice(unit.name, other->name.text, other->name.place);
       return;
     }
-    if (!unit.standard && (elementary_type(unit.name.text) != nullptr || find_block_type(unit.name.text) ||
-                           same_word(unit.name.text, "MC_CAM_REF"))) {
+    // CHAR, LTIME and their like came later than many programs.
+    const Type* type = elementary_type(unit.name.text);
+    const bool elementary = type != nullptr && !is_character(type->basic) && !type->is_long();
+    if (!unit.standard &&
+        (elementary || find_block_type(unit.name.text) || same_word(unit.name.text, "MC_CAM_REF"))) {
       complain("st.declaration"_code, unit.name.place,
                in_quotes(unit.name.text) + " is a type of the controller", "choose another name");
       return;

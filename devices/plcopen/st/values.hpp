@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "devices/plcopen/st/dialect.hpp"
 #include "devices/plcopen/st/nodes.hpp"
 #include "devices/plcopen/st/parser.hpp"
 
@@ -91,14 +92,16 @@ struct TypedExpression {
   bool constant = false;  ///< `value` is known; no node yet
   bool untyped = false;   ///< a literal without a type: it takes the type that is asked for
   Cell value = 0;
-  int depth = 1;                      ///< of the tree
-  std::string name;                   ///< of a variable, for messages
-  std::string locked;                 ///< why it is not to be assigned
-  bool own_input = false;             ///< of the block whose body is read
-  std::optional<std::string> string;  ///< a literal
-  bool cam_file = false;              ///< MC_CAM_REF.File
-  int reference = -1;                 ///< it is seen by the reference that this node computes
-  std::optional<Bits> bits;           ///< it is a part of the variable at `node`
+  int depth = 1;                        ///< of the tree
+  std::string name;                     ///< of a variable, for messages
+  std::string locked;                   ///< why it is not to be assigned
+  bool own_input = false;               ///< of the block whose body is read
+  std::optional<std::string> string;    ///< a literal
+  bool cam_file = false;                ///< MC_CAM_REF.File
+  bool direct = false;                  ///< %MW3: a number of any type of its width
+  std::vector<TypedExpression> bounds;  ///< of an ARRAY [*]: the lower and the upper one of each dimension
+  int reference = -1;                   ///< it is seen by the reference that this node computes
+  std::optional<Bits> bits;             ///< it is a part of the variable at `node`
 
   [[nodiscard]] bool unknown() const { return type->basic == Basic::unknown; }
 };
@@ -124,6 +127,22 @@ class Values : public Parser {
   TypedExpression refuse(Code code, Place place, std::string what, std::string remedy) {
     return refuse(code, place, std::move(what), std::move(remedy), place);
   }
+
+  /// Whether the program is of IEC 61131-3 where it comes upon this difference. Where the scenario says
+  /// nothing it is not, and that is noted once.
+  bool is_iec(DialectDifference difference, Place place);
+  /// TIME of the dialect.
+  [[nodiscard]] const Type* time_type() const {
+    return type_of(dialect_ == StDialect::iec ? Basic::signed_time : Basic::time);
+  }
+  /// BOOL..WSTRING by name; nullptr if there is none.
+  [[nodiscard]] const Type* type_named(std::string_view name) const {
+    const Type* type = elementary_type(name);
+    return type != nullptr && type->basic == Basic::time ? time_type() : type;
+  }
+
+  /// What a node does.
+  [[nodiscard]] StOp computes(int number) const { return node(number).op; }
 
   /// As a value of type `to`, by the conversions that IEC 61131-3 makes by itself.
   TypedExpression converted(TypedExpression expression, const Type& to);
@@ -153,6 +172,10 @@ class Values : public Parser {
   int scratch(const Type& type, Place place);
   /// What functions of STRING give.
   const Type* longest_string(bool wide);
+  /// A node of TextOp `op`; texts get a place of their own for each call in the text. `number` is the type of
+  /// what is none.
+  TypedExpression text_value(TextOp op, const Type* number, const std::vector<TypedExpression>& inputs,
+                             bool wide, Place place);
 
  protected:
   [[nodiscard]] const Node& node(int number) const { return nodes_.node(number); }
@@ -162,14 +185,19 @@ class Values : public Parser {
   Nodes nodes_;
   std::vector<Cell> pool_;  ///< literals and scratch, placed last
   Unit* unit_ = nullptr;    ///< whose text is being read
+  std::optional<StDialect> dialect_;
+  int right_sides_ = 0;  ///< what is read stands right of so many AND and OR
 
  private:
   TypedExpression in_subrange(const TypedExpression& value, const Type& to);
+  TypedExpression clock_cast(const TypedExpression& value, Basic to, Place place);
+  std::optional<TypedExpression> character_converted(const TypedExpression& value, const Type& to);
   TypedExpression reference_converted(TypedExpression expression, const Type& to);
   TypedExpression folded(StOp op, const Type* type, Place place, Cell a, Cell b, bool untyped);
   int bits_node(const TypedExpression& expression);
   int in_pool(std::size_t cells);
 
+  std::set<DialectDifference> differences_;  ///< that have been noted
   std::unordered_map<std::string, int> strings_;
   const Type* longest_string_ = nullptr;
   const Type* longest_wide_ = nullptr;

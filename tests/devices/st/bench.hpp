@@ -1,4 +1,5 @@
 #pragma once
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "devices/plcopen/kernel.hpp"
+#include "devices/plcopen/st/code.hpp"
 #include "devices/plcopen/st/runtime.hpp"
 
 namespace drycut::devices::plcopen::st {
@@ -14,8 +16,10 @@ namespace drycut::devices::plcopen::st {
 /// A program behind a kernel with the axes Web (encoder) and Knife, 2 ms a scan.
 class Bench {
  public:
-  explicit Bench(const std::string& text) {
-    const Program program = compile(text, "test.st", problems);
+  explicit Bench(const std::string& text, const CompileOptions& options = {}) {
+    const Program program = compile(text, "test.st", problems, options);
+    for (const auto& doubt : program.compiled().doubts)
+      doubts.push_back(fmt::format("{}:{}: {}", doubt.line, doubt.column, doubt.text));
     for (const Problem& problem : problems) ADD_FAILURE() << to_string(problem);
     AxisParameters web;
     web.kind = AxisKind::encoder;
@@ -53,15 +57,16 @@ class Bench {
   }
 
   Problems problems;
+  std::vector<std::string> doubts;  ///< "line:column: text"
   MotionKernel kernel;
   std::unique_ptr<Runtime> runtime;
   std::int64_t time_ns = 0;
 };
 
 /// The problems of a text as "line:column: what; remedy".
-inline std::vector<std::string> problems_of(const std::string& text) {
+inline std::vector<std::string> problems_of(const std::string& text, const CompileOptions& options = {}) {
   Problems problems;
-  compile(text, "f", problems);
+  compile(text, "f", problems, options);
   std::vector<std::string> lines;
   for (const Problem& problem : problems) lines.push_back(to_string(problem).substr(2));
   return lines;
