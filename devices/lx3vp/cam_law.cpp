@@ -77,9 +77,11 @@ RowLaw::RowLaw(std::vector<Row> rows, Zoom master, Zoom slave)
 
 // The largest product is that of slave_in: twice the pulses as a fraction, and its denominator.
 void RowLaw::prepare() {
-  last_piece_ = 1;
+  piece_ = {};
   narrow_cycles_ = 0;
+  length_ = 0;
   if (rows_.size() < 2) return;
+  length_ = begin_of(rows_.back());
   double slave = 1;
   double piece = 1;
   for (std::size_t i = 1; i < rows_.size(); ++i) {
@@ -109,39 +111,42 @@ RowLaw::Place RowLaw::place(std::int64_t counts, std::int64_t first) const {
   return {limited(cycle), static_cast<std::int64_t>(travelled - cycle * length())};
 }
 
-// The row behind a place; the last one at the end of a cycle. A master that goes on is where it was last, or
-// in the next piece.
-std::size_t RowLaw::piece_at(std::int64_t part) const {
-  const auto lies_in = [&](std::size_t piece) {
-    return piece < rows_.size() && begin_of(rows_[piece - 1]) <= part && part < begin_of(rows_[piece]);
-  };
-  if (lies_in(last_piece_)) return last_piece_;
-  if (lies_in(last_piece_ + 1)) return ++last_piece_;
-  const auto next = std::upper_bound(rows_.begin(), rows_.end() - 1, part,
-                                     [&](std::int64_t at, const Row& row) { return at < begin_of(row); });
-  last_piece_ = static_cast<std::size_t>(next - rows_.begin());
-  return last_piece_;
+// The last one at the end of a cycle.
+const RowLaw::Piece& RowLaw::piece_at(std::int64_t part) const {
+  if (part < piece_.begin || part >= piece_.end) look_for_piece(part);
+  return piece_;
+}
+
+// A master that goes on is in the next piece.
+void RowLaw::look_for_piece(std::int64_t part) const {
+  const std::size_t next = piece_.row + 1;
+  const bool goes_on =
+      piece_.row > 0 && next < rows_.size() && part >= piece_.end && part < begin_of(rows_[next]);
+  const auto found =
+      goes_on ? rows_.begin() + static_cast<std::ptrdiff_t>(next)
+              : std::upper_bound(rows_.begin(), rows_.end() - 1, part,
+                                 [&](std::int64_t at, const Row& row) { return at < begin_of(row); });
+  const Row& from = *(found - 1);
+  piece_ = {static_cast<std::size_t>(found - rows_.begin()), begin_of(from), begin_of(*found),
+            std::int64_t{from.slave} - rows_.front().slave, std::int64_t{found->slave} - from.slave};
 }
 
 template <typename Integer>
 RowLaw::Slave RowLaw::slave_in(const Place& place) const {
-  const std::size_t piece = piece_at(place.part);
-  const Row& from = rows_[piece - 1];
-  const Row& to = rows_[piece];
-  const std::int64_t length = begin_of(to) - begin_of(from);
-  const Integer rise = Integer{to.slave} - from.slave;
-  const Integer base = Integer{from.slave} - rows_.front().slave;
-  const Integer in_cycle = base * length + rise * (place.part - begin_of(from));
+  const Piece& piece = piece_at(place.part);
+  const std::int64_t length = piece.end - piece.begin;
+  const Integer in_piece = Integer{piece.rise} * (place.part - piece.begin);
   const Integer whole = place.cycle * (Integer{rows_.back().slave} - rows_.front().slave);
-  const auto pulses = [&](Integer numerator, Integer denominator) {
-    return limited(nearest_to<Integer>(numerator * slave_.numerator, denominator * slave_.denominator));
-  };
-  const auto position = static_cast<std::int64_t>(nearest_to<Integer>(in_cycle, length));
+  const std::int64_t position = piece.base + static_cast<std::int64_t>(nearest_to<Integer>(in_piece, length));
   // Without a zoom pulses are positions, and those of whole cycles need no rounding.
   if (slave_.numerator == slave_.denominator) {
     const std::int64_t before = limited(whole);
     return {limited(whole + position), before, rows_.front().slave + position};
   }
+  const auto pulses = [&](Integer numerator, Integer denominator) {
+    return limited(nearest_to<Integer>(numerator * slave_.numerator, denominator * slave_.denominator));
+  };
+  const Integer in_cycle = Integer{piece.base} * length + in_piece;
   return {pulses(whole * length + in_cycle, length), pulses(whole, 1), rows_.front().slave + position};
 }
 

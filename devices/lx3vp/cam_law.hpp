@@ -45,7 +45,7 @@ class RowLaw {
   /// Of a master that has come `counts` from table position `first` (0 = the first row).
   [[nodiscard]] Place place(std::int64_t counts, std::int64_t first = 0) const;
   /// Length of a cycle, in units of Place::part.
-  [[nodiscard]] std::int64_t length() const { return begin_of(rows_.back()); }
+  [[nodiscard]] std::int64_t length() const { return length_; }
 
   /// Where the slave is then.
   struct Slave {
@@ -72,15 +72,25 @@ class RowLaw {
   [[nodiscard]] std::int64_t begin_of(const Row& row) const {
     return (std::int64_t{row.master} - rows_.front().master) * master_.denominator;
   }
-  [[nodiscard]] std::size_t piece_at(std::int64_t part) const;
+  /// From one row to the next, with what each tick asks of it.
+  struct Piece {
+    std::size_t row = 0;  ///< the one at its end
+    std::int64_t begin = 0;
+    std::int64_t end = 0;   ///< begin: none has been looked for
+    std::int64_t base = 0;  ///< the slave at its begin, from the first row
+    std::int64_t rise = 0;
+  };
+  const Piece& piece_at(std::int64_t part) const;
+  void look_for_piece(std::int64_t part) const;
   template <typename Integer>
   [[nodiscard]] Slave slave_in(const Place& place) const;
 
   std::vector<Row> rows_;
   Zoom master_;
   Zoom slave_;
-  std::int64_t narrow_cycles_ = 0;      ///< up to this one all products fit 64 bits
-  mutable std::size_t last_piece_ = 1;  ///< the one found last, up to this row: where the next look begins
+  std::int64_t narrow_cycles_ = 0;  ///< up to this one all products fit 64 bits
+  std::int64_t length_ = 0;
+  mutable Piece piece_;  ///< the one found last: where the next look begins
 };
 
 }  // namespace drycut::devices::lx3vp

@@ -295,9 +295,10 @@ void Decam::finish(CamPort& port) {
 }
 
 void Decam::show_positions(CamPort& port, std::int64_t pulses) const {
-  const auto show = [&](int first, std::int64_t value) {
-    block(port, first) = static_cast<std::uint16_t>(value);
-    block(port, first + 1) = static_cast<std::uint16_t>(value >> 16);
+  std::uint16_t* const words = &block(port, 0);
+  const auto show = [words](int first, std::int64_t value) {
+    words[first] = static_cast<std::uint16_t>(value);
+    words[first + 1] = static_cast<std::uint16_t>(value >> 16);
   };
   show(word::slave_pulses, pulses);
   show(word::slave_position, slave_.position);

@@ -59,6 +59,7 @@ class SpeedMeters {
  public:
   /// As in `Instructions`.
   void measure(int step, const SpeedMeasure& measure, bool powered, Registers& registers);
+  [[nodiscard]] bool measures() const { return !meters_.empty(); }
   /// A tick with the levels of the inputs.
   void tick(const std::array<bool, terminals>& inputs, Registers& registers);
   void visit(StateArchive& archive);

@@ -112,7 +112,7 @@ void Lx3vpController::run_devices(std::int64_t time_ns) {
   CamPort cams = port();
   pulses_.tick(cams);
   if (pulses_.has_notes()) tell_notes();
-  speeds_.tick(inputs_, registers_);
+  if (speeds_.measures()) speeds_.tick(inputs_, registers_);
   if (counters_.has_news()) {
     const auto news = counters_.take_news();
     for (const auto& [y, on] : news.outputs) outputs_[static_cast<std::size_t>(y)] = on;

@@ -19,8 +19,8 @@ inline constexpr std::string_view closing =
 
 inline constexpr std::array language{
     QclRow{"name = e",
-           "stores; flags, bytes and words wrap, which a note tells of a constant; a single loses its "
-           "fraction in a whole number",
+           "stores; flags, bytes and words wrap, which a note tells of constants and what is made "
+           "of them; a single loses its fraction in a whole number",
            "how values wrap is not in the manuals"},
     QclRow{"name[i]  name[i, j]",
            "an element, from 1; outside: error 3, 4 (recipe) or 5 (step), all tasks stop"},
@@ -34,7 +34,9 @@ inline constexpr std::array language{
            "a read; its statement waits for the sample that takes what was posted to the "
            "device before, by any task, never for what is posted later",
            "002 1.3.4.2 asks for a read between two DELCNT, and does not say how it waits"},
-    QclRow{"+ - * /  EQ  AND OR NOT", "arithmetic in 32 bits, wraps; division cuts off; by 0: error 6"},
+    QclRow{"+ - * /  EQ  AND OR NOT",
+           "arithmetic in 32 bits, wraps, which a note tells of constants; division cuts off; by 0: "
+           "error 6"},
     QclRow{"% LT LE GT GE ANDB ORB XORB NOTB", "remainder, comparisons, bits", public_word},
     QclRow{"NEQ NE", "not equal", ours},
     QclRow{"order of operators", "signs and NOT, * / %, + -, comparisons, ANDB, XORB, ORB, AND, OR",
