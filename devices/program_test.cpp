@@ -2,7 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace drycut::devices {
+
+void TestLog::add(TestFailure failure) {
+  if (++failed <= most_failures) failures.push_back(std::move(failure));
+}
 
 std::string to_string(const TestFailure& failure) {
   if (failure.expected.empty()) return failure.text;

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -20,10 +21,15 @@ std::string to_string(const TestFailure& failure);
 
 /// What a test says as it goes.
 struct TestLog {
-  std::string title = {};  ///< that it gives itself: TEST('...')
-  std::vector<TestFailure> failures = {};
+  static constexpr std::size_t most_failures = 20;  ///< that are kept
+
+  std::string title = {};                  ///< that it gives itself: TEST('...')
+  std::vector<TestFailure> failures = {};  ///< the first of them
+  std::size_t failed = 0;                  ///< all
   int assertions = 0;
   bool finished = false;
+
+  void add(TestFailure failure);
 };
 
 /// What came of a test.

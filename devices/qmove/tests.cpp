@@ -77,10 +77,10 @@ TestResult run_test(const Configuration& configuration, std::vector<QclProgram> 
     controller.run_devices(result.took_ns);
     controller.run_tasks(result.took_ns);
     if (const auto stop = controller.stopped())
-      result.log.failures.push_back(failure_of(controller, programs[stop->task], *stop));
+      result.log.add(failure_of(controller, programs[stop->task], *stop));
     if (!result.log.failures.empty() || controller.ended(task)) break;
     if (result.took_ns + times.cycle_ns <= times.timeout_ns) continue;
-    result.log.failures.push_back(not_finished(result, times, "see what it waits for"));
+    result.log.add(not_finished(result, times, "see what it waits for"));
     break;
   }
   if (coverage != nullptr) controller.add_coverage(*coverage);

@@ -147,6 +147,8 @@ void print_result(const devices::TestResult& result) {
              result.name, result.log.title.empty() ? "" : ": ", printable(result.log.title),
              record::seconds_text(result.took_ns), result.log.assertions == 0 ? ", asserts nothing" : "");
   for (const auto& failure : result.log.failures) fmt::print("  {}\n", printable(told(failure)));
+  if (const auto more = result.log.failed - result.log.failures.size(); more > 0)
+    fmt::print("  and {} more\n", more);
 }
 
 int test_files(const TestOptions& options) {

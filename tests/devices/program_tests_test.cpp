@@ -98,6 +98,16 @@ TEST(StTests, OneThatSaysWhenItIsOverRunsUntilThen) {
   EXPECT_EQ(results[0].line, 1);
 }
 
+TEST(StTests, TheFirstFailuresAreTold) {
+  const auto results = st_results(
+      "FUNCTION_BLOCK TEST_Often VAR i : INT; END_VAR\n"
+      "FOR i := 1 TO 50 DO AssertEquals(0, i); END_FOR\n"
+      "END_FUNCTION_BLOCK\n");
+  EXPECT_THAT(results[0].log.failures, SizeIs(20));
+  EXPECT_EQ(results[0].log.failed, 50U);
+  EXPECT_EQ(results[0].log.failures[19].actual, "20");
+}
+
 TEST(StTests, WhatIsComparedHasAType) {
   EXPECT_THAT(told(st_results(
                   "TYPE Mode : (idle, runs); END_TYPE\n"

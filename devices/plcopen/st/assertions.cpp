@@ -200,8 +200,7 @@ Cell Machine::assertion(const StInstruction& of, const Bases& bases) {
       return texts ? fmt::format("'{}'", whole_text(value)) : text_of(of.basic, value);
     };
     const auto line = code_.lines.at(origin(of).line);
-    test_log_->failures.push_back(
-        {code_.files[line.file].name, line.line, message(), told(expected), told(actual)});
+    test_log_->add({code_.files[line.file].name, line.line, message(), told(expected), told(actual)});
     return 0;
   }
   if (test_log_ != nullptr && says == Assertion::title) test_log_->title = message();

@@ -24,7 +24,7 @@ TestResult run_test(const Program& program, const Compiled::Test& test, const Te
   try {
     for (;; result.took_ns += times.cycle_ns) {
       if (result.took_ns > times.timeout_ns) {
-        log.failures.push_back(not_finished(result, times, "it calls TEST_FINISHED at its end"));
+        log.add(not_finished(result, times, "it calls TEST_FINISHED at its end"));
         break;
       }
       machine.run(test, result.took_ns);
@@ -32,7 +32,7 @@ TestResult run_test(const Program& program, const Compiled::Test& test, const Te
     }
   } catch (const StError& error) {
     const auto at = code.lines.at(error.line);
-    log.failures.push_back({code.files[at.file].name, at.line, error.what(), "", ""});
+    log.add({code.files[at.file].name, at.line, error.what(), "", ""});
   }
   return result;
 }

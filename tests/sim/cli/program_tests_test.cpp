@@ -132,7 +132,7 @@ TEST_F(ProgramTests, WhatIsNoTestIsBadInput) {
   EXPECT_EQ(drycut({"test", at("p.il")}), bad_input);
   folder.file("b_test.st", "FUNCTION_BLOCK TEST_b AssertEquals(1); END_FUNCTION_BLOCK\n");
   EXPECT_EQ(drycut({"test", at("b_test.st")}), bad_input);
-  EXPECT_THAT(err, HasSubstr("b_test.st:1:23: AssertEquals lacks its Expected"));
+  EXPECT_THAT(err, HasSubstr("b_test.st:1:23: AssertEquals lacks its Actual"));
 }
 
 TEST_F(ProgramTests, QclWithItsConfiguration) {
