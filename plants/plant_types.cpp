@@ -27,7 +27,10 @@ const std::vector<PlantType>& plant_types() {
        define<BenchDefinition>},
       {"flying_saw", "a saw on a carriage that clamps the running web, strip or tube, and cuts it",
        define<FlyingSawDefinition>},
-      {"fmu", "a foreign model as an FMU, in a process of its own: a drive, a load, a controller",
+      {"fmu",
+       "a foreign model as an FMU, in a process of its own: a drive, a load, a controller. 'drycut plants "
+       "FILE.fmu' lists "
+       "its variables; units: {x: V} gives units to those that declare none",
        define<GuestDefinition>},
       {"ideal_axis", "an axis without mass: voltage is speed, exactly", define<IdealAxisDefinition>},
       {"linear_axis", "a carriage on a ball screw or belt with servo, end stops and switches",

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -76,9 +75,8 @@ int write_fmu_of(const FmuOptions& options) {
         line ? fmi::write_line(scenario, files, standard, out) : fmi::write_machine(scenario, standard, out);
     fmt::print("{}: FMI {}.0, {} inputs, {} outputs, {} parameters\n", out.string(), two ? 2 : 3,
                written.inputs, written.outputs, written.parameters);
-    if (!written.files.empty())
-      fmt::print("It carries these files whole, and whoever has it has them:\n  {}\n",
-                 printable(fmt::format("{}", fmt::join(written.files, "\n  "))));
+    if (!written.files.empty()) fmt::print("It carries these files whole, and whoever has it has them:\n");
+    for (const auto& file : written.files) fmt::print("  {}\n", printable(file));
     fmt::print("{}\n", written.own_licence);
   } catch (const std::exception& error) {
     return print_failure(drycut::words_of(error));

@@ -257,8 +257,9 @@ WrittenFmu write_line(const scenario::Scenario& scenario, const FileSet& files, 
   const BuiltLine built(line, {});
   FmuParts parts{
       library,
-      "A Drycut line with its controller inside; the importer is its operator",
-      "Inputs are taken at the beginning of a step and hold, outputs are those at its end. A switch "
+      "A Drycut line with its controller",
+      "The importer is its operator. Inputs are taken at the beginning of a step and hold, outputs are those "
+      "at its end. A switch "
       "(panel.) is on as long as its input is; a value of the program (set.) and a fault (fault.) act "
       "when they change. Parameters of the scenario and its plants, settings of plants (set.) and "
       "faults are in SI units, all else in the unit that is named; values of the controller are as it "

@@ -85,16 +85,17 @@ class GuestUnits {
     }
   }
 
-  std::shared_ptr<const plants::GuestType> applied_to(std::shared_ptr<const plants::GuestType> type) {
+  std::shared_ptr<const plants::GuestType> applied_to(std::shared_ptr<const plants::GuestType> type,
+                                                      const std::string& file) {
     auto made = std::make_shared<GuestInUnits>(std::move(type));
     std::set<std::string> names;
     for (const auto& variable : made->variables()) names.insert({variable.name, array_of(variable.name)});
     for (const auto& [name, unit] : plant_.units) {
       if (!names.contains(name.text)) {
-        findings_.add(
-            "scenario.unknown-name"_code, name.place,
-            fmt::format("the FMU has no input, output or parameter '{}'", name.text),
-            did_you_mean(name.text, {names.begin(), names.end()}, "'drycut plants FILE.fmu' lists them"));
+        findings_.add("scenario.unknown-name"_code, name.place,
+                      fmt::format("the FMU has no input, output or parameter '{}'", name.text),
+                      did_you_mean(name.text, {names.begin(), names.end()},
+                                   fmt::format("'drycut plants {}' lists them", file)));
         continue;
       }
       for (auto& variable : made->variables())
@@ -155,7 +156,7 @@ bool read_guest(const YamlNode& plant, PlantEntry& entry, const std::filesystem:
   if (const auto* const given = child(plant, "units")) units.read(*given);
   try {
     auto type = open_guest(std::move(*bytes), guest->file());
-    if (!entry.units.empty()) type = units.applied_to(std::move(type));
+    if (!entry.units.empty()) type = units.applied_to(std::move(type), guest->file());
     guest->open(std::move(type), entry.name.text);
   } catch (const GuestRefused& refused) {
     findings.add(refused.code(), file->text.place, fmt::format("{}: {}", guest->file(), refused.what()),

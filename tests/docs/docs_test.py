@@ -58,7 +58,7 @@ def of_command(words):
              if re.fullmatch(r"--?[a-z][\w-]*(=.*)?", word) and word.split("=")[0] not in options(command)]
     rest = rest[:rest.index(">")] if ">" in rest else rest
     names = [word for word in rest if not word.startswith("-")]
-    if command in ("devices", "plants", "help") and names and names[0] not in ("NAME", "TOPIC", "COMMAND", "CODE"):
+    if command in ("devices", "plants", "help") and names and names[0] not in ("NAME", "TOPIC", "COMMAND", "CODE") and not names[0].endswith(".fmu"):
         if not known(command, *[word for word in ("--motors", "--motor-template", "--units") if word in rest], names[0]):
             wrong.append(f"drycut {command} knows no {names[0]}")
     return wrong
