@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <vector>
 
 #include "sim/loop/statistics.hpp"
 #include "sim/report/results.hpp"
@@ -61,6 +62,25 @@ TEST_F(ChecksTest, ACheckThatHeldAtNoInstantSaysWhatThereWas) {
   EXPECT_EQ(result().throughout, "error 0 to 3 Um");
   sample(100 * millisecond, 6);
   EXPECT_EQ(result().throughout, "");
+}
+
+TEST_F(ChecksTest, WhatHeldUntilTheRunStoppedIsNoVerdictWhereThereWasMoreToJudge) {
+  using Kind = scenario::CheckRequest::Kind;
+  add(Kind::always, "", "error < 5").until = second;
+  add(Kind::always, "", "error < 5");
+  add(Kind::always, "", "error < 5").until = 3 * second;
+  add(Kind::eventually, "", "error > 1");
+  add(Kind::never, "knife.tear", "");
+  add(Kind::always, "", "error < 1");
+  start();
+  for (int i = 1; i <= 4; ++i) sample(i * second / 2, 2);
+  const auto so_far = [&](bool stopped) {
+    std::vector<bool> flags;
+    for (const auto& check : checks->results(2 * second, stopped)) flags.push_back(check.so_far);
+    return flags;
+  };
+  EXPECT_THAT(so_far(true), testing::ElementsAre(false, true, true, false, true, false));
+  EXPECT_THAT(so_far(false), testing::Each(false));
 }
 
 TEST_F(ChecksTest, ALimitAThousandTimesOffIsDoubted) {
