@@ -34,6 +34,15 @@ TEST(StDoubts, ABlockThatNothingCalls) {
       ElementsAre("2:1: nothing calls Pause (TON): its outputs stay as they are at power-up"));
 }
 
+TEST(StDoubts, ABlockMayBeItsMethodsOnly) {
+  EXPECT_THAT(
+      told("FUNCTION_BLOCK Queue VAR_OUTPUT waiting : INT; END_VAR METHOD Put waiting := waiting + 1; "
+           "END_METHOD "
+           "END_FUNCTION_BLOCK " +
+           head + "Orders : Queue; n : INT; END_VAR\nOrders.Put();\nn := Orders.waiting;\nEND_PROGRAM\n"),
+      IsEmpty());
+}
+
 TEST(StDoubts, AVariableThatNothingSets) {
   EXPECT_THAT(told(head + "go, done : BOOL; END_VAR\ndone := go;\nEND_PROGRAM\n"),
               ElementsAre("2:9: go is read, and nothing sets it: it stays as it is at power-up"));
