@@ -157,8 +157,8 @@ std::span<const BlockReading> instruction_readings() {
        "backwards with the ramp of D8148, no direction output and no clear signal; zero where the dog "
        "ends; a start on the dog creeps"},
       {"6105",
-       "an instruction, and each word or bit that one moves, is 0.2 us of the watchdog's time (D8000); the "
-       "PLC then stops until power-up"},
+       "an instruction, and each word or bit that one moves, is 0.2 us of the watchdog's time (D8000); "
+       "WDT gives it anew up to ten times it, and 32767 ms; the PLC then stops until power-up"},
       {"interrupts",
        "a routine runs in the tick of 100 us that brings its interrupt, between two instructions; one at a "
        "time, as they came, of one tick the lower number first; X is the scan's image and Y is given at its "

@@ -142,8 +142,13 @@ int ProgramScan::watchdog_ms(const Registers& registers) const {
 void ProgramScan::refresh_watchdog(Rung& rung) const {
   constexpr std::int64_t ns_per_ms = 1'000'000;
   constexpr std::int64_t usual_step_ns = 200;
-  rung.limit =
-      rung.work + watchdog_ms(rung.registers) * ns_per_ms / (step_ns_ > 0 ? step_ns_ : usual_step_ns);
+  constexpr std::int64_t longest_ms = 32'767;
+  constexpr std::int64_t most_times = 10;  // WDT in a loop without end must not hold the simulation for ever
+  const std::int64_t time_ms = watchdog_ms(rung.registers);
+  const auto work_in = [&](std::int64_t ms) {
+    return ms * ns_per_ms / (step_ns_ > 0 ? step_ns_ : usual_step_ns);
+  };
+  rung.limit = std::min(rung.work + work_in(time_ms), work_in(std::min(most_times * time_ms, longest_ms)));
 }
 
 // An instruction has power if what is before it lets it through; those that need none are executed.
