@@ -96,7 +96,7 @@ class SummingType : public GuestType {
 struct Line {
   explicit Line(double gain = 1, bool keeps_state = true) {
     GuestDefinition definition;
-    definition.open(std::make_shared<SummingType>(keeps_state));
+    definition.open(std::make_shared<SummingType>(keeps_state), "summing");
     for (auto& row : definition.parameters()) {
       if (row.name == "every") *std::get<double*>(row.value) = 2e-3;
       if (row.name == "parameters.gain") *std::get<double*>(row.value) = gain;
@@ -183,7 +183,7 @@ TEST(Guest, WhatFailsIsToldToTheWorld) {
   Line line;
   line.port<ReferencePort>("in").volts = 400;
   for (int n = 0; n < 6; ++n) line.step();
-  EXPECT_EQ(line.world.failure(), "it is too much");
+  EXPECT_EQ(line.world.failure(), "summing at 0.006 s: it is too much");
   EXPECT_DOUBLE_EQ(line.read("sum"), 800000) << "what it had before stays";
   const Line never(-1);
   EXPECT_EQ(never.world.failure(), "it sums no negative gain");
@@ -191,7 +191,7 @@ TEST(Guest, WhatFailsIsToldToTheWorld) {
 
 TEST(Guest, StepsThatTheModelCannotTakeAreRefused) {
   GuestDefinition definition;
-  definition.open(std::make_shared<SummingType>(true));
+  definition.open(std::make_shared<SummingType>(true), "summing");
   const auto every = [&](double seconds) {
     for (auto& row : definition.parameters())
       if (row.name == "every") *std::get<double*>(row.value) = seconds;
