@@ -35,6 +35,7 @@ struct TestOptions {
   std::vector<std::filesystem::path> files;
   std::string cycle = "1 ms";
   std::string timeout = "10 s";
+  std::string dialect = {};             ///< of Structured Text; "" = CODESYS's
   std::filesystem::path junit = {};     ///< "" = none
   std::filesystem::path coverage = {};  ///< "" = nothing is counted
   bool force = false;
@@ -63,7 +64,14 @@ Time read_span_of(const std::string& text, const char* option, Problems& problem
   return time.value_or(1);
 }
 
-Programs compile_all(const std::vector<std::filesystem::path>& files, Problems& problems) {
+std::optional<st::StDialect> dialect_of(const std::string& name) {
+  const auto known = std::find(st::dialect_names.begin(), st::dialect_names.end(), name);
+  if (known == st::dialect_names.end()) return std::nullopt;
+  return static_cast<st::StDialect>(known - st::dialect_names.begin());
+}
+
+Programs compile_all(const TestOptions& options, Problems& problems) {
+  const auto& files = options.files;
   Programs all;
   for (const auto& file : files) {
     const auto kind = kind_of(file);
@@ -91,7 +99,7 @@ Programs compile_all(const std::vector<std::filesystem::path>& files, Problems& 
                                                   devices::catalogue(), problems, true));
   }
   if (!all.texts.empty() && problems.empty()) {
-    constexpr st::CompileOptions tests{.tests = true};
+    const st::CompileOptions tests{.tests = true, .dialect = dialect_of(options.dialect)};
     all.program = st::compile(all.texts, tests, problems);
   }
   return all;
@@ -167,7 +175,7 @@ int test_files(const TestOptions& options) {
   };
   check_file("--junit", options.junit, {options.force || is_own_junit(options.junit)});
   check_file("--coverage", options.coverage, {options.force, devices::lcov_header});
-  const auto programs = compile_all(options.files, problems);
+  const auto programs = compile_all(options, problems);
   devices::Coverage coverage;
   std::vector<devices::TestResult> results;
   if (problems.empty()) {
@@ -212,6 +220,9 @@ void test_options(CLI::App& test, int& status) {
       ->capture_default_str();
   test.add_option("--timeout", options.timeout, "A test that goes on longer has failed; simulated time")
       ->capture_default_str();
+  test.add_option("--dialect", options.dialect,
+                  "Of Structured Text, where IEC 61131-3 and CODESYS differ: 'drycut devices ST'")
+      ->check(CLI::IsMember(std::vector<std::string>(st::dialect_names.begin(), st::dialect_names.end())));
   test.add_option("--junit", options.junit, "Write the results for CI, a suite a file, a case a test");
   test.add_option("--coverage", options.coverage,
                   "Write which lines and branches ran, for lcov and genhtml; the tests' own are left out");

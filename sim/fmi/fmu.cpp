@@ -197,6 +197,8 @@ WrittenFmu write_parts(const scenario::Scenario& scenario, Standard standard, co
   if (const auto own = embedded_file(licence_file); !own.empty()) add_licence("drycut", own);
   for (const auto& licence : licences_of(parts.carried))
     add_licence(licence.parent_path().filename().string(), bytes_of(licence));
+  for (const std::string package : {"nlohmann-json3-dev", "libeigen3-dev"})
+    if (const auto text = embedded_file(package + ".licence"); !text.empty()) add_licence(package, text);
   zip.add("documentation/index.html", documentation(standard, head, variables, contents));
   zip.finish();
   write_file(out, bytes_of(scratch.name()));

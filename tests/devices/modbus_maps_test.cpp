@@ -65,12 +65,12 @@ TEST(ModbusLx3vp, BeginsAndEndsEachRangeWhereWeconSays) {
   };
   for (const auto table : {ModbusTable::coils, ModbusTable::discrete_inputs})
     for (const auto& [address, name] :
-         {Row{0, "M0"},     {3071, "M3071"},  {3072, ""},        {7999, ""},      {8000, "M8000"},
-          {8034, ""},       {8255, "M8255"},  {8256, ""},        {0xDFFF, ""},    {0xE000, "S0"},
-          {0xE3E7, "S999"}, {0xE3E8, ""},     {0xEFFF, ""},      {0xF000, "TS0"}, {0xF0FF, "TS255"},
-          {0xF100, ""},     {0xF400, "CS0"},  {0xF4FF, "CS255"}, {0xF500, ""},    {0xF800, "X0"},
-          {0xF807, "X7"},   {0xF808, "X10"},  {0xF8FF, "X377"},  {0xF900, ""},    {0xFC00, "Y0"},
-          {0xFC08, "Y10"},  {0xFCFF, "Y377"}, {0xFD00, ""},      {0xFFFF, ""}})
+         {Row{0, "M0"},      {3071, "M3071"},  {3072, ""},       {7999, ""},        {8000, "M8000"},
+          {8034, "M8034"},   {8035, ""},       {8255, "M8255"},  {8256, ""},        {0xDFFF, ""},
+          {0xE000, "S0"},    {0xE3E7, "S999"}, {0xE3E8, ""},     {0xEFFF, ""},      {0xF000, "TS0"},
+          {0xF0FF, "TS255"}, {0xF100, ""},     {0xF400, "CS0"},  {0xF4FF, "CS255"}, {0xF500, ""},
+          {0xF800, "X0"},    {0xF807, "X7"},   {0xF808, "X10"},  {0xF8FF, "X377"},  {0xF900, ""},
+          {0xFC00, "Y0"},    {0xFC08, "Y10"},  {0xFCFF, "Y377"}, {0xFD00, ""},      {0xFFFF, ""}})
       EXPECT_EQ(at(map, table, address), name) << address;
   for (const auto table : {ModbusTable::holding_registers, ModbusTable::input_registers})
     for (const auto& [address, name] :

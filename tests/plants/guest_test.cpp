@@ -183,7 +183,7 @@ TEST(Guest, WhatFailsIsToldToTheWorld) {
   Line line;
   line.port<ReferencePort>("in").volts = 400;
   for (int n = 0; n < 6; ++n) line.step();
-  EXPECT_EQ(line.world.failure(), "summing at 0.006 s: it is too much");
+  EXPECT_EQ(line.world.failure(), "summing at 0.004 s: it is too much");
   EXPECT_DOUBLE_EQ(line.read("sum"), 800000) << "what it had before stays";
   const Line never(-1);
   EXPECT_EQ(never.world.failure(), "it sums no negative gain");

@@ -193,7 +193,7 @@ TEST_F(ProgramTest, CommandLinesThatCannotBeRead) {
     std::vector<const char*> told;
   };
   const std::vector<Case> cases = {
-      {"", {"drycut: no command is given; known: run, live, replay, check, cam, "}},
+      {"", {"drycut: no command is given; known: run, live, replay, check, test, cam, "}},
       {"run",
        {"drycut run:1:1: no scenario is named; drycut run SCENARIO.yaml, or drycut run --resume DIR "
         "[option.missing]\n"}},

@@ -95,7 +95,8 @@ inline constexpr std::array standard_functions{
     StRow{"ADD_LTIME ADD_LTOD_LTIME ADD_LDT_LTIME SUB_LTIME SUB_LDATE_LDATE SUB_LTOD_LTIME SUB_LTOD_LTOD "
           "SUB_LDT_LTIME SUB_LDT_LDT MUL_LTIME DIV_LTIME CONCAT_DATE_LTOD",
           "the same of the long ones; + - * / take them, too"},
-    StRow{"TIME() LTIME()", "time since power-up"},
+    StRow{"TIME()", "time since power-up"},
+    StRow{"LTIME()", "the same in nanoseconds"},
     StRow{"ABS SQRT SIN COS TAN ASIN ACOS ATAN ATAN2 EXP LN LOG", "angles in rad; LOG is of base 10"},
     StRow{"SHL SHR ROL ROR", "IN, N: bits to the left and right, out of the word or round it"},
     StRow{"MIN MAX LIMIT SEL MUX", "LIMIT(MN, IN, MX), SEL(G, IN0, IN1), MUX(K, IN0, IN1, ...)"},

@@ -10,6 +10,8 @@
 #include <pugixml.hpp>
 #include <set>
 #include <sstream>
+#include <tuple>
+#include <utility>
 
 #include "sim/scenario/guests.hpp"
 #include "sim/scenario/units.hpp"
@@ -147,6 +149,29 @@ class Description {
     return found == known.end() ? std::nullopt : std::optional(found->second);
   }
 
+  // What a type holds; of 64 bits what a double holds exactly.
+  static std::pair<double, double> whole_range(NumberKind kind) {
+    constexpr double exact = 9007199254740992;  // 2^53
+    switch (kind) {
+      case NumberKind::int8:
+        return {-0x80, 0x7F};
+      case NumberKind::uint8:
+        return {0, 0xFF};
+      case NumberKind::int16:
+        return {-0x8000, 0x7FFF};
+      case NumberKind::uint16:
+        return {0, 0xFFFF};
+      case NumberKind::int32:
+        return {-largest_whole - 1, largest_whole};
+      case NumberKind::uint32:
+        return {0, 2 * largest_whole + 1};
+      case NumberKind::uint64:
+        return {0, exact};
+      default:
+        return {-exact, exact};
+    }
+  }
+
   static GuestVariable::Type type_of(NumberKind kind, GuestVariable::Role role) {
     using Type = GuestVariable::Type;
     switch (kind) {
@@ -199,9 +224,12 @@ class Description {
     if (made.type == GuestVariable::Type::real) take_unit(made, said(typed, "unit"));
     if (made.type == GuestVariable::Type::flag) made.max = 1;
     if (made.type == GuestVariable::Type::flag) made.min = 0;
-    if (made.type == GuestVariable::Type::whole && made.role == GuestVariable::Role::parameter) {
-      made.min = -largest_whole - 1;
-      made.max = largest_whole;
+    if (made.type == GuestVariable::Type::whole && made.role != GuestVariable::Role::output) {
+      std::tie(made.min, made.max) = whole_range(*kind);
+      if (made.role == GuestVariable::Role::parameter) {
+        made.min = std::max(made.min, -largest_whole - 1);
+        made.max = std::min(made.max, largest_whole);
+      }
     }
     take_range(made, typed);
     add_elements(std::move(made), element, typed, {reference, *kind, 1});

@@ -375,7 +375,7 @@ TEST(Lx3vpRelays, TheWatchdogTimeIsThePrograms) {
   EXPECT_THAT(fed.run(5).events(), IsEmpty());
   SlowPlc hungry("LD M8000\nMOV K25 D8000\n" + loop + loop, a_ms);
   EXPECT_EQ(hungry.run(5).events().size(), 1u);
-  SlowPlc endless("LD M8000\nP0\nLD M8000\nWDT\nCJ P0", a_ms);
+  SlowPlc endless("P0\nLD M8000\nWDT\nCJ P0", a_ms);
   EXPECT_EQ(endless.run(5).events().size(), 1u) << "ten times at most";
   covers({"D8000"});
 }
