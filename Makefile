@@ -11,8 +11,7 @@
 #   make python  builds the Python package in build/python
 #   make docs    the site of docs/ in build/docs: pages, reference, search; and its tests
 #   make notebooks  runs docs/notebooks anew and stores what they say
-#   make release the program with its loop trained on the scenes (profile-guided), in build-release; make deb packages it
-#   make sanitize, make fuzz, make same-bytes, make reference, make lint, make tidy, make format, make meshes: for those who change the code
+#   make sanitize, make fuzz, make same-bytes, make reference, make deb, make lint, make tidy, make format, make meshes: for those who change the code
 
 BUILD    ?= build
 JOBS     ?= $(shell nproc)
@@ -48,7 +47,7 @@ if [ -n "$$missing" ]; then \
 fi
 endef
 
-.PHONY: all setup release demo test test-all quick cluster opcua python docs notebooks bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
+.PHONY: all setup demo test test-all quick cluster opcua python docs notebooks bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
 
 all: setup
 	@$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=OFF > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
@@ -158,24 +157,10 @@ reference: all
 	$(BUILD)/drycut reference docs/reference
 	rm docs/reference/drycut.1 docs/reference/drycut.bash
 
-# The program as it is given away: the loop's rooms are compiled with what training says of their branches. Trained anew in
-# every such build, by one thread, on scenes that are not the benchmark's; a profile that is kept goes stale with one line.
-RELEASE  := $(BUILD)-release
-TRAINING := $(sort $(wildcard scenes/*.yaml))
-release: setup
-	$(call install,$(PYTHON_PACKAGES))
-	rm -rf $(RELEASE)/profile
-	$(CONFIGURE) -S . -B $(RELEASE) -DBUILD_TESTING=OFF $(PYTHON) -DDRYCUT_PROFILE=generate > $(RELEASE).log 2>&1 || { cat $(RELEASE).log; exit 1; }
-	cmake --build $(RELEASE) -j $(JOBS) --target drycut_trainer
-	$(RELEASE)/drycut_trainer $(TRAINING)
-	$(CONFIGURE) -S . -B $(RELEASE) -DDRYCUT_PROFILE=use > $(RELEASE).log 2>&1 || { cat $(RELEASE).log; exit 1; }
-	@rm -f $(RELEASE).log
-	cmake --build $(RELEASE) -j $(JOBS)
-
 # Debian packages of the program, of the library and of the Python package.
-deb: release
+deb: all python
 	$(call install,dpkg-dev)
-	cd $(RELEASE) && SOURCE_DATE_EPOCH=$$(git log -1 --format=%ct) cpack
+	cd $(BUILD) && SOURCE_DATE_EPOCH=$$(git log -1 --format=%ct) cpack
 
 lint: setup
 	$(call install,$(LINT_PACKAGES) $(TEST_PACKAGES))
@@ -205,4 +190,4 @@ scenes/meshes/%.stl: scenes/meshes/%.scad scenes/meshes/common.scad
 	openscad -q --export-format binstl -o $@ $<
 
 clean:
-	rm -rf $(BUILD) $(RELEASE) $(CLANG) $(BUILD)-lint out
+	rm -rf $(BUILD) $(CLANG) $(BUILD)-lint out
