@@ -96,6 +96,8 @@ void Declarations::declare_pou(Unit& unit) {
     type.initial[static_cast<std::size_t>(find_member(type, "last")->offset)] = 1;
   Pou& own = pou(unit);
   own.type = &type;
+  if (const Variable* unfit = unit.standard && unit.framed() ? find_member(type, "UNFIT") : nullptr)
+    own.unfit = unfit->offset;
   if (unit.framed()) own.resets.push_back({0, type.cells - 1});
   for (const Variable& member : type.members)
     if (!unit.framed() && member.section == VarClass::temp)

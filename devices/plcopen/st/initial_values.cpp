@@ -140,6 +140,63 @@ Cell Declarations::constant_value(const Type& wanted, const char* what, const ch
   return value.value;
 }
 
+Declarations::LaterConstants Declarations::constants_of(const Unit& unit) const {
+  LaterConstants constants;
+  for (std::size_t i = unit.first; i < unit.end; ++i) {
+    if (tokens_[i].word("METHOD") || tokens_[i].word("PROPERTY") || tokens_[i].word("ACTION")) break;
+    if (!tokens_[i].word("CONSTANT")) continue;
+    // a, b : INT := 3; VAR_EXTERNAL has no value.
+    std::vector<std::string> names;
+    std::size_t colon = 0;
+    for (++i; i < unit.end && !tokens_[i].word("END_VAR"); ++i) {
+      const StToken& token = tokens_[i];
+      if (token.is(";")) {
+        names.clear();
+        colon = 0;
+      } else if (token.is(":=") && colon > 0) {
+        for (const std::string& name : names) constants.emplace(name, LaterConstant{colon, false, {}});
+        names.clear();
+      } else if (token.is(":") && colon == 0) {
+        colon = i;
+      } else if (token.kind == StToken::Kind::name && colon == 0) {
+        names.push_back(lower(token.text));
+      }
+    }
+  }
+  return constants;
+}
+
+std::optional<TypedExpression> Declarations::later_constant(const StToken& name) {
+  constexpr int deepest = 40;
+  if (unit_->state != Unit::State::open || unit_->type == nullptr || unit_->type == globals_)
+    return std::nullopt;
+  auto known = later_constants_.find(unit_);
+  if (known == later_constants_.end()) known = later_constants_.emplace(unit_, constants_of(*unit_)).first;
+  const auto found = known->second.find(lower(name.text));
+  if (found == known->second.end() || found->second.open || later_ >= deepest) return std::nullopt;
+  LaterConstant& constant = found->second;
+  if (!constant.value) {
+    const Nested inner(later_);
+    const std::size_t before = at_;
+    constant.open = true;
+    at_ = constant.at + 1;
+    constant.value = unknown_at(name.place);
+    try {
+      const Type* type = parse_type();
+      if (accept(":=") && is_elementary(type->basic))
+        constant.value = st::constant(type, constant_value(*type), name.place);
+    } catch (const GiveUp&) {  // told, and told of the name once more where it is declared
+    }
+    constant.open = false;
+    at_ = before;
+  }
+  TypedExpression value = *constant.value;
+  value.place = name.place;
+  value.locked = "is a constant";
+  value.name = name.text;
+  return value;
+}
+
 std::int64_t Declarations::constant_integer(std::string_view what, const Type* wanted) {
   const Place place = peek().place;
   const TypedExpression value = expression(wanted);

@@ -69,7 +69,7 @@ inline constexpr std::array declarations{
 inline constexpr std::array statements{
     StRow{"x := e;", "a literal takes the type that its context wants"},
     StRow{"IF  ELSIF  ELSE  END_IF", ""},
-    StRow{"CASE e OF 1, 3..5: ... ELSE ... END_CASE", "whole numbers and enumerations"},
+    StRow{"CASE e OF 1, 3..5: ... ELSE ... END_CASE", "whole numbers, CHAR and enumerations"},
     StRow{"FOR i := a TO b BY s DO ... END_FOR", ""},
     StRow{"WHILE e DO ... END_WHILE", ""},
     StRow{"REPEAT ... UNTIL e END_REPEAT", ""},
@@ -97,7 +97,8 @@ inline constexpr std::array standard_functions{
           "the same of the long ones; + - * / take them, too"},
     StRow{"TIME() LTIME()", "time since power-up"},
     StRow{"ABS SQRT SIN COS TAN ASIN ACOS ATAN ATAN2 EXP LN LOG", "angles in rad; LOG is of base 10"},
-    StRow{"SHL SHR ROL ROR", "IN, N: bits to the left and right, out of the word or round it"},
+    StRow{"SHL SHR ROL ROR",
+          "IN, N: bits to the left and right, out of the word or round it; the bits shift, no sign is kept"},
     StRow{"MIN MAX LIMIT SEL MUX", "LIMIT(MN, IN, MX), SEL(G, IN0, IN1), MUX(K, IN0, IN1, ...)"},
     StRow{"TRUNC TRUNC_INT", "a REAL without its decimals, as what the context wants, else DINT; as INT"},
     StRow{"FLOOR CEIL", "the next whole number below, above, as what the context wants, else DINT"},

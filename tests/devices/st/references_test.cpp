@@ -74,6 +74,12 @@ TEST(StReferences, AreToldWhereTheyDoNotFit) {
   EXPECT_THAT(told("p := REF(1);"), ElementsAre(StartsWith("2:10: REF of what is no variable")));
   EXPECT_THAT(told("p := i;"),
               ElementsAre(StartsWith("2:6: a value of type INT does not go into REF_TO INT")));
+  EXPECT_THAT(
+      told("IF p = 5 THEN i := 1; END_IF"),
+      ElementsAre(StartsWith("2:6: '=' does not go with REF_TO INT and a whole number; a reference is "
+                             "compared with another one")));
+  EXPECT_THAT(told("IF p < DWORD#5 THEN i := 1; END_IF"),
+              ElementsAre(StartsWith("2:6: '<' does not go with REF_TO INT and DWORD")));
   EXPECT_THAT(told("p := p * 2;"),
               ElementsAre(StartsWith("2:8: '*' does not go with REF_TO INT and a whole number")));
 }
