@@ -253,6 +253,7 @@ class Declarations : public Expressions {
   void initial_into(const Type& type, std::span<Cell> cells);
   void initial_array(const Type& type, std::span<Cell> cells);
   void initial_members(const Type& type, std::span<Cell> cells);
+  Cell initial_reference(const Type& type);
   std::int64_t constant_integer(std::string_view what, const Type* wanted = nullptr);
 
   /// Where a unit's constants are declared, by name in lower case.
@@ -275,9 +276,10 @@ class Declarations : public Expressions {
     bool bits;
     std::string name;
   };
-  std::vector<Occupied> occupied_;  ///< addresses that variables AT %M take
-  int in_members_ = 0;              ///< of initial values
-  std::int64_t type_cells_ = 0;     ///< of all initial values
+  std::vector<Occupied> occupied_;               ///< addresses that variables AT %M take
+  int in_members_ = 0;                           ///< of initial values
+  std::optional<Variable::RefersTo> refers_to_;  ///< of the initial value that has been read
+  std::int64_t type_cells_ = 0;                  ///< of all initial values
 };
 
 /// Puts a variable behind those that its owner has.

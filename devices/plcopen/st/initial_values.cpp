@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "devices/plcopen/st/compiler.hpp"
+#include "devices/plcopen/st/references.hpp"
 
 // What stands behind := in a declaration.
 namespace drycut::devices::plcopen::st {
@@ -29,14 +30,9 @@ void Declarations::initial_into(const Type& type, std::span<Cell> cells) {
               "its axis comes from the configuration");
     case Basic::unknown:
       throw GiveUp{};
-    case Basic::reference: {
-      const TypedExpression value = expression(&type);
-      if (!value.constant || value.value != 0)
-        give_up("st.initial-value"_code, value.place, "a reference begins with NULL",
-                "assign it by a statement: p := REF(x);");
-      cells[0] = 0;
+    case Basic::reference:
+      cells[0] = initial_reference(type);
       return;
-    }
     case Basic::string:
       break;
     default:
@@ -56,6 +52,27 @@ void Declarations::initial_into(const Type& type, std::span<Cell> cells) {
             fmt::format("{} at most", type.length));
   std::fill(cells.begin(), cells.end(), 0);
   std::memcpy(cells.data(), text.string.data(), text.string.size());
+}
+
+/// NULL, or REF(x) of what has its place: of a global variable, and of one of the same PROGRAM or block.
+Cell Declarations::initial_reference(const Type& type) {
+  const TypedExpression value = converted(expression(&type), type);
+  if (value.unknown()) throw GiveUp{};
+  if (value.constant && value.value == 0) return 0;
+  const bool keeps = unit_->kind == Unit::Kind::program || unit_->kind == Unit::Kind::function_block;
+  if (value.node >= 0 && node(value.node).op == StOp::make_reference && node(value.node).a >= 0) {
+    const Node& reference = node(value.node);
+    const Node& address = node(reference.a);
+    const bool global = address.op == StOp::address && !unit_->framed();
+    if (global) return cell_of_reference(reference.c, address.imm);
+    if (address.op == StOp::address_own && keeps && in_members_ == 0) {
+      refers_to_ = Variable::RefersTo{reference.c, static_cast<int>(address.imm)};
+      return 0;
+    }
+  }
+  give_up("st.initial-value"_code, value.place,
+          "a reference begins with NULL, or with a variable of its own unit that is declared before it",
+          "assign it by a statement: p := REF(x);");
 }
 
 void Declarations::initial_array(const Type& type, std::span<Cell> cells) {

@@ -38,7 +38,7 @@ inline constexpr std::array types{
           "an enumeration; (Idle, Run) INT and INT (Idle, Run) too, kept as an INT"},
     StRow{"TYPE t : INT := 5; END_TYPE", "what variables of a type begin with, of structures and arrays too"},
     StRow{"REF_TO T  POINTER TO T",
-          "p := REF(x), ADR(x), NULL; p^ is what it is of; p + 1 is a byte further"},
+          "p := REF(x), ADR(x), NULL, in VAR too; p^ is what it is of; p + 1 is a byte further"},
     StRow{"INT (0..9)", "a range: what leaves it stops the program"},
     StRow{"AXIS_REF  MC_CAM_REF", "an axis of the scenario; a cam table, by its file or its id"},
 };
