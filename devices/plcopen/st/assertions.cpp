@@ -107,6 +107,8 @@ std::optional<TypedExpression> Expressions::assertion_call(const StToken& name,
     expected = needed(0);
     actual = needed(1);
     message = values[3];
+    take_characters(*this, expected, actual);
+    if (expected.unknown() || actual.unknown()) return unknown_at(name.place);
     const bool texts = expected.type->basic == Basic::string && actual.type->basic == Basic::string;
     type = call->type != nullptr ? call->type : texts ? actual.type : common_type(expected, actual, nullptr);
     if (type == nullptr || (type->basic != Basic::string && !is_elementary(type->basic)) ||

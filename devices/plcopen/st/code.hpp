@@ -292,9 +292,10 @@ struct Origin {
 
 /// A body: of a PROGRAM, a FUNCTION or a user's function block.
 struct Pou {
-  int body = -1;                 ///< a node; then where its instructions begin
-  int frame = 0;                 ///< where the variables of a FUNCTION are
-  int result = 0;                ///< FUNCTION: offset of its result
+  int body = -1;   ///< a node; then where its instructions begin
+  int frame = 0;   ///< where the variables of a FUNCTION are
+  int result = 0;  ///< FUNCTION: offset of its result
+  int unfit = -1;  ///< standard FUNCTION: offset of what tells that its inputs do not fit, or -1
   std::vector<Subrange> resets;  ///< offsets that get their initial values at each call, the last included
   const Type* type = nullptr;
   std::string name;  ///< with its block's, of a method

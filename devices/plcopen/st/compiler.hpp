@@ -31,6 +31,9 @@ class Expressions : public Values {
   [[nodiscard]] Unit* find_unit(std::string_view name) const;
   /// Reads the declarations of a unit that may be needed before its turn.
   virtual void declare(Unit& unit) = 0;
+  /// A VAR CONSTANT of the unit that is being declared, in a section behind what needs it; nothing if there
+  /// is none.
+  virtual std::optional<TypedExpression> later_constant(const StToken& name) = 0;
 
   // arrays.cpp
   /// Where the bounds of an ARRAY [*] are kept that the member is: behind it, without a name of the text.
@@ -169,6 +172,7 @@ class Declarations : public Expressions {
 
  protected:
   void declare(Unit& unit) override;
+  std::optional<TypedExpression> later_constant(const StToken& name) override;
   /// A type of one cell, to be filled; `composed`: of its members, none so far.
   Type& new_type(Basic basic, std::string name, bool composed = false);
   /// The constant that is next, as a value of the type; `takes` tells which constants may be there.
@@ -249,7 +253,19 @@ class Declarations : public Expressions {
   void initial_into(const Type& type, std::span<Cell> cells);
   void initial_array(const Type& type, std::span<Cell> cells);
   void initial_members(const Type& type, std::span<Cell> cells);
+  Cell initial_reference(const Type& type);
   std::int64_t constant_integer(std::string_view what, const Type* wanted = nullptr);
+
+  /// Where a unit's constants are declared, by name in lower case.
+  struct LaterConstant {
+    std::size_t at = 0;  ///< the ':'
+    bool open = false;   ///< it is being read
+    std::optional<TypedExpression> value;
+  };
+  using LaterConstants = std::unordered_map<std::string, LaterConstant>;
+  [[nodiscard]] LaterConstants constants_of(const Unit& unit) const;
+  std::unordered_map<const Unit*, LaterConstants> later_constants_;
+  int later_ = 0;  ///< of them that are being read
 
   std::map<const BlockType*, const Type*> motions_;
   std::map<Address, std::string> terminals_;
@@ -260,9 +276,10 @@ class Declarations : public Expressions {
     bool bits;
     std::string name;
   };
-  std::vector<Occupied> occupied_;  ///< addresses that variables AT %M take
-  int in_members_ = 0;              ///< of initial values
-  std::int64_t type_cells_ = 0;     ///< of all initial values
+  std::vector<Occupied> occupied_;               ///< addresses that variables AT %M take
+  int in_members_ = 0;                           ///< of initial values
+  std::optional<Variable::RefersTo> refers_to_;  ///< of the initial value that has been read
+  std::int64_t type_cells_ = 0;                  ///< of all initial values
 };
 
 /// Puts a variable behind those that its owner has.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -96,6 +97,8 @@ void Declarations::declare_pou(Unit& unit) {
     type.initial[static_cast<std::size_t>(find_member(type, "last")->offset)] = 1;
   Pou& own = pou(unit);
   own.type = &type;
+  if (const Variable* unfit = unit.standard && unit.framed() ? find_member(type, "UNFIT") : nullptr)
+    own.unfit = unfit->offset;
   if (unit.framed()) own.resets.push_back({0, type.cells - 1});
   for (const Variable& member : type.members)
     if (!unit.framed() && member.section == VarClass::temp)
@@ -205,6 +208,7 @@ void Declarations::declare_named(Unit& unit, Type& owner, const VarSection& sect
     return;
   }
   const StToken value = peek(peek().is(":=") ? 1 : 0);
+  refers_to_.reset();
   std::vector<Cell> initial = type->initial;
   if (accept(":=")) {
     if (section.section == VarClass::in_out)
@@ -215,13 +219,21 @@ void Declarations::declare_named(Unit& unit, Type& owner, const VarSection& sect
     complain("st.initial-value"_code, names.front().place,
              in_quotes(names.front().text) + " is a constant without a value", ":= value behind its type");
   }
+  const auto refers_to = std::exchange(refers_to_, std::nullopt);
+  if (refers_to && section.section == VarClass::temp)
+    give_up("st.initial-value"_code, value.place, "a VAR_TEMP begins with NULL",
+            "assign it by a statement: p := REF(x);");
   expect(";", "ends a declaration");
   if ((place.terminal || place.memory) && names.size() > 1) {
     complain("st.declared-twice"_code, names[1].place, "two variables at one place",
              "declare each with its own AT");
     place = {};
   }
-  for (const StToken& name : names) add_variable(unit, owner, section, name, type, place, initial);
+  for (const StToken& name : names) {
+    const std::size_t members = owner.members.size();
+    add_variable(unit, owner, section, name, type, place, initial);
+    if (owner.members.size() > members) owner.members[members].refers_to = refers_to;
+  }
   if (rising)
     for (const StToken& name : names) add_edge(unit, owner, name, *rising);
 }

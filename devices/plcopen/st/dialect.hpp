@@ -26,7 +26,9 @@ struct DifferenceRow {
 inline constexpr std::array differences{
     DifferenceRow{"a TIME below 0: T#1s - T#2s, -t, T#-5s, t * -1",
                   "TIME is signed, from T#-24d20h31m23s648ms to T#24d20h31m23s647ms",
-                  "TIME is never negative: T#1s - T#2s is T#49d17h2m46s296ms, the others are refused"},
+                  "TIME is never negative: T#1s - T#2s is T#49d17h2m46s296ms, t * -1 goes round likewise; -t "
+                  "and T#-5s are "
+                  "refused"},
     DifferenceRow{"DWORD_TO_REAL, REAL_TO_DWORD, LWORD_TO_LREAL, LREAL_TO_LWORD",
                   "the bits stay, their meaning changes: DWORD_TO_REAL(16#3F800000) is 1.0",
                   "the value stays: DWORD_TO_REAL(16#3F800000) is 1065353216.0"},

@@ -153,6 +153,8 @@ std::optional<TypedExpression> Expressions::variable(const StToken& name) {
   if (found == nullptr && unit_->owner != nullptr && unit_->owner->type != nullptr)
     found = find_member(*unit_->owner->type, name.text);
   const bool own = found != nullptr && unit_->type != globals_;
+  if (found == nullptr)
+    if (auto later = later_constant(name)) return later;
   if (found == nullptr) found = find_global(name.text);
   if (found == nullptr) return std::nullopt;
   const Basic basic = found->type->basic;
@@ -186,9 +188,18 @@ TypedExpression Expressions::name_expression(const StToken& name, const Type* wa
     return method_call(method, {});
   if (std::optional<TypedExpression> found = enum_value(name, wanted)) return *found;
   if (std::optional<TypedExpression> found = predefined(name)) return *found;
+  if (name.word("SUPER"))
+    give_up("st.use"_code, name.place, "there is no SUPER here", "it is what a block EXTENDS");
   if (name.word("NULL")) return constant(null_reference(), 0, name.place);
   // Told once a POU; what hangs on it is passed over.
   if (told_.insert(lower(name.text)).second) {
+    if (unit_->procedure && same_word(unit_->name.text, name.text))
+      return refuse("st.use"_code, name.place, fmt::format("{} has no result", in_quotes(name.text)),
+                    fmt::format("give it one where it is declared: {} : INT", name.text));
+    if (const Unit* unit = find_unit(name.text); unit != nullptr && unit->kind == Unit::Kind::function)
+      return refuse("st.unknown-name"_code, name.place,
+                    fmt::format("{} is no variable", in_quotes(name.text)),
+                    fmt::format("it is a FUNCTION: {}(...) calls it", name.text));
     const bool type = find_unit(name.text) != nullptr || elementary_type(name.text) != nullptr ||
                       find_block_type(name.text) != nullptr;
     complain("st.unknown-name"_code, name.place,

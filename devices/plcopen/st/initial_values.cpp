@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "devices/plcopen/st/compiler.hpp"
+#include "devices/plcopen/st/references.hpp"
 
 // What stands behind := in a declaration.
 namespace drycut::devices::plcopen::st {
@@ -29,14 +30,9 @@ void Declarations::initial_into(const Type& type, std::span<Cell> cells) {
               "its axis comes from the configuration");
     case Basic::unknown:
       throw GiveUp{};
-    case Basic::reference: {
-      const TypedExpression value = expression(&type);
-      if (!value.constant || value.value != 0)
-        give_up("st.initial-value"_code, value.place, "a reference begins with NULL",
-                "assign it by a statement: p := REF(x);");
-      cells[0] = 0;
+    case Basic::reference:
+      cells[0] = initial_reference(type);
       return;
-    }
     case Basic::string:
       break;
     default:
@@ -56,6 +52,27 @@ void Declarations::initial_into(const Type& type, std::span<Cell> cells) {
             fmt::format("{} at most", type.length));
   std::fill(cells.begin(), cells.end(), 0);
   std::memcpy(cells.data(), text.string.data(), text.string.size());
+}
+
+/// NULL, or REF(x) of what has its place: of a global variable, and of one of the same PROGRAM or block.
+Cell Declarations::initial_reference(const Type& type) {
+  const TypedExpression value = converted(expression(&type), type);
+  if (value.unknown()) throw GiveUp{};
+  if (value.constant && value.value == 0) return 0;
+  const bool keeps = unit_->kind == Unit::Kind::program || unit_->kind == Unit::Kind::function_block;
+  if (value.node >= 0 && node(value.node).op == StOp::make_reference && node(value.node).a >= 0) {
+    const Node& reference = node(value.node);
+    const Node& address = node(reference.a);
+    const bool global = address.op == StOp::address && !unit_->framed();
+    if (global) return cell_of_reference(reference.c, address.imm);
+    if (address.op == StOp::address_own && keeps && in_members_ == 0) {
+      refers_to_ = Variable::RefersTo{reference.c, static_cast<int>(address.imm)};
+      return 0;
+    }
+  }
+  give_up("st.initial-value"_code, value.place,
+          "a reference begins with NULL, or with a variable of its own unit that is declared before it",
+          "assign it by a statement: p := REF(x);");
 }
 
 void Declarations::initial_array(const Type& type, std::span<Cell> cells) {
@@ -138,6 +155,63 @@ Cell Declarations::constant_value(const Type& wanted, const char* what, const ch
   value = converted(value, wanted);
   if (told() != before) throw GiveUp{};
   return value.value;
+}
+
+Declarations::LaterConstants Declarations::constants_of(const Unit& unit) const {
+  LaterConstants constants;
+  for (std::size_t i = unit.first; i < unit.end; ++i) {
+    if (tokens_[i].word("METHOD") || tokens_[i].word("PROPERTY") || tokens_[i].word("ACTION")) break;
+    if (!tokens_[i].word("CONSTANT")) continue;
+    // a, b : INT := 3; VAR_EXTERNAL has no value.
+    std::vector<std::string> names;
+    std::size_t colon = 0;
+    for (++i; i < unit.end && !tokens_[i].word("END_VAR"); ++i) {
+      const StToken& token = tokens_[i];
+      if (token.is(";")) {
+        names.clear();
+        colon = 0;
+      } else if (token.is(":=") && colon > 0) {
+        for (const std::string& name : names) constants.emplace(name, LaterConstant{colon, false, {}});
+        names.clear();
+      } else if (token.is(":") && colon == 0) {
+        colon = i;
+      } else if (token.kind == StToken::Kind::name && colon == 0) {
+        names.push_back(lower(token.text));
+      }
+    }
+  }
+  return constants;
+}
+
+std::optional<TypedExpression> Declarations::later_constant(const StToken& name) {
+  constexpr int deepest = 40;
+  if (unit_->state != Unit::State::open || unit_->type == nullptr || unit_->type == globals_)
+    return std::nullopt;
+  auto known = later_constants_.find(unit_);
+  if (known == later_constants_.end()) known = later_constants_.emplace(unit_, constants_of(*unit_)).first;
+  const auto found = known->second.find(lower(name.text));
+  if (found == known->second.end() || found->second.open || later_ >= deepest) return std::nullopt;
+  LaterConstant& constant = found->second;
+  if (!constant.value) {
+    const Nested inner(later_);
+    const std::size_t before = at_;
+    constant.open = true;
+    at_ = constant.at + 1;
+    constant.value = unknown_at(name.place);
+    try {
+      const Type* type = parse_type();
+      if (accept(":=") && is_elementary(type->basic))
+        constant.value = st::constant(type, constant_value(*type), name.place);
+    } catch (const GiveUp&) {  // told, and told of the name once more where it is declared
+    }
+    constant.open = false;
+    at_ = before;
+  }
+  TypedExpression value = *constant.value;
+  value.place = name.place;
+  value.locked = "is a constant";
+  value.name = name.text;
+  return value;
 }
 
 std::int64_t Declarations::constant_integer(std::string_view what, const Type* wanted) {

@@ -38,7 +38,7 @@ inline constexpr std::array types{
           "an enumeration; (Idle, Run) INT and INT (Idle, Run) too, kept as an INT"},
     StRow{"TYPE t : INT := 5; END_TYPE", "what variables of a type begin with, of structures and arrays too"},
     StRow{"REF_TO T  POINTER TO T",
-          "p := REF(x), ADR(x), NULL; p^ is what it is of; p + 1 is a byte further"},
+          "p := REF(x), ADR(x), NULL, in VAR too; p^ is what it is of; p + 1 is a byte further"},
     StRow{"INT (0..9)", "a range: what leaves it stops the program"},
     StRow{"AXIS_REF  MC_CAM_REF", "an axis of the scenario; a cam table, by its file or its id"},
 };
@@ -69,7 +69,7 @@ inline constexpr std::array declarations{
 inline constexpr std::array statements{
     StRow{"x := e;", "a literal takes the type that its context wants"},
     StRow{"IF  ELSIF  ELSE  END_IF", ""},
-    StRow{"CASE e OF 1, 3..5: ... ELSE ... END_CASE", "whole numbers and enumerations"},
+    StRow{"CASE e OF 1, 3..5: ... ELSE ... END_CASE", "whole numbers, CHAR and enumerations"},
     StRow{"FOR i := a TO b BY s DO ... END_FOR", ""},
     StRow{"WHILE e DO ... END_WHILE", ""},
     StRow{"REPEAT ... UNTIL e END_REPEAT", ""},
@@ -98,7 +98,8 @@ inline constexpr std::array standard_functions{
     StRow{"TIME()", "time since power-up"},
     StRow{"LTIME()", "the same in nanoseconds"},
     StRow{"ABS SQRT SIN COS TAN ASIN ACOS ATAN ATAN2 EXP LN LOG", "angles in rad; LOG is of base 10"},
-    StRow{"SHL SHR ROL ROR", "IN, N: bits to the left and right, out of the word or round it"},
+    StRow{"SHL SHR ROL ROR",
+          "IN, N: bits to the left and right, out of the word or round it; the bits shift, no sign is kept"},
     StRow{"MIN MAX LIMIT SEL MUX", "LIMIT(MN, IN, MX), SEL(G, IN0, IN1), MUX(K, IN0, IN1, ...)"},
     StRow{"TRUNC TRUNC_INT", "a REAL without its decimals, as what the context wants, else DINT; as INT"},
     StRow{"FLOOR CEIL", "the next whole number below, above, as what the context wants, else DINT"},

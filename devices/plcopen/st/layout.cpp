@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "devices/plcopen/st/compiler.hpp"
+#include "devices/plcopen/st/references.hpp"
 
 // Where everything is in the memory: VAR_GLOBAL, the FUNCTIONs, the PROGRAMs, literals; and the symbols.
 namespace drycut::devices::plcopen::st {
@@ -164,6 +165,9 @@ void Compiler::walk(const Type& type, int cell, const std::string& prefix, bool 
     if (member.section == VarClass::in_out && type.motion == nullptr) continue;
     const int at = cell + member.offset;
     const std::string name = prefix.empty() ? member.name : prefix + "." + member.name;
+    if (member.refers_to)
+      code_->image[static_cast<std::size_t>(at)] =
+          cell_of_reference(member.refers_to->referent, cell + member.refers_to->offset);
     const bool kept = retain || member.retain;
     if (member.retain && !retain) code_->retain.push_back({at, at + member.type->cells - 1});
     const bool output = type.basic == Basic::block && member.section == VarClass::output;

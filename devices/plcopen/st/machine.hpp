@@ -118,6 +118,8 @@ class Machine {
   /// Tells what was lost in an operation, if anything was.
   void look_at(const StInstruction& of, Cell before, Cell result);
   void tell_loss(const StInstruction& of, std::string text);
+  /// The same of what was given to a standard FUNCTION.
+  void tell_unfit(const StInstruction& call, const Pou& function);
   Cell element(const StInstruction& of, Cell array, Cell index) const;
   Cell index(const StInstruction& of, Cell value, Cell low, Cell high) const;
   Cell in_range(const StInstruction& of, Cell value) const;

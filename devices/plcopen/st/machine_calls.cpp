@@ -2,6 +2,7 @@
 #include <type_traits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/machine.hpp"
@@ -51,6 +52,7 @@ Cell Machine::call_framed(const StInstruction& of, const Bases& bases, const int
       std::copy_n(memory_.begin() + given, -cells, memory_.begin() + place);
   }
   execute(pou.body, own);
+  if (pou.unfit >= 0 && at(pou.frame + pou.unfit) != 0) tell_unfit(of, pou);
   if (shift != 0)
     std::copy_n(memory_.begin() + pou.frame, std::min(pou.type->cells, named.type->cells),
                 memory_.begin() + named.frame);
@@ -59,6 +61,19 @@ Cell Machine::call_framed(const StInstruction& of, const Bases& bases, const int
   const Cell result = at(bases, of.b);
   std::copy_n(memory_.begin() + from, of.c.cells, memory_.begin() + result);
   return result;
+}
+
+void Machine::tell_unfit(const StInstruction& call, const Pou& function) {
+  const auto told = [&](const Variable& variable) {
+    const Basic basic = variable.type->basic;
+    const Cell value = at(function.frame + variable.offset);
+    return is_bits(basic) ? fmt::format("16#{:X}", static_cast<std::uint64_t>(value)) : text_of(basic, value);
+  };
+  std::vector<std::string> inputs;
+  for (const Variable& member : function.type->members)
+    if (member.section == VarClass::input) inputs.push_back(told(member));
+  tell_loss(call, fmt::format("{}({}) does not fit, {} is made of it", function.type->name,
+                              fmt::join(inputs, ", "), told(function.type->members.front())));
 }
 
 void Machine::call_block(const StInstruction& of, std::int64_t instance) {

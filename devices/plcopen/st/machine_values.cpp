@@ -50,6 +50,7 @@ void Machine::look_at(const StInstruction& of, Cell before, Cell result) {
 
 void Machine::tell_loss(const StInstruction& of, std::string text) {
   const Origin& at = origin(of);
+  if (at.standard) return;  // its caller tells what did not fit
   if (told_.insert(at.node).second) losses_.push_back({at.line, at.column, std::move(text)});
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -126,7 +128,8 @@ struct Operation {
            values.is_iec(DialectDifference::arithmetic_on_bits, told.place);
   }
   TypedExpression bits_are_no_numbers() {
-    return mismatch("bits are no numbers in IEC 61131-3: BYTE_TO_USINT(...) makes one");
+    return mismatch("bits are no numbers in IEC 61131-3: " +
+                    as_other_kind(is_bits(a.type->basic) && !a.untyped ? a : b) + " makes one");
   }
 
   TypedExpression power() {
@@ -224,13 +227,16 @@ struct Operation {
       return mismatch(lazy ? "it takes BOOL" : "it takes two BOOL or two whole numbers");
     if ((is_number_with_type(a) || is_number_with_type(b)) &&
         values.is_iec(DialectDifference::logic_on_numbers, told.place))
-      return mismatch("numbers are no bits in IEC 61131-3: INT_TO_WORD(...) makes bits of one");
+      return mismatch("numbers are no bits in IEC 61131-3: " + as_other_kind(is_number_with_type(a) ? a : b) +
+                      " makes bits of one");
     convert_both(*type);
     return apply(sign.op, type, a, b);
   }
 
   TypedExpression comparison() {
     const Type* boolean = type_of(Basic::boolean);
+    take_characters(values, a, b);
+    if (a.unknown() || b.unknown()) return unknown_at(told.place);
     if (a.type->basic == Basic::string && b.type->basic == Basic::string && a.type->wide == b.type->wide) {
       const Type* whole = type_of(Basic::int_);
       const TypedExpression order{
@@ -239,6 +245,13 @@ struct Operation {
       return apply(sign.op, boolean, order, constant(whole, 0, told.place));
     }
     const bool references = a.type->basic == Basic::reference || b.type->basic == Basic::reference;
+    const auto is_address = [](const TypedExpression& value) {
+      const Basic basic = value.type->basic;
+      return basic == Basic::reference || basic == Basic::lword || basic == Basic::ulint ||
+             (value.constant && value.untyped && value.value == 0);
+    };
+    if (references && (!is_address(a) || !is_address(b)))
+      return mismatch("a reference is compared with another one, NULL or an LWORD");
     const Type* type = references ? null_reference() : common_type(a, b, nullptr);
     if (type == nullptr || !is_single(type->basic)) return mismatch("compare two of one type");
     a = values.converted(std::move(a), *type);
@@ -254,13 +267,29 @@ struct Operation {
 };
 
 TypedExpression no_operand(Values& values, const StToken& sign, const TypedExpression& operand,
-                           const char* remedy) {
+                           std::string remedy) {
   return values.refuse("st.type"_code, sign.place,
                        fmt::format("{} does not go with {}", in_quotes(sign.text), operand.type->name),
-                       remedy);
+                       std::move(remedy));
 }
 
 }  // namespace
+
+std::string as_other_kind(const TypedExpression& value) {
+  const Basic basic = value.type->basic;
+  constexpr std::array kinds{std::pair{Basic::byte, Basic::usint}, std::pair{Basic::word, Basic::uint},
+                             std::pair{Basic::dword, Basic::udint}, std::pair{Basic::lword, Basic::ulint}};
+  for (const auto& [bits, number] : kinds)
+    if (bits_of(bits) == bits_of(basic))
+      return fmt::format("{}_TO_{}(...)", type_of(basic)->name,
+                         type_of(is_bits(basic) ? number : bits)->name);
+  return "X_TO_Y(...)";
+}
+
+void take_characters(Values& values, TypedExpression& a, TypedExpression& b) {
+  if (is_character(a.type->basic) && b.string) b = values.converted(std::move(b), *a.type);
+  if (is_character(b.type->basic) && a.string) a = values.converted(std::move(a), *b.type);
+}
 
 const Operator* find_operator(std::string_view sign) {
   const auto* const found = std::find_if(operators.begin(), operators.end(),
@@ -291,7 +320,7 @@ TypedExpression signed_value(Values& values, const StToken& sign, TypedExpressio
         basic == Basic::time ? "it takes numbers; a TIME is below 0 under dialect: iec" : "it takes numbers");
   if (sign.is("+")) return operand;
   if (is_bits(basic) && !operand.untyped && values.is_iec(DialectDifference::arithmetic_on_bits, sign.place))
-    return no_operand(values, sign, operand, "it takes numbers: BYTE_TO_USINT(...) makes one");
+    return no_operand(values, sign, operand, "it takes numbers: " + as_other_kind(operand) + " makes one");
   if (operand.constant && operand.untyped && is_integer(basic)) {
     operand.place = sign.place;
     return values.negated_literal(std::move(operand));
@@ -305,7 +334,8 @@ TypedExpression complement(Values& values, const StToken& sign, TypedExpression 
   if (operand.unknown()) return operand;
   const Basic basic = operand.type->basic;
   if (is_number_with_type(operand) && values.is_iec(DialectDifference::logic_on_numbers, sign.place))
-    return no_operand(values, sign, operand, "it takes BOOL and bits: INT_TO_WORD(...) makes them");
+    return no_operand(values, sign, operand,
+                      "it takes BOOL and bits: " + as_other_kind(operand) + " makes them");
   if (basic == Basic::boolean || is_integer(basic))
     return values.apply_op(StOp::bit_not, operand.type, sign.place, operand);
   return no_operand(values, sign, operand, "it takes BOOL and whole numbers");

@@ -179,6 +179,9 @@ Declarations::Location Declarations::location() {
     if (const auto bits = located_bits(token.text)) return {bits->first, bits->count, {}};
     if (const auto place = parse_memory_place(token.text)) return {{}, 1, *place};
   }
+  if (peek().is("*"))
+    give_up("st.place"_code, token.place, fmt::format("'{}*' says no place", token.text),
+            "VAR_CONFIG is not taken: write it here, %IX0.0, %QX0.0 or %MW0");
   if (upper(token.text).starts_with("%M"))
     give_up("st.place"_code, token.place, in_quotes(token.text) + " is no memory that is known",
             "%MX0.0 is a BOOL, %MW0 a word, %MD0 two, %ML0 four: bits and words 0 to 65535");

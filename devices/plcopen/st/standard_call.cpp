@@ -40,7 +40,7 @@ TypedExpression StandardCall::shift() {
   if (!is_integer(bits.type->basic)) return refused(bits, "it takes whole numbers");
   if (!is_integer(basic(1))) return refused(inputs[1], "the number of places is a whole number");
   if (!is_bits(bits.type->basic) && values.is_iec(DialectDifference::logic_on_numbers, place()))
-    return refused(bits, "it takes bits in IEC 61131-3: INT_TO_WORD(...) makes them");
+    return refused(bits, "it takes bits in IEC 61131-3: " + as_other_kind(bits) + " makes them");
   return values.apply_op(function.op, bits.type, place(), bits, inputs[1]);
 }
 
@@ -60,14 +60,16 @@ const TypedExpression* StandardCall::bits_of_iec() const {
 
 TypedExpression StandardCall::absolute() {
   if (no_number() != nullptr) return refused(*no_number(), "it takes numbers");
-  if (bits_of_iec() != nullptr) return refused(*bits_of_iec(), "BYTE_TO_USINT(...) makes a number");
+  if (bits_of_iec() != nullptr)
+    return refused(*bits_of_iec(), as_other_kind(*bits_of_iec()) + " makes a number");
   return values.apply_op(is_real(basic(0)) ? StOp::absolute_real : StOp::absolute, inputs[0].type, place(),
                          inputs[0]);
 }
 
 TypedExpression StandardCall::real() {
   if (no_number() != nullptr) return refused(*no_number(), "it takes numbers");
-  if (bits_of_iec() != nullptr) return refused(*bits_of_iec(), "BYTE_TO_USINT(...) makes a number");
+  if (bits_of_iec() != nullptr)
+    return refused(*bits_of_iec(), as_other_kind(*bits_of_iec()) + " makes a number");
   const bool untyped = inputs[0].untyped && inputs.back().untyped;
   const Type* type = real_result(inputs[0], wanted);
   if (inputs.back().type->basic == Basic::lreal && !inputs.back().untyped) type = type_of(Basic::lreal);
@@ -85,6 +87,10 @@ std::optional<StandardCall::Inputs> StandardCall::to_common(const Inputs& given)
     if (value.unknown()) return std::nullopt;
     const Type* type = common_type(common, value, wanted);
     if (type == nullptr || !is_elementary(type->basic)) {
+      if (same_type(*common.type, *value.type)) {
+        refused(value, "numbers, bits, times and texts; IF chooses between others");
+        return std::nullopt;
+      }
       values.complain("st.type"_code, value.place,
                       fmt::format("{} takes values of one type, not {} and {}", upper(name.text),
                                   common.type->name, value.type->name),
@@ -116,8 +122,10 @@ std::optional<StandardCall::Inputs> StandardCall::to_chosen(const Inputs& given)
     return std::nullopt;
   }
   auto common = to_common(given);
-  if (!common || !common->front().untyped || is_real(common->front().type->basic)) return common;
-  if (wanted != nullptr && is_integer(wanted->basic)) {
+  if (!common || !common->front().untyped) return common;
+  const bool real = is_real(common->front().type->basic);
+  if (real && (wanted == nullptr || wanted->basic != Basic::real)) return common;
+  if (wanted != nullptr && (real || is_integer(wanted->basic))) {
     for (TypedExpression& value : *common) value = values.literal_as(std::move(value), *base_of(wanted));
     return common;
   }

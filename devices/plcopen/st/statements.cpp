@@ -272,9 +272,10 @@ int Statements::case_statement() {
   int selector = -1;
   try {
     const TypedExpression value = expression();
-    if (!value.unknown() && !is_integer(value.type->basic) && value.type->basic != Basic::enumeration)
+    if (!value.unknown() && !is_integer(value.type->basic) && !is_character(value.type->basic) &&
+        value.type->basic != Basic::enumeration)
       complain("st.type"_code, value.place, fmt::format("CASE chooses by {}", value.type->name),
-               "by a whole number or an enumeration");
+               "by a whole number, a CHAR or an enumeration");
     else if (!value.unknown())
       type = value.untyped ? type_of(Basic::lint) : base_of(value.type);
     if (!value.unknown()) selector = value_node(value);
@@ -316,7 +317,8 @@ bool Statements::at_label() const {
     const StToken& token = peek(i);
     if (token.is(":")) return true;
     const bool part = token.whole() || token.is(",") || token.is("..") || token.is("-") || token.is(".") ||
-                      token.is("#") || (token.kind == StToken::Kind::name && !is_keyword(token.text));
+                      token.is("#") || token.kind == StToken::Kind::string ||
+                      (token.kind == StToken::Kind::name && !is_keyword(token.text));
     if (!part) return false;
   }
   return false;

@@ -127,6 +127,12 @@ struct Variable {
   bool retain = false;
   bool reads_terminal = false;     ///< AT %IX
   std::optional<Cell> value = {};  ///< of an elementary constant
+  /// A reference that begins with another variable of its owner.
+  struct RefersTo {
+    int referent = 0;
+    int offset = 0;  ///< in cells from the beginning of the owner
+  };
+  std::optional<RefersTo> refers_to = {};
   Place place = {};
 };
 

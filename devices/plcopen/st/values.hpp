@@ -230,6 +230,12 @@ TypedExpression complement(Values& values, const StToken& sign, TypedExpression 
 TypedExpression literal_for_bits(Values& values, TypedExpression value, const Type* wanted,
                                  const StToken& function);
 
+/// "INT_TO_WORD(...)": what makes bits of a number, or a number of bits.
+std::string as_other_kind(const TypedExpression& value);
+
+/// Where one is a CHAR and the other a literal text, that is a CHAR, too.
+void take_characters(Values& values, TypedExpression& a, TypedExpression& b);
+
 /// The type that both take by themselves; nullptr if there is none.
 const Type* common_type(const TypedExpression& a, const TypedExpression& b, const Type* wanted);
 /// Of a REAL functions are REAL, of LREAL LREAL; of whole numbers LREAL unless the context wants a REAL.

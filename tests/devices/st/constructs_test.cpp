@@ -139,5 +139,47 @@ TEST(StConstructs, TakeTheTypeThatTheContextWants) {
               ElementsAre(StartsWith("2:19: the constant 256 is out of the range of BYTE")));
 }
 
+TEST(StConstructs, MuxOfLiteralsIsAReal) {
+  EXPECT_EQ(run("x : REAL; k : INT := 1;", "x := MUX(k, 1.5, 2.5);"), 2.5);
+  EXPECT_EQ(run("x : REAL; k : INT;", "x := MUX(K := k, IN0 := 1.5, IN1 := 2.5) + SEL(k = 0, 1.5, 2.5);"), 4);
+  EXPECT_EQ(run("x : LREAL; k : INT;", "x := MUX(k, 0.1, 2.5);"), 0.1);
+  EXPECT_EQ(run("x : REAL; k : INT := 1;", "x := F(k);",
+                "FUNCTION F : REAL VAR_INPUT k : INT; END_VAR F := MUX(k, 1.5, 2); END_FUNCTION"),
+            2);
+}
+
+TEST(StConstructs, CharactersCompareWithLiterals) {
+  EXPECT_EQ(run("x : INT; c : CHAR := 'A'; wc : WCHAR := \"x\";",
+                "IF c = 'A' AND 'B' > c AND wc = \"x\" AND NOT (c <> 'A') THEN x := 1; END_IF "
+                "CASE c OF 'B': x := x + 10; 'A', 'C'..'E': x := x + 100; ELSE x := 0; END_CASE"),
+            101);
+  const std::string vars = "PROGRAM p VAR c : CHAR; b : BOOL; END_VAR\n";
+  EXPECT_THAT(problems_of(vars + "b := c = 'AB';\nEND_PROGRAM"),
+              ElementsAre(StartsWith("2:10: 2 characters for a CHAR; it holds one")));
+  EXPECT_THAT(problems_of(vars + "b := c = \"A\";\nEND_PROGRAM"), testing::SizeIs(1));
+  EXPECT_THAT(problems_of(vars + "CASE c OF 'A': b := TRUE; 'A': b := FALSE; END_CASE\nEND_PROGRAM"),
+              ElementsAre(StartsWith("2:27: the label 65 is there already")));
+}
+
+TEST(StConstructs, ConstantsMayStandBehindWhatNeedsThem) {
+  EXPECT_EQ(run("a : ARRAY [0..n] OF INT; x : INT; END_VAR VAR CONSTANT m : INT := n + 1; n : INT := k; "
+                "k : INT := 3;",
+                "a[n] := m; x := UPPER_BOUND(a, 1) * 10 + a[3];"),
+            34);
+  EXPECT_EQ(
+      run("x : INT;", "x := F();",
+          "FUNCTION F : INT VAR a : ARRAY [1..n] OF INT := [2, 2, 2, 2]; END_VAR VAR CONSTANT n : INT := 4; "
+          "END_VAR F := a[1] + a[n]; END_FUNCTION"),
+      4);
+  // Of the unit before those of all units.
+  EXPECT_EQ(run("a : ARRAY [0..n] OF INT; x : INT; END_VAR VAR CONSTANT n : INT := 3;",
+                "x := UPPER_BOUND(a, 1);", "VAR_GLOBAL CONSTANT n : INT := 7; END_VAR"),
+            3);
+  EXPECT_THAT(problems_of("PROGRAM p VAR CONSTANT\nn : INT := m;\nm : INT := n;\nEND_VAR END_PROGRAM"),
+              testing::Not(IsEmpty()));
+  EXPECT_THAT(problems_of("PROGRAM p VAR\na : ARRAY [0..n] OF INT; n : INT := 3;\nEND_VAR END_PROGRAM"),
+              ElementsAre(StartsWith("2:15: 'n' is not declared")));
+}
+
 }  // namespace
 }  // namespace drycut::devices::plcopen::st

@@ -109,8 +109,14 @@ TEST(StDialect, BitsAreNoNumbers) {
                  "2:8: + - *");
   expect_refused(vars, "x := SQRT(WORD_TO_DWORD(w) AND 4);", "2:28: SQRT does not take DWORD", 2,
                  "2:6: + - *");
-  expect_refused(vars, "i := i AND 3; x := i;", "2:8: 'AND' does not go with INT", 2, "2:8: AND OR XOR");
+  expect_refused(vars, "i := i AND 3; x := i;",
+                 "2:8: 'AND' does not go with INT and a whole number; numbers are no bits in IEC 61131-3: "
+                 "INT_TO_WORD(...)",
+                 2, "2:8: AND OR XOR");
   expect_refused(vars, "i := NOT i; x := i;", "2:6: 'NOT' does not go with INT", -7, "2:6: AND OR XOR");
+  expect_refused("i : DINT := 6;", "i := NOT i; x := i;",
+                 "2:6: 'NOT' does not go with DINT; it takes BOOL and bits: DINT_TO_DWORD(...)", -7,
+                 "2:6: AND OR XOR");
   expect_refused(vars, "i := SHL(i, 1); x := i;", "2:", 12, "2:6: AND OR XOR");
   expect_refused(vars, "i := b; x := i;",
                  "2:6: a value of type BYTE does not go into INT by itself; BYTE_TO_INT", 250,

@@ -98,6 +98,7 @@ TEST(StErrors, OfStatementsAreToldOnceAtTheirPlace) {
            {"REPEAT i := 1; END_REPEAT", "2:16: UNTIL is missing before 'END_REPEAT'"},
            {"CASE i OF j: b := TRUE; END_CASE", "2:11: a label of a CASE that is not constant"},
            {"CASE x OF 1: b := TRUE; END_CASE", "2:6: CASE chooses by LREAL"},
+           {"i := SUPER^.M();", "2:6: there is no SUPER here; it is what a block EXTENDS"},
            {"CASE i OF 3..1: b := TRUE; END_CASE", "2:11: 3..1 is empty"},
            {"END_IF", "2:1: 'END_IF' closes nothing"},
            {"IF b THEN i := 1; ENDIF", "2:19: there is no word 'ENDIF'; did you mean 'END_IF'?"},

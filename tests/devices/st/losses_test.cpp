@@ -47,6 +47,41 @@ TEST(StLosses, AreNoneWhereBitsAreMeant) {
       IsEmpty());
 }
 
+TEST(StLosses, OfStandardFunctionsAreToldAtTheirCall) {
+  const auto told = [](const std::string& statements) {
+    Bench bench(
+        "PROGRAM p VAR d : DATE; t : TOD; m : DT; lt : LTOD; lm : LDT; u : UINT; us : USINT; w : WORD; "
+        "b : BYTE; two : INT := 2; END_VAR\n" +
+        statements + "\nEND_PROGRAM");
+    std::vector<std::string> losses;
+    for (int scan = 0; scan < 2; ++scan) {
+      bench.scan();
+      for (const auto& loss : bench.runtime->take_losses())
+        losses.push_back(fmt::format("{}:{}: {}", loss.line, loss.column, loss.text));
+    }
+    return losses;
+  };
+  EXPECT_THAT(told("d := CONCAT_DATE(2024, two, 30);"),
+              ElementsAre("2:6: CONCAT_DATE(2024, 2, 30) does not fit, D#2024-03-01 is made of it"));
+  EXPECT_THAT(told("u := WORD_BCD_TO_UINT(16#1A);"),
+              ElementsAre("2:6: WORD_BCD_TO_UINT(16#1A) does not fit, 20 is made of it"));
+  EXPECT_THAT(told("w := UINT_TO_BCD_WORD(12345);"),
+              ElementsAre("2:6: UINT_TO_BCD_WORD(12345) does not fit, 16#2345 is made of it"));
+  for (const char* statement :
+       {"t := CONCAT_TOD(25, 0, 0, 0);", "t := CONCAT_TOD(0, 0, -1, 0);", "lt := CONCAT_LTOD(0, 60, 0, 0);",
+        "m := CONCAT_DT(2023, 2, 29, 0, 0, 0, 0);", "m := CONCAT_DT(2023, 2, 28, 24, 0, 0, 0);",
+        "m := CONCAT_DT(2106, 2, 7, 6, 28, 16, 0);", "lm := CONCAT_LDT(2023, 13, 1, 0, 0, 0, 0);",
+        "d := CONCAT_DATE(1969, 12, 31);", "d := CONCAT_DATE(2106, 2, 8);", "us := BCD_TO_USINT(16#256);",
+        "us := BYTE_BCD_TO_USINT(16#A0);", "b := TO_BCD_BYTE(100);", "b := USINT_TO_BCD_BYTE(100);"})
+    EXPECT_THAT(told(statement), testing::SizeIs(1)) << statement;
+  for (const char* statement :
+       {"t := CONCAT_TOD(23, 59, 59, 999);", "d := CONCAT_DATE(2024, 2, 29);",
+        "d := CONCAT_DATE(2106, 2, 7);", "m := CONCAT_DT(2106, 2, 7, 6, 28, 15, 999);",
+        "lm := CONCAT_LDT(2024, 2, 29, 23, 59, 59, 999);", "us := BCD_TO_USINT(16#255);",
+        "w := UINT_TO_BCD_WORD(9999);", "b := TO_BCD_BYTE(99);"})
+    EXPECT_THAT(told(statement), IsEmpty()) << statement;
+}
+
 TEST(StLosses, LeaveNumbersThatCanBeRecorded) {
   Bench bench(
       "PROGRAM p VAR r : REAL := 3E38; x : LREAL := 1E308; n : LREAL; END_VAR\n"

@@ -88,6 +88,8 @@ TEST(StPlaces, AreRefusedWhereTheyCannotBe) {
   EXPECT_THAT(told("%QW0 := 3; %QW0 := 4;"),
               ElementsAre(StartsWith("2:1: '%QW0' and 'q' are at one terminal")));
   EXPECT_THAT(told("i := %MB3;"), ElementsAre(StartsWith("2:6: '%MB3' is no memory that is known")));
+  EXPECT_THAT(problems_of("PROGRAM p VAR x AT %I* : BOOL; END_VAR END_PROGRAM"),
+              ElementsAre(StartsWith("1:20: '%I*' says no place")));
   EXPECT_THAT(told("i := %ZX1;"), ElementsAre(StartsWith("2:6: '%ZX1' is no terminal that is known")));
   EXPECT_THAT(told("r := %ML3;"), ElementsAre(StartsWith("2:6: %ML3 stands without a variable")));
   EXPECT_THAT(told("i := %IB3;"), IsEmpty());

@@ -44,6 +44,28 @@ TEST(StReferences, SeeBytesWhateverTheTypeIs) {
             4029);
 }
 
+TEST(StReferences, BeginWithWhatHasItsPlace) {
+  Bench bench(R"(VAR_GLOBAL g : INT := 7; pg : REF_TO INT := REF(g); END_VAR
+FUNCTION_BLOCK B VAR x : INT; p : REF_TO INT := REF(x); END_VAR VAR_INPUT step : INT; END_VAR VAR_OUTPUT q : INT; END_VAR
+p^ := p^ + step; q := x; END_FUNCTION_BLOCK
+FUNCTION_BLOCK C EXTENDS B VAR own : REF_TO INT := REF(x); END_VAR
+SUPER^(); q := q + own^; END_FUNCTION_BLOCK
+PROGRAM m VAR a : ARRAY [0..2] OF INT := [1, 2, 3]; p : REF_TO INT := REF(a[1]); n : REF_TO INT := NULL;
+b : ARRAY [0..1] OF B; c : C; x : INT; END_VAR
+b[0](step := 1); b[1](step := 10); c(step := 100); x := p^; pg^ := pg^ + 1;
+END_PROGRAM)");
+  bench.scan(2);
+  bench.expect({{"b[0].q", 2}, {"b[1].q", 20}, {"c.q", 400}, {"x", 2}, {"g", 9}});
+  for (const char* text :
+       {"FUNCTION F : INT VAR x : INT; p : REF_TO INT := REF(x); END_VAR F := p^; END_FUNCTION",
+        "FUNCTION_BLOCK F VAR x : INT; END_VAR VAR_TEMP p : REF_TO INT := REF(x); END_VAR "
+        "END_FUNCTION_BLOCK",
+        "FUNCTION_BLOCK F VAR x : TON; p : REF_TO INT := REF(x); END_VAR END_FUNCTION_BLOCK",
+        "FUNCTION_BLOCK F VAR x : INT; p : ARRAY [0..1] OF REF_TO INT := [REF(x), NULL]; END_VAR "
+        "END_FUNCTION_BLOCK"})
+    EXPECT_THAT(problems_of(text + std::string(" PROGRAM m END_PROGRAM")), testing::SizeIs(1)) << text;
+}
+
 TEST(StReferences, StopTheProgramWhereTheyAreOfNothing) {
   const auto fault = [](const std::string& statements) {
     const auto found = fault_in_first_scan(
@@ -74,6 +96,12 @@ TEST(StReferences, AreToldWhereTheyDoNotFit) {
   EXPECT_THAT(told("p := REF(1);"), ElementsAre(StartsWith("2:10: REF of what is no variable")));
   EXPECT_THAT(told("p := i;"),
               ElementsAre(StartsWith("2:6: a value of type INT does not go into REF_TO INT")));
+  EXPECT_THAT(
+      told("IF p = 5 THEN i := 1; END_IF"),
+      ElementsAre(StartsWith("2:6: '=' does not go with REF_TO INT and a whole number; a reference is "
+                             "compared with another one")));
+  EXPECT_THAT(told("IF p < DWORD#5 THEN i := 1; END_IF"),
+              ElementsAre(StartsWith("2:6: '<' does not go with REF_TO INT and DWORD")));
   EXPECT_THAT(told("p := p * 2;"),
               ElementsAre(StartsWith("2:8: '*' does not go with REF_TO INT and a whole number")));
 }
