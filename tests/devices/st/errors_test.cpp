@@ -188,6 +188,20 @@ TEST(StErrors, OfDeclarations) {
               testing::Contains(StartsWith("1:11: VAR has no END_VAR")));
 }
 
+TEST(StErrors, OfWhatHasNoValueSayWhatItIs) {
+  expect_problems("FUNCTION G\nG := 1;\nEND_FUNCTION PROGRAM m END_PROGRAM",
+                  {"2:1: 'G' has no result; give it one where it is declared: G : INT$"});
+  expect_problems(
+      "FUNCTION G : INT G := 1; END_FUNCTION PROGRAM m VAR i : INT; END_VAR\ni := G;\nEND_PROGRAM",
+      {"2:6: 'G' is no variable; it is a FUNCTION: G(...) calls it$"});
+  expect_problems(
+      "TYPE P2 : STRUCT x : INT; END_STRUCT END_TYPE PROGRAM m VAR a, b : P2; c : BOOL; END_VAR\n"
+      "a := SEL(c, a, b);\nEND_PROGRAM",
+      {"2:13: SEL does not take P2; numbers, bits, times and texts; IF chooses between others$"});
+  expect_problems("TYPE c : REAL (a, b); END_TYPE PROGRAM m VAR v : c; END_VAR END_PROGRAM",
+                  {"1:15: a range of REAL"});
+}
+
 TEST(StErrors, UnknownNamesAreToldOncePerPou) {
   EXPECT_THAT(in_program("i := kk; j := kk; kk := 3; kk.a[2](x := 1);"),
               ElementsAre(StartsWith("2:6: 'kk' is not declared")));
