@@ -101,6 +101,7 @@ class Reader : public TokenReader<StToken> {
 /// The names of what has a `name`, for messages.
 std::vector<std::string> names_of(const auto& named) {
   std::vector<std::string> names;
+  names.reserve(std::size(named));
   for (const auto& one : named) names.emplace_back(one.name);
   return names;
 }
