@@ -17,7 +17,6 @@ namespace drycut::devices::lx3vp::il {
 
 namespace {
 
-constexpr int watchdog_register = 8000;  ///< D8000 [ms]
 constexpr int count_down_flags = 8000;  ///< M8200..M8234: C200..C234 count down; M8000 + the counter's number
 
 /// Whether a comparison as a contact (LD=, ANDD>) holds.
@@ -134,9 +133,8 @@ void ProgramScan::start(Rung& rung) {
 }
 
 int ProgramScan::watchdog_ms(const Registers& registers) const {
-  constexpr int usual = 200;
   const int wanted = registers.i16(watchdog_register);
-  return wanted > 0 ? wanted : usual;
+  return wanted > 0 ? wanted : default_watchdog_ms;
 }
 
 void ProgramScan::refresh_watchdog(Rung& rung) const {
@@ -220,11 +218,10 @@ bool ProgramScan::run_steps(Rung& rung, std::int64_t work) {
     }
     if constexpr (watched) mark(step, rung);
     if (++rung.work <= rung.limit) continue;
-    constexpr int watchdog = 6105;  // FX
     rung.instructions.watchdog(
         step.number, fmt::format("{}:{}: {}: the scan works longer than the watchdog's {} ms; repeat "
                                  "less in a scan (CJ back, FOR, blocks)",
-                                 program_.file, step.line, watchdog, watchdog_ms(rung.registers)));
+                                 program_.file, step.line, watchdog_error, watchdog_ms(rung.registers)));
     return false;
   }
   return true;

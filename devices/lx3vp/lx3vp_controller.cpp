@@ -39,11 +39,8 @@ constexpr int first_annunciator = 900;
 constexpr int second_register = 8013;
 constexpr int shortest_scan_register = 8011;
 constexpr int longest_scan_register = 8012;
-constexpr int watchdog_register = 8000;
 constexpr int stop_register = 8061;
-constexpr std::uint16_t watchdog_error = 6105;
 
-constexpr std::uint16_t default_watchdog_ms = 200;   // D8000
 constexpr std::uint16_t default_ramp_ms = 100;       // D8148
 constexpr std::int32_t default_top_speed = 100'000;  // D8146 [Hz]
 

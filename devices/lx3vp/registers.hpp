@@ -243,6 +243,10 @@ struct SpecialRegister {
 std::span<const SpecialRegister> special_registers();
 /// Whether the simulated PLC serves D or M `number`: all below D8000 and M8000, of the others those above.
 bool is_served(char letter, int number);
+/// D8000 [ms], what it has at power-up, and the error (D8061) of a scan that works longer.
+inline constexpr int watchdog_register = 8000;
+inline constexpr std::uint16_t default_watchdog_ms = 200;
+inline constexpr std::uint16_t watchdog_error = 6105;
 /// "M8000 to M8004, M8011 to M8014, ...": all of D or M that it serves from 8000 on.
 std::string served_specials(char letter);
 
