@@ -11,7 +11,8 @@
 #   make python  builds the Python package in build/python
 #   make docs    the site of docs/ in build/docs: pages, reference, search; and its tests
 #   make notebooks  runs docs/notebooks anew and stores what they say
-#   make sanitize, make fuzz, make same-bytes, make reference, make deb, make lint, make tidy, make format, make meshes: for those who change the code
+#   make release the program with its loop trained on the scenes (profile-guided), in build-release; make deb packages it
+#   make sanitize, make fuzz, make same-bytes, make reference, make lint, make tidy, make format, make meshes: for those who change the code
 
 BUILD    ?= build
 JOBS     ?= $(shell nproc)
@@ -32,7 +33,11 @@ CLANG_PACKAGES := clang libclang-rt-14-dev llvm-14
 LINT_PACKAGES  := clang-format clang-tidy
 SOURCES := $(wildcard base/*.?pp devices/*.?pp devices/*/*.?pp devices/*/*/*.?pp plants/*.?pp renders/*.?pp sim/*.?pp sim/*/*.?pp sim/*/*/*.?pp tests/*.?pp tests/*/*.?pp tests/*/*/*.?pp)
 
-CONFIGURE := cmake -G Ninja -DCMAKE_BUILD_TYPE=Release
+# Where ccache is installed, what was compiled before is not compiled again, in this folder or in another clone.
+CONFIGURE := cmake -G Ninja -DCMAKE_BUILD_TYPE=Release $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+export CCACHE_BASEDIR := $(CURDIR)
+export CCACHE_NOHASHDIR := 1
+export CCACHE_SLOPPINESS := pch_defines,time_macros
 # Debian's own, which has numpy, whatever else is in the way.
 PYTHON    := -DDRYCUT_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3
 
@@ -47,7 +52,7 @@ if [ -n "$$missing" ]; then \
 fi
 endef
 
-.PHONY: all setup demo test test-all quick cluster opcua python docs notebooks bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
+.PHONY: all setup release demo test test-all quick cluster opcua python docs notebooks bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
 
 all: setup
 	@$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=OFF > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
@@ -74,14 +79,16 @@ test: setup
 test-all: test
 	$(call install,$(LONG_PACKAGES))
 	cd $(BUILD) && ctest --output-on-failure -C long -R '^long\.'
+	$(MAKE) sanitize
+	$(MAKE) fuzz FUZZ="-runs=20000 -seed=1"
 
 # The tests of seconds, once built: all rooms but pictures and scenes, without what runs a machine for long.
 SLOW := FitWitness.*:FitPlanned.MoveUnder*:FitPlanned.Chirp*:*EveryMember*:*Coverage.*:*Random.*:*LongRun.*:*Fuzz.*:*BodeLimitCycle.*:*TuneMargins.*:LargeScenario.*:StLong.*:CompareScene.*:*NoTextCrashes*:*OverAMillion*:*Witness.*:DesignCommand.TablesKeep*:*HasRoomForADay*:TunePlay.*:*BodePushes.*:*DesignFit.*:SweepCommand.*:SweepReport.*:PicturesFilm.*:PlcopenTables.*:LivePast.*:ModbusLx3vpLine.*:SizeCommand.*:Reference.*:EnvelopeSearch.*:*EveryStart*:*NoMemberIsForNothing*:FilterAdvice.*:*AdviceOfAGrid.*:SpeedLoopOfAnAxis.*
 quick: setup
 	$(call install,$(TEST_PACKAGES))
 	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON > /dev/null
-	cmake --build $(BUILD) -j $(JOBS) --target base_tests devices_tests plants_tests sim_tests
-	cd $(BUILD) && GTEST_FILTER='-$(SLOW)' ctest --output-on-failure -j $(JOBS) -R '^(base|devices|plants|sim)\.part'
+	cmake --build $(BUILD) -j $(JOBS) --target base_tests devices_tests plants_tests loop_tests sim_tests
+	cd $(BUILD) && GTEST_FILTER='-$(SLOW)' ctest --output-on-failure -j $(JOBS) -R '^(base|devices|plants|loop|sim)\.part'
 
 cluster: setup
 	$(call install,$(TEST_PACKAGES) $(CLUSTER_PACKAGES))
@@ -132,24 +139,26 @@ clang: setup
 	CC=clang CXX=clang++ $(CONFIGURE) -S . -B $(CLANG) -DBUILD_TESTING=ON -DDRYCUT_SANITIZE=ON -DDRYCUT_FUZZ=ON
 
 # ROOMS="devices sim": the tests of those rooms only. What runs a machine for long shows nothing new here: without it.
-ROOMS ?= base devices plants renders sim scenes
+ROOMS ?= base devices plants renders loop sim scenes
 space := $() $()
 sanitize: clang
 	cmake --build $(CLANG) -j $(JOBS) --target $(ROOMS:%=%_tests)
 	cd $(CLANG) && LSAN_OPTIONS=suppressions=$(CURDIR)/tests/sanitize.supp GTEST_FILTER='-$(SLOW)' \
 	  ctest --output-on-failure -j $(JOBS) -R '^($(subst $(space),|,$(strip $(ROOMS))))\.part'
 
-# Every kind of input, 10 minutes each; FUZZ="-runs=2000 -seed=1" is the same work on every machine.
+# Every kind of input, 10 minutes each; FUZZ="-runs=2000 -seed=1" is the same work on every machine, KINDS="st il" are some of them.
 FUZZ ?= -max_total_time=600
+KINDS ?= $(patsubst tests/fuzz/%_fuzz.cpp,%,$(wildcard tests/fuzz/*_fuzz.cpp))
 fuzz: clang
-	cmake --build $(CLANG) -j $(JOBS) --target fuzzers
-	tests/fuzz/run $(CLANG) $(FUZZ)
+	cmake --build $(CLANG) -j $(JOBS) --target $(KINDS:%=fuzz_%)
+	tests/fuzz/run $(CLANG) "$(KINDS)" $(FUZZ)
 
-# One scene by both compilers: the same bytes.
+# Machines of every kind by both compilers: all that can be read of them is the same, to the bit.
+ROWS := rotary_knife flying_saw_lx3vp_2m rotary_knife_mc_camin press_learning backlash_motor_encoder
 same-bytes: all clang
-	cmake --build $(CLANG) -j $(JOBS) --target drycut
-	for c in $(BUILD) $(CLANG); do $$c/drycut run scenes/rotary_knife.yaml --no-pictures --out $$c/bytes || exit 1; done
-	for f in trace.csv events.csv; do cmp $(BUILD)/bytes/rotary_knife/$$f $(CLANG)/bytes/rotary_knife/$$f || exit 1; done
+	for c in $(BUILD) $(CLANG); do cmake --build $$c -j $(JOBS) --target drycut_rows && \
+	  $$c/drycut_rows $(ROWS:%=scenes/%.yaml) > $$c/rows.txt || exit 1; done
+	cmp $(BUILD)/rows.txt $(CLANG)/rows.txt
 
 # docs/reference from the program's own tables.
 reference: all
@@ -157,10 +166,25 @@ reference: all
 	$(BUILD)/drycut reference docs/reference
 	rm docs/reference/drycut.1 docs/reference/drycut.bash
 
+# The program as it is given away: the loop's rooms are compiled with what training says of their branches. Trained anew in
+# every such build, by one thread, on scenes that are not the benchmark's; a profile that is kept goes stale with one line. What
+# is trained comes to what the other came to, to the bit.
+RELEASE := $(BUILD)-release
+release: setup
+	$(call install,$(PYTHON_PACKAGES))
+	rm -rf $(RELEASE)/profile
+	$(CONFIGURE) -S . -B $(RELEASE) -DBUILD_TESTING=OFF $(PYTHON) -DDRYCUT_PROFILE=generate > $(RELEASE).log 2>&1 || { cat $(RELEASE).log; exit 1; }
+	cmake --build $(RELEASE) -j $(JOBS) --target drycut_rows
+	$(RELEASE)/drycut_rows $(sort $(wildcard scenes/*.yaml)) > $(RELEASE)/trained.txt
+	$(CONFIGURE) -S . -B $(RELEASE) -DDRYCUT_PROFILE=use > $(RELEASE).log 2>&1 || { cat $(RELEASE).log; exit 1; }
+	@rm -f $(RELEASE).log
+	cmake --build $(RELEASE) -j $(JOBS) --target all drycut_rows
+	$(RELEASE)/drycut_rows $(sort $(wildcard scenes/*.yaml)) | cmp - $(RELEASE)/trained.txt
+
 # Debian packages of the program, of the library and of the Python package.
-deb: all python
+deb: release
 	$(call install,dpkg-dev)
-	cd $(BUILD) && SOURCE_DATE_EPOCH=$$(git log -1 --format=%ct) cpack
+	cd $(RELEASE) && SOURCE_DATE_EPOCH=$$(git log -1 --format=%ct) cpack
 
 lint: setup
 	$(call install,$(LINT_PACKAGES) $(TEST_PACKAGES))
@@ -190,4 +214,4 @@ scenes/meshes/%.stl: scenes/meshes/%.scad scenes/meshes/common.scad
 	openscad -q --export-format binstl -o $@ $<
 
 clean:
-	rm -rf $(BUILD) $(CLANG) $(BUILD)-lint out
+	rm -rf $(BUILD) $(RELEASE) $(CLANG) $(BUILD)-lint out

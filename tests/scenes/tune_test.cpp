@@ -68,12 +68,15 @@ TEST_P(TuneScenes, AThirdOfTheFollowingErrorAtMostWithinTheLimits) {
     EXPECT_EQ(content(folder.path / "1" / name), content(folder.path / "2" / name)) << name;
 }
 
+const auto name_of_scene = [](const auto& line) { return fs::path(line.param.scene).stem().string(); };
 INSTANTIATE_TEST_SUITE_P(Lines, TuneScenes,
-                         testing::Values(Line{"rotary_knife.yaml", "AxisX",
-                                              "max(abs(knife.motor.torque)) <= 20", "3 s"},
-                                         Line{"backlash_motor_encoder.yaml", "Axis",
+                         testing::Values(Line{"backlash_motor_encoder.yaml", "Axis",
                                               "max(abs(axis.motor.torque)) <= 9.5", "200 ms"}),
-                         [](const auto& line) { return fs::path(line.param.scene).stem().string(); });
+                         name_of_scene);
+INSTANTIATE_TEST_SUITE_P(DISABLED_Lines, TuneScenes,  // a minute
+                         testing::Values(Line{"rotary_knife.yaml", "AxisX",
+                                              "max(abs(knife.motor.torque)) <= 20", "3 s"}),
+                         name_of_scene);
 
 }  // namespace
 }  // namespace drycut::sim

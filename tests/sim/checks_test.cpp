@@ -7,7 +7,7 @@
 
 #include "sim/loop/statistics.hpp"
 #include "sim/report/results.hpp"
-#include "tests/sim/fakes.hpp"
+#include "tests/loop/fakes.hpp"
 
 namespace drycut::sim::loop {
 namespace {

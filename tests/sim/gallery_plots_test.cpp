@@ -10,8 +10,8 @@
 #include "sim/report/drives.hpp"
 #include "sim/report/gallery.hpp"
 #include "tests/findings.hpp"
-#include "tests/sim/fakes.hpp"
-#include "tests/sim/scenario/fake_plants.hpp"
+#include "tests/loop/fakes.hpp"
+#include "tests/loop/scenario/fake_plants.hpp"
 
 namespace drycut::sim::report {
 namespace {

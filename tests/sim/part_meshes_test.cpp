@@ -11,7 +11,7 @@
 #include "plants/world.hpp"
 #include "renders/part_models.hpp"
 #include "sim/report/film.hpp"
-#include "tests/sim/scenario/fake_plants.hpp"
+#include "tests/loop/scenario/fake_plants.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim::report {

@@ -14,7 +14,7 @@
 #include "sim/report/film.hpp"
 #include "sim/report/gallery.hpp"
 #include "sim/report/part_meshes.hpp"
-#include "tests/sim/scenario/fake_plants.hpp"
+#include "tests/loop/scenario/fake_plants.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim::scenario {

@@ -9,7 +9,7 @@
 #include "sim/loop/controller_loader.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/scenario.hpp"
-#include "tests/sim/scenario/folder.hpp"
+#include "tests/loop/scenario/folder.hpp"
 
 namespace drycut::sim {
 namespace {

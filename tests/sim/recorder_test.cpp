@@ -11,7 +11,7 @@
 #include "sim/loop/watch.hpp"
 #include "sim/record/trace_files.hpp"
 #include "sim/report/results.hpp"
-#include "tests/sim/fakes.hpp"
+#include "tests/loop/fakes.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim::loop {

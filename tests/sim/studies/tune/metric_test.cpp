@@ -6,7 +6,7 @@
 
 #include "sim/studies/tune/metric.hpp"
 #include "sim/studies/tune/parameter.hpp"
-#include "tests/sim/fakes.hpp"
+#include "tests/loop/fakes.hpp"
 
 namespace drycut::sim::studies {
 namespace {

@@ -10,7 +10,7 @@
 #include "sim/scenario/motor_catalogue.hpp"
 #include "sim/scenario/parameter_text.hpp"
 #include "tests/findings.hpp"
-#include "tests/sim/scenario/folder.hpp"
+#include "tests/loop/scenario/folder.hpp"
 
 namespace drycut::sim::scenario {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "sim/scenario/constant.hpp"
 #include "sim/scenario/variables.hpp"
-#include "tests/sim/scenario/fake_plants.hpp"
+#include "tests/loop/scenario/fake_plants.hpp"
 
 namespace drycut::sim::scenario {
 namespace {

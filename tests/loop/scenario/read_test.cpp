@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "sim/controllers/kinds.hpp"
-#include "tests/sim/scenario/fake_plants.hpp"
+#include "tests/loop/scenario/fake_plants.hpp"
 
 namespace drycut::sim::scenario {
 namespace {

@@ -19,7 +19,7 @@
 #include "sim/scenario/parameter_text.hpp"
 #include "sim/scenario/units.hpp"
 #include "tests/findings.hpp"
-#include "tests/sim/scenario/folder.hpp"
+#include "tests/loop/scenario/folder.hpp"
 
 namespace drycut::sim::scenario {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <random>
 
-#include "tests/sim/recordings/bench.hpp"
+#include "tests/loop/recordings/bench.hpp"
 
 namespace drycut::sim::recordings {
 namespace {

@@ -6,7 +6,7 @@
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/variables.hpp"
 #include "tests/findings.hpp"
-#include "tests/sim/scenario/folder.hpp"
+#include "tests/loop/scenario/folder.hpp"
 
 namespace drycut::sim::scenario {
 namespace {

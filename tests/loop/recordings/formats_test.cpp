@@ -1,7 +1,7 @@
 // What each tool's export is taken for, and what comes of its numbers.
 #include <numbers>
 
-#include "tests/sim/recordings/bench.hpp"
+#include "tests/loop/recordings/bench.hpp"
 
 namespace drycut::sim::recordings {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "devices/controller.hpp"
-#include "tests/sim/scenario/fake_plants.hpp"
+#include "tests/loop/scenario/fake_plants.hpp"
 
 namespace drycut::sim::scenario {
 namespace {
@@ -22,7 +22,8 @@ void expect_problems(const std::vector<Case>& cases) {
 
 TEST(ScenarioProblems, Text) {
   const std::string sections =
-      "1:1: the scenario is empty; its sections are: extends, variables, scene, plants, fitted, controller, wiring, "
+      "1:1: the scenario is empty; its sections are: extends, variables, scene, plants, fitted, controller, "
+      "wiring, "
       "filters, panel, timeline, disturbances, inputs, record, drives, checks, faults, pictures, opcua "
       "[scenario.needs-another]";
   expect_problems({
@@ -76,8 +77,10 @@ TEST(ScenarioProblems, Yaml) {
       {"scene: {title: !!str 4}\n",
        {"1:16: tags (!name) are not used in scenarios; write the value alone [scenario.yaml-not-taken]"}},
       {"scene: {}\n<<: {scene: {}}\n",
-       {"2:1: unknown key '<<'; known: extends, variables, scene, plants, fitted, controller, wiring, filters, "
-        "panel, timeline, disturbances, inputs, record, drives, checks, faults, pictures, opcua [scenario.unknown-key]"}},
+       {"2:1: unknown key '<<'; known: extends, variables, scene, plants, fitted, controller, wiring, "
+        "filters, "
+        "panel, timeline, disturbances, inputs, record, drives, checks, faults, pictures, opcua "
+        "[scenario.unknown-key]"}},
       {"scene: {}\n---\nscene: {}\n",
        {"3:1: something stands after the end of the document; one document a file, and nothing after its "
         "closing bracket [scenario.yaml-not-taken]"}},

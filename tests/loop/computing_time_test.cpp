@@ -18,12 +18,12 @@ using testing::HasSubstr;
 
 const auto scenes = std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes";
 
-struct Kind {
+struct ScanKind {
   std::string scene;
   std::string path;    ///< of the key
   std::string others;  ///< a key of another kind
 };
-const std::vector<Kind> kinds = {
+const std::vector<ScanKind> kinds = {
     {"rotary_knife.yaml", "controller.qmove.statement_time", "controller.qmove.step_time"},
     {"rotary_knife_lx3vp.yaml", "controller.lx3vp.step_time", "controller.lx3vp.statement_time"},
     {"rotary_knife_mc_camin.yaml", "controller.plcopen.statement_time", "controller.plcopen.step_time"},
@@ -38,7 +38,7 @@ Time of(const scenario::Scenario& scenario) {
 }
 
 TEST(ComputingTime, IsNoneUnlessTheScenarioGivesIt) {
-  for (const Kind& kind : kinds) {
+  for (const ScanKind& kind : kinds) {
     SCOPED_TRACE(kind.scene);
     Problems problems;
     const auto plain = scenario::read_scenario(scenes / kind.scene, {}, problems);
@@ -61,7 +61,7 @@ TEST(ComputingTime, IsNoneUnlessTheScenarioGivesIt) {
 }
 
 /// When a channel first changes, in a run with a key set [s].
-double first_change(const Kind& kind, const std::string& time, const std::string& channel) {
+double first_change(const ScanKind& kind, const std::string& time, const std::string& channel) {
   Problems problems;
   const auto scenario = scenario::read_scenario(scenes / kind.scene, {{kind.path, time}}, problems);
   loop::Simulation simulation(scenario, problems);
@@ -75,7 +75,7 @@ double first_change(const Kind& kind, const std::string& time, const std::string
 }
 
 TEST(ComputingTime, DelaysWhatTheProgramDoesFirst) {
-  const Kind& qmove = kinds[0];
+  const ScanKind& qmove = kinds[0];
   // The program's first device command is INIT: the assignments before it take their time.
   const double at_once = first_change(qmove, "0 s", "AxisX.st_init");
   const double slow = first_change(qmove, "1 ms", "AxisX.st_init");
@@ -97,7 +97,7 @@ TEST(ComputingTime, AnOverrunIsToldOfTheRun) {
 // With room to spare in the cycle the shipped lines do their job all the same.
 TEST(ComputingTime, TheLinesBearWhatARealControllerTakes) {
   for (const auto& [kind, time] : {std::pair{0, "5 us"}, std::pair{1, "200 ns"}, std::pair{2, "1 us"}}) {
-    const Kind& line = kinds[static_cast<std::size_t>(kind)];
+    const ScanKind& line = kinds[static_cast<std::size_t>(kind)];
     Problems problems;
     const auto scenario = scenario::read_scenario(scenes / line.scene, {{line.path, time}}, problems);
     loop::Simulation simulation(scenario, problems);

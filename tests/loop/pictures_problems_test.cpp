@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/sim/scenario/fake_plants.hpp"
+#include "tests/loop/scenario/fake_plants.hpp"
 
 namespace drycut::sim::scenario {
 namespace {

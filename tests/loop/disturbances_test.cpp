@@ -8,7 +8,7 @@
 
 #include "sim/loop/bus.hpp"
 #include "sim/loop/timeline.hpp"
-#include "tests/sim/fakes.hpp"
+#include "tests/loop/fakes.hpp"
 
 namespace drycut::sim {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "devices/lx3vp/lx3vp_controller.hpp"
 #include "sim/loop/bus.hpp"
-#include "tests/sim/fakes.hpp"
+#include "tests/loop/fakes.hpp"
 
 namespace drycut::sim::loop {
 namespace {

@@ -8,7 +8,7 @@
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "tests/findings.hpp"
-#include "tests/sim/scenario/folder.hpp"
+#include "tests/loop/scenario/folder.hpp"
 
 namespace drycut::sim::loop {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/sim/fakes.hpp"
+#include "tests/loop/fakes.hpp"
 
 namespace drycut::sim::loop {
 namespace {

@@ -10,7 +10,7 @@
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "tests/findings.hpp"
-#include "tests/sim/scenario/folder.hpp"
+#include "tests/loop/scenario/folder.hpp"
 
 namespace drycut::sim::loop {
 namespace {

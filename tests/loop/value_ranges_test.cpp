@@ -3,7 +3,7 @@
 
 #include "plants/web.hpp"
 #include "sim/loop/simulation.hpp"
-#include "tests/sim/scenario/folder.hpp"
+#include "tests/loop/scenario/folder.hpp"
 
 namespace drycut::sim::scenario {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/findings.hpp"
-#include "tests/sim/fakes.hpp"
+#include "tests/loop/fakes.hpp"
 
 namespace drycut::sim {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "sim/loop/bus.hpp"
 #include "tests/findings.hpp"
-#include "tests/sim/fakes.hpp"
+#include "tests/loop/fakes.hpp"
 
 namespace drycut::sim::loop {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "sim/scenario/format.hpp"
-#include "tests/sim/scenario/fake_plants.hpp"
+#include "tests/loop/scenario/fake_plants.hpp"
 
 namespace drycut::sim::scenario {
 namespace {

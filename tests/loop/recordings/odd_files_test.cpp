@@ -1,5 +1,5 @@
 // Odd files and slips in the YAML: each is told at its place, by its code.
-#include "tests/sim/recordings/bench.hpp"
+#include "tests/loop/recordings/bench.hpp"
 
 namespace drycut::sim::recordings {
 namespace {

@@ -14,7 +14,7 @@
 #include "sim/loop/simulation.hpp"
 #include "sim/loop/timeline.hpp"
 #include "sim/scenario/archive.hpp"
-#include "tests/sim/fakes.hpp"
+#include "tests/loop/fakes.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim {
