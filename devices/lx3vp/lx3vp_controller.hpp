@@ -125,6 +125,9 @@ class Lx3vpController : public Controller, private Instructions {
   void end_scan();
   void run_timed(std::int64_t time_ns);
   void set_system_relays(std::int64_t time_ns);
+  /// M8000 to M8003.
+  void tell_run(bool runs);
+  void run_clocks(std::int64_t time_ns);
   void tell_notes();
   void tell(int step, std::string event, std::string text);
   [[nodiscard]] CamPort port() { return {registers_, inputs_, counters_.pulses(), outputs_}; }
