@@ -180,7 +180,7 @@ TEST(Lx3vpInterrupts, LabelsAreLookedAt) {
                   "2:15: there is no label I010; begin an interrupt routine with it, behind FEND [il.jump]"));
   EXPECT_THAT(
       faults("LD X0\nREF X1 K8\nREF Y0 K12\nREF M0 K8\nEND"),
-      ElementsAre("2:8: REF begins at X1; begin where a row of eight does: X0, X10, X20 [il.operand]",
+      ElementsAre("2:5: REF begins at X1; begin where a row of eight does: X0, X10, X20 [il.operand]",
                   "3:8: REF refreshes 12 of Y0; write K8, K16 and on, as many as there are [il.operand]",
                   "4:5: REF does not take M0 here; it takes X or Y [il.operand]"));
 }
