@@ -112,16 +112,18 @@ void Lx3vpController::run_devices(std::int64_t time_ns) {
     counters_.count(static_cast<int>(number), counter->count, registers_);
   CamPort cams = port();
   pulses_.tick(cams);
+  give_all_ = give_all_ || cams.changed;
   if (pulses_.has_notes()) tell_notes();
   if (speeds_.measures()) speeds_.tick(inputs_, registers_);
   if (counters_.has_news()) {
     const auto news = counters_.take_news();
     for (const auto& [y, on] : news.outputs) outputs_[static_cast<std::size_t>(y)] = on;
+    give_all_ = give_all_ || !news.outputs.empty();
     for (const int interrupt : news.interrupts) scanner_.request(interrupt, registers_);
   }
   if (scanner_.has_interrupts() && !stopped_ && !halted_)
     scanner_.take_interrupts(inputs_, time_ns - power_up_ns_, registers_, *this);
-  if (give_all_ || outputs_ != given_)
+  if (give_all_)
     give_outputs();
   else
     give_pulses();
@@ -366,7 +368,6 @@ void Lx3vpController::take_inputs() {
 void Lx3vpController::give_outputs() {
   const bool on = !outputs_off_;
   for (const auto& [number, output] : outputs_row_.of(cards_.outputs)) output->level = outputs_[number] && on;
-  given_ = outputs_;
   give_all_ = false;
   give_pulses();
 }
@@ -415,6 +416,7 @@ void Lx3vpController::run_clocks(std::int64_t time_ns) {
 void Lx3vpController::decam(int step, const DecamOperands& operands, bool powered) {
   CamPort cams = port();
   pulses_.decam(step, operands, powered, cams);
+  give_all_ = give_all_ || cams.changed;
 }
 
 void Lx3vpController::pulses(int step, const PulseOrder& order, bool powered) {
@@ -435,10 +437,12 @@ void Lx3vpController::measure_speed(int step, const SpeedMeasure& measure, bool 
 
 void Lx3vpController::refresh(char letter, int first, int count) {
   const auto from = static_cast<std::ptrdiff_t>(first);
-  if (letter == 'X')
+  if (letter == 'X') {
     std::copy_n(inputs_.begin() + from, count, registers_.x.begin() + from);
-  else
-    std::copy_n(registers_.y.begin() + from, count, outputs_.begin() + from);
+    return;
+  }
+  std::copy_n(registers_.y.begin() + from, count, outputs_.begin() + from);
+  give_all_ = true;
 }
 
 void Lx3vpController::error(int step, int code, const std::string& text) {

@@ -172,9 +172,8 @@ class Lx3vpController : public Controller, private Instructions {
   PulseUnit pulses_;
   std::array<bool, terminals> inputs_{};  ///< levels of the terminals
   std::array<bool, terminals> outputs_{};
-  std::array<bool, terminals> given_{};  ///< what the terminals have of it
-  bool give_all_ = true;                 ///< the terminals may have something else: no state
-  bool ticks_inputs_ = false;            ///< inputs are taken every tick
+  bool give_all_ = true;       ///< the terminals may have something else: no state
+  bool ticks_inputs_ = false;  ///< inputs are taken every tick
   std::array<std::int64_t, pulse_outputs> pulses_before_{};  ///< given in earlier times of power
   bool powered_ = true;
   RegisterFace modbus_{powered_};
