@@ -117,6 +117,15 @@ std::optional<Misfit> misfit_of_division(const Step& step) {
   return misfit_at(1, fmt::format("{}: division by 0", step.spelling->text), "divide by another number");
 }
 
+std::optional<Misfit> misfit_of_digits(const Step& step) {
+  const auto number = step.spelling->mnemonic->name == "BIN" ? constant_of(step, 0) : std::nullopt;
+  for (auto rest = static_cast<std::uint32_t>(number.value_or(0)); rest > 0; rest >>= 4)
+    if ((rest & 0xF) > 9)
+      return misfit_at(0, fmt::format("{}: {} is no BCD", step.spelling->text, to_string(step.operands[0])),
+                       "write decimal digits: H1984");
+  return {};
+}
+
 std::optional<Misfit> misfit_of_writing(const Step& step) {
   if (step.op() == Op::zrst) {
     if (step.indexed) return {};
@@ -198,8 +207,8 @@ std::string remedy_of(const NumberRange& range, const Step& step) {
 std::optional<Misfit> misfit_together(const Step& step) {
   if (auto misfit = misfit_of_devices(step)) return misfit;
   if (step.op() == Op::ref) return misfit_of_refresh(step);
-  for (const auto check :
-       {misfit_of_numbers, misfit_of_order, misfit_of_counts, misfit_of_division, misfit_of_writing})
+  for (const auto check : {misfit_of_numbers, misfit_of_order, misfit_of_counts, misfit_of_division,
+                           misfit_of_digits, misfit_of_writing})
     if (auto misfit = check(step)) return misfit;
   return {};
 }

@@ -365,6 +365,8 @@ TEST(IlCompile, ConstantsThatDoNotGoTogether) {
        {"MEAN T254 D0 K3", {"2:6: MEAN takes 3 values from T254 on; there are T0 to T255 [il.out-of-range]"}},
        {"DIV D0 K0 D2", {"2:8: DIV: division by 0; divide by another number [il.operand]"}},
        {"DEDIV D0 E0 D2", {"2:10: DEDIV: division by 0; divide by another number [il.operand]"}},
+       {"BIN H1A84 D2", {"2:5: BIN: H1A84 is no BCD; write decimal digits: H1984 [il.operand]"}},
+       {"BIN H9876 D2\nDBIN H98765432 D2", {}},
        // What an index register or a register changes is judged as it runs.
        {"BON D0 M0 K20Z0\nSFWR D0 D1 D2\nDIV D0 K0Z0 D2", {}}});
 }
