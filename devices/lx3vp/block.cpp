@@ -138,7 +138,7 @@ constexpr SpecialRegister specials[] = {
     {"M8014", "bit", "read", "clock of 1 min"},
     {"M8020", "bit", "read", "the result of the last calculation is 0"},
     {"M8021", "bit", "read", "it is below the smallest number; of SQR: it had decimals"},
-    {"M8022", "bit", "read", "it is above the largest number; of ROL and ROR: the bit that went round last"},
+    {"M8022", "bit", "write", "it is above the largest number; of ROL and ROR: the bit that went round last"},
     {"M8024", "bit", "write", "BMOV moves from D to S"},
     {"M8029", "bit", "read", "DDRVI, DDRVA, PLSY, PLSR or ZRN is done"},
     {"M8031", "bit", "write", "clears all that is not retentive at the end of the scan; goes off by itself"},
@@ -202,13 +202,19 @@ std::span<const BlockWord> block_words() { return words; }
 std::span<const BlockFlag> block_flags() { return flags; }
 std::span<const SpecialRegister> special_registers() { return specials; }
 
+const SpecialRegister* special_register(char letter, int number) {
+  if (number < first_special) return nullptr;
+  const auto* const row =
+      std::find_if(std::begin(specials), std::end(specials), [&](const SpecialRegister& special) {
+        const int first = parsed<int>(special.name.substr(1)).value_or(0);
+        const int count = special.type == "i32" ? 2 : special.count;
+        return special.name.front() == letter && number >= first && number < first + count;
+      });
+  return row == std::end(specials) ? nullptr : row;
+}
+
 bool is_served(char letter, int number) {
-  if (number < first_special) return true;
-  return std::any_of(std::begin(specials), std::end(specials), [&](const SpecialRegister& special) {
-    const int first = parsed<int>(special.name.substr(1)).value_or(0);
-    const int count = special.type == "i32" ? 2 : special.count;
-    return special.name.front() == letter && number >= first && number < first + count;
-  });
+  return number < first_special || special_register(letter, number) != nullptr;
 }
 
 std::string served_specials(char letter) {

@@ -19,9 +19,12 @@ struct CamPort {
   const std::array<bool, terminals>& inputs;             ///< levels of X, this tick's
   const std::array<std::int64_t, counters>& high_speed;  ///< pulses of high-speed counters since power-up
   std::array<bool, terminals>& outputs;                  ///< levels of Y, given at once
+  bool changed = false;                                  ///< one of them has
 
   void give(int y, bool level) {
-    outputs[static_cast<std::size_t>(y)] = level;
+    bool& output = outputs[static_cast<std::size_t>(y)];
+    changed = changed || output != level;
+    output = level;
     registers.y[static_cast<std::size_t>(y)] = level;
   }
 };

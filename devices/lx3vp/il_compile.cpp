@@ -207,7 +207,12 @@ class IlCompiler : private Complaints {
               fmt::format("{} has {} operand{}, not {}", step.spelling->text, kinds.size(),
                           kinds.size() == 1 ? "" : "s", words.size() - 1),
               operands_text(kinds)});
-    if (!fault) fault = misfit_together(step);
+    if (!fault) {
+      if (auto misfit = misfit_together(step)) {
+        at = &words[misfit->operand + 1];
+        fault = std::move(misfit->fault);
+      }
+    }
     if (!fault) return;
     const auto& last = step.operands.empty() || at != &words.front() ? *at : words.back();
     problem_at(fault->code, last.place, std::move(fault->what), std::move(fault->remedy));
@@ -257,76 +262,6 @@ class IlCompiler : private Complaints {
     if (!is_number && wide && operand.number + 1 >= data_words)
       return ValueFault{"il.operand"_code, fmt::format("{} is no pair of words", to_string(operand)), remedy};
     return {};
-  }
-
-  /// Operands that must go together: all of them are there. Told at the last.
-  static std::optional<ValueFault> misfit_together(const Step& step) {
-    const Op op = step.op();
-    const auto& operands = step.operands;
-    if (op == Op::zrst) {
-      const auto pair = fmt::format("ZRST from {} to {}", to_string(operands[0]), to_string(operands[1]));
-      if (operands[0].kind != operands[1].kind)
-        return ValueFault{"il.operand"_code, pair, "name two devices of the same letter"};
-      if (!step.indexed && operands[0].number > operands[1].number)
-        return ValueFault{"il.operand"_code, pair, "name the lower one first"};
-    }
-    if (op == Op::block && operands[0].kind == OperandType::bits && operands[1].kind == OperandType::bits &&
-        operands[0].count != operands[1].count)
-      return ValueFault{"il.operand"_code,
-                        fmt::format("{} from {} to {}", step.spelling->text, to_string(operands[0]),
-                                    to_string(operands[1])),
-                        "group as many bits in both"};
-    if (op == Op::hscr && operands[2].kind == OperandType::C && operands[2].number != operands[1].number)
-      return ValueFault{"il.operand"_code,
-                        fmt::format("{} compares {} and resets {}", step.spelling->text,
-                                    to_string(operands[1]), to_string(operands[2])),
-                        "a counter resets itself, or Y, M or S"};
-    if (op == Op::ref) return misfit_of_refresh(step);
-    if (op == Op::rotate) {
-      const int width = step.wide() ? 32 : 16;
-      const auto& count = operands[1];
-      if (operands[0].kind == OperandType::bits && 4 * operands[0].count != width)
-        return ValueFault{"il.operand"_code,
-                          fmt::format("{} turns {} bits, not those of {}", step.spelling->text, width,
-                                      to_string(operands[0])),
-                          fmt::format("group K{}", width / 4)};
-      if (count.kind == OperandType::constant && !step.indexed && (count.value < 1 || count.value > width))
-        return ValueFault{"il.operand"_code,
-                          fmt::format("{} turns by {} bits", step.spelling->text, to_string(count)),
-                          fmt::format("write K1 to K{}", width)};
-    }
-    if (op == Op::shift) return misfit_of_shift(step);
-    // Pulses, and behind them their direction.
-    if (!step.spelling->mnemonic->operands.ends_with("py")) return {};
-    const auto& direction = operands.back();
-    const auto& output = operands[operands.size() - 2];
-    if (output.kind == direction.kind && output.number == direction.number)
-      return ValueFault{"il.operand"_code, fmt::format("{} is the pulse output itself", to_string(direction)),
-                        "name another Y for the direction"};
-    return {};
-  }
-
-  static std::optional<ValueFault> misfit_of_refresh(const Step& step) {
-    const auto& first = step.operands[0];
-    const auto& count = step.operands[1];
-    if (first.number % 8 != 0)
-      return ValueFault{"il.operand"_code, fmt::format("REF begins at {}", to_string(first)),
-                        "begin where a row of eight does: X0, X10, X20"};
-    if (count.kind != OperandType::constant) return {};
-    if (count.value >= 8 && count.value % 8 == 0 && first.number + count.value <= terminals) return {};
-    return ValueFault{"il.operand"_code, fmt::format("REF refreshes {} of {}", count.value, to_string(first)),
-                      "write K8, K16 and on, as many as there are"};
-  }
-
-  static std::optional<ValueFault> misfit_of_shift(const Step& step) {
-    constexpr int most = 1024;
-    const auto& length = step.operands[2];
-    const auto& by = step.operands[3];
-    if (length.kind != OperandType::constant || by.kind != OperandType::constant || step.indexed) return {};
-    if (by.value >= 1 && by.value <= length.value && length.value <= most) return {};
-    return ValueFault{"il.operand"_code,
-                      fmt::format("{} shifts {} bits by {}", step.spelling->text, length.value, by.value),
-                      fmt::format("n1 is up to K{}, n2 K1 up to n1", most)};
   }
 
   // Structure.

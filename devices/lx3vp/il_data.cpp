@@ -16,14 +16,7 @@ using namespace form;
 
 constexpr int hexadecimal_flag = 8168;  // M8168: SMOV moves digits of 16, not of 10
 constexpr int most_words = 512;         // FX
-
-/// An operand that counts from `least` to `most`.
-int number_of(const Call& call, std::size_t i, int least, int most, std::string_view name) {
-  const int number = read_value(call.registers(), call.operand(i), false);
-  if (number < least || number > most)
-    throw IlError(bad_operand, fmt::format("{} is {}; write {} to {}", name, number, least, most));
-  return number;
-}
+constexpr int most_exponent = 8;        // FX, of bits
 
 // Digits.
 
@@ -40,9 +33,9 @@ std::array<int, word_digits> digits_of_word(int value, int base) {
 
 /// SMOV: m2 digits of S, from the m1-th down, become digits of D, from the n-th down.
 void move_digits(Call& call) {
-  const int from = call.count(1, word_digits);
-  const int count = call.count(2, word_digits);
-  const int to = call.count(4, word_digits);
+  const int from = call.ranged(1);
+  const int count = call.ranged(2);
+  const int to = call.ranged(4);
   if (count > from || count > to)
     throw IlError(bad_operand,
                   fmt::format("{} digits from place {} to place {}: m2 is above m1 or n", count, from, to));
@@ -92,12 +85,10 @@ std::vector<bool> bits_from(const Call& call, std::size_t i, int count) {
   return bits;
 }
 
-/// n of DECO and ENCO: 2^n bits, in devices up to 256, in a word up to 16; 0 does nothing.
-int exponent_of(const Call& call, bool devices) { return number_of(call, 2, 0, devices ? 8 : 4, "n"); }
-
+// n of DECO and ENCO: 2^n bits; 0 does nothing.
 void decode(Call& call) {
   Operand device = call.operand(1);
-  const int n = exponent_of(call, names_bits(device));
+  const int n = call.ranged(2);
   if (n == 0) return;
   int number = 0;
   const auto bits = bits_from(call, 0, n);
@@ -108,7 +99,7 @@ void decode(Call& call) {
 }
 
 void encode(Call& call) {
-  const int n = exponent_of(call, names_bits(call.operand(0)));
+  const int n = call.ranged(2);
   if (n == 0) return;
   const auto bits = bits_from(call, 0, 1 << n);
   const auto highest = std::find(bits.rbegin(), bits.rend(), true);
@@ -123,7 +114,7 @@ void count_bits(Call& call) {
 }
 
 void test_bit(Call& call) {
-  const int bit = number_of(call, 2, 0, call.wide() ? 31 : 15, "n");
+  const int bit = call.ranged(2);
   write_bit(call.registers(), call.operand(1), (call.bits(0) >> bit & 1U) != 0);
 }
 
@@ -143,8 +134,8 @@ void set_word_at(const Call& call, std::size_t i, int n, std::int32_t value) {
 
 /// WSFR and WSFL: n1 words from D on move by n2 down or up; from S on come those that are new.
 void shift_words(Call& call, bool up) {
-  const int length = call.count(2, most_words);
-  const int by = call.count(3, most_words);
+  const int length = call.ranged(2);
+  const int by = call.ranged(3);
   if (by > length) throw IlError(bad_operand, fmt::format("{} words of {} are to be shifted", by, length));
   call.need_values(0, by);
   call.need_values(1, length);
@@ -166,7 +157,7 @@ int words_in_queue(const Call& call, std::size_t queue, int length) {
 }
 
 void put_into_queue(Call& call) {
-  const int length = number_of(call, 2, 2, most_words, "n");
+  const int length = call.ranged(2);
   const int held = words_in_queue(call, 1, length);
   call.set_flag(carry_flag, held >= length - 1);
   if (held >= length - 1) return;
@@ -175,7 +166,7 @@ void put_into_queue(Call& call) {
 }
 
 void take_from_queue(Call& call) {
-  const int length = number_of(call, 2, 2, most_words, "n");
+  const int length = call.ranged(2);
   const int held = words_in_queue(call, 0, length);
   call.set_flag(zero_flag, held == 0);
   if (held == 0) return;
@@ -201,7 +192,7 @@ int second_of_day(const Call& call, std::size_t i) {
 }
 
 void compare_times(Call& call) {
-  call.set_order(4, second_of_day(call.value(0), call.value(1), call.value(2)), second_of_day(call, 3));
+  call.set_order(4, second_of_day(call.ranged(0), call.ranged(1), call.ranged(2)), second_of_day(call, 3));
 }
 
 void set_time_of_day(Call& call, int seconds) {
@@ -236,34 +227,48 @@ void write_clock(Call& call) {
                                            date[2], date[3], date[4], date[5]));
 }
 
+constexpr NumberRange smov_numbers[] = {
+    {1, "m1", 1, word_digits}, {2, "m2", 1, word_digits}, {4, "n", 1, word_digits}};
+constexpr NumberRange deco_numbers[] = {{2, "n", 0, most_exponent, 0, "1", true}};
+constexpr NumberRange enco_numbers[] = {{2, "n", 0, most_exponent, 0, "0", true}};
+constexpr NumberRange bon_numbers[] = {{2, "n", 0, 15, 31}};
+constexpr NumberRange wsf_numbers[] = {{2, "n1", 1, most_words, 0, "1"}, {3, "n2", 1, most_words, 0, "0"}};
+constexpr NumberRange sfwr_numbers[] = {{2, "n", 2, most_words, 0, "1"}};
+constexpr NumberRange sfrd_numbers[] = {{2, "n", 2, most_words, 0, "0"}};
+constexpr NumberRange tcmp_numbers[] = {
+    {0, "the hour S1", 0, 23}, {1, "the minute S2", 0, 59}, {2, "the second S3", 0, 59}};
+
 constexpr Mnemonic data_rows[] = {
     {"SMOV", Op::action, "nkkwk", np, 11, 0,
      "m2 decimal digits of S from the m1-th down, to the n-th of D and down; with M8168 hexadecimal ones",
-     move_digits},
+     move_digits, smov_numbers},
     {"SWAP", Op::action, "w", nwp, 3, 5, "exchanges the bytes of a word, of 32 bits in each word",
      swap_bytes},
     {"DECO", Op::action, "zOk", np, 7, 0,
-     "of 2^n bits of D the one that S (n bits) names is ON, the others OFF; n to 8, in a word to 4", decode},
+     "of 2^n bits of D the one that S (n bits) names is ON, the others OFF; n to 8, in a word to 4", decode,
+     deco_numbers},
     {"ENCO", Op::action, "ZWk", np, 7, 0, "D = the number of the highest bit that is ON of 2^n from S on",
-     encode},
+     encode, enco_numbers},
     {"SUM", Op::action, "nw", nwp, 5, 9, "D = how many bits of S are ON", count_bits},
-    {"BON", Op::action, "nhk", nwp, 7, 13, "D is ON if bit n of S is", test_bit},
+    {"BON", Op::action, "nhk", nwp, 7, 13, "D is ON if bit n of S is", test_bit, bon_numbers},
     {"WSFR", Op::block, "uUkk", np, 9, 0, "shifts n1 words from D on down by n2, from S on fill in",
-     [](Call& c) { shift_words(c, false); }},
+     [](Call& c) { shift_words(c, false); }, wsf_numbers},
     {"WSFL", Op::block, "uUkk", np, 9, 0, "shifts n1 words from D on up by n2, from S on fill in",
-     [](Call& c) { shift_words(c, true); }},
+     [](Call& c) { shift_words(c, true); }, wsf_numbers},
     {"SFWR", Op::action, "nUk", np, 7, 0,
-     "puts S into a queue of n words, of which D counts what it holds; M8022: it is full", put_into_queue},
+     "puts S into a queue of n words, of which D counts what it holds; M8022: it is full", put_into_queue,
+     sfwr_numbers},
     {"SFRD", Op::action, "Uwk", np, 7, 0,
-     "takes D from a queue of n words, of which S counts what it holds; M8020: it is empty", take_from_queue},
+     "takes D from a queue of n words, of which S counts what it holds; M8020: it is empty", take_from_queue,
+     sfrd_numbers},
     {"TCMP", Op::action, "nnncB", np, 11, 0,
-     "CMP of times of day: S1 h, S2 min, S3 s against three words from S on", compare_times},
+     "CMP of times of day: S1 h, S2 min, S3 s against three words from S on", compare_times, tcmp_numbers},
     {"TZCP", Op::action, "cccB", np, 9, 0, "ZCP of times of day, three words each: S3 below, within, above",
      [](Call& c) { c.set_zone(3, second_of_day(c, 2), second_of_day(c, 0), second_of_day(c, 1)); }},
-    {"TADD", Op::action, "ccc", np, 7, 0, "D = S1 + S2, times of day; M8022: beyond midnight", add_times},
-    {"TSUB", Op::action, "ccc", np, 7, 0, "D = S1 - S2, times of day; M8021: before midnight",
+    {"TADD", Op::action, "ccC", np, 7, 0, "D = S1 + S2, times of day; M8022: beyond midnight", add_times},
+    {"TSUB", Op::action, "ccC", np, 7, 0, "D = S1 - S2, times of day; M8021: before midnight",
      subtract_times},
-    {"TRD", Op::action, "7", np, 3, 0,
+    {"TRD", Op::action, "8", np, 3, 0,
      "seven words from D on: year, month, day, hour, minute, second, weekday (0: Sunday)", read_clock},
     {"TWR", Op::action, "7", np, 3, 0, "sets the clock by seven words from S on, as TRD reads them",
      write_clock},

@@ -56,22 +56,41 @@ constexpr Mnemonic contacts_and_coils[] = {
     {"PLF", Op::plf, "e", n, 2, 0, "ON for one scan as the result goes OFF"},
 };
 
+// What DPLSV, DDRVI and DDRVA take of a register beyond it they limit.
+constexpr NumberRange plsv_numbers[] = {{0, "the frequency S", -max_frequency_hz, max_frequency_hz}};
+constexpr NumberRange drives_numbers[] = {{1, "the frequency S2", 1, max_frequency_hz}};
+constexpr NumberRange plsy_numbers[] = {{0, "the frequency S1", 0, max_frequency_hz},
+                                        {1, "the number of pulses S2", 0}};
+constexpr NumberRange plsr_numbers[] = {{0, "the frequency S1", 1, max_frequency_hz},
+                                        {1, "the number of pulses S2", 1},
+                                        {2, "the ramp S3", 50, 5000}};
+constexpr NumberRange pwm_numbers[] = {{0, "the time S1", 0}, {1, "the period S2", 1}};
+constexpr NumberRange zrn_numbers[] = {{0, "the speed S1", 1, max_frequency_hz},
+                                       {1, "the creep speed S2", 1, max_frequency_hz}};
+constexpr NumberRange spd_numbers[] = {{1, "the time S2", 1}};
+
 constexpr Mnemonic pulses_and_flow[] = {
-    {"PLSV", Op::plsv, "npy", nw, 9, 17, "pulses at S Hz from D1, direction on D2 (ON: S above 0)"},
-    {"DRVI", Op::drvi, "nnpy", nw, 9, 17, "S1 pulses at S2 Hz from D1, direction on D2"},
-    {"DRVA", Op::drva, "nnpy", nw, 9, 17, "pulses to position S1 at S2 Hz from D1, direction on D2"},
-    {"PLSY", Op::plsy, "nnp", nw, 7, 13, "S2 pulses (0: without end) at S1 Hz from D, no direction"},
-    {"PLSR", Op::plsr, "nnnp", nw, 9, 17, "S2 pulses at S1 Hz from D with ramps of S3 ms, no direction"},
-    {"PWM", Op::pwm, "nnp", n, 7, 0, "D is ON for S1 of every S2 ms"},
+    {"PLSV", Op::plsv, "npy", nw, 9, 17, "pulses at S Hz from D1, direction on D2 (ON: S above 0)", nullptr,
+     plsv_numbers},
+    {"DRVI", Op::drvi, "nnpy", nw, 9, 17, "S1 pulses at S2 Hz from D1, direction on D2", nullptr,
+     drives_numbers},
+    {"DRVA", Op::drva, "nnpy", nw, 9, 17, "pulses to position S1 at S2 Hz from D1, direction on D2", nullptr,
+     drives_numbers},
+    {"PLSY", Op::plsy, "nnp", nw, 7, 13, "S2 pulses (0: without end) at S1 Hz from D, no direction", nullptr,
+     plsy_numbers},
+    {"PLSR", Op::plsr, "nnnp", nw, 9, 17, "S2 pulses at S1 Hz from D with ramps of S3 ms, no direction",
+     nullptr, plsr_numbers},
+    {"PWM", Op::pwm, "nnp", n, 7, 0, "D is ON for S1 of every S2 ms", nullptr, pwm_numbers},
     {"ZRN", Op::zrn, "nngp", nw, 9, 17,
-     "backwards at S1 Hz to the signal S3, at S2 Hz until it ends; position 0"},
+     "backwards at S1 Hz to the signal S3, at S2 Hz until it ends; position 0", nullptr, zrn_numbers},
     {"HSCS", Op::hscs, "nHI", w, 13, 13,
      "D goes ON, or its interrupt comes, at once as counter S2 comes to S1"},
     {"HSCR", Op::hscr, "nHR", w, 13, 13, "D goes OFF, or S2 to 0, at once as counter S2 comes to S1"},
     {"HSZ", Op::hsz, "nnHB", w, 17, 17,
      "three devices from D on at once as counter S counts: below, within, above S1..S2"},
     {"SPD", Op::spd, "Xn3", n, 7, 0,
-     "D = pulses of input S1 in S2 ms; behind it those of the present time, and what is left of it [ms]"},
+     "D = pulses of input S1 in S2 ms; behind it those of the present time, and what is left of it [ms]",
+     nullptr, spd_numbers},
     {"DECAM", Op::decam, "mdxpy", n, 21, 0, "electronic cam: master, block, start, pulses, direction"},
     {"ECAMTBX", Op::ecamtbx, "atdD", n, 17, 0, "makes a cam table: parameters, type, block, result"},
     {"MC", Op::mc, "Ne", n, 3, 0, "a master contact for all that follows, to MCR; its device shows it"},
@@ -170,14 +189,25 @@ std::span<const BlockReading> instruction_readings() {
       {"SPD", "takes the input every 100 us: pulses shorter than that are lost"},
       {"PWM", "in steps of 100 us; begins ON; counts no pulses; a change of the times acts at once"},
       {"PLSR", "straight ramps of S3, 50 to 5000 ms, from standstill; D8140.. count forwards"},
+      {"numbers",
+       "a constant out of its range is refused when the program is read; a register's value is 6706, and the "
+       "instruction does nothing; of DPLSV, DDRVI and DDRVA the frequency is limited instead, to 200 kHz"},
+      {"read only",
+       "special registers that the PLC writes itself: a program that names them to be written is refused, an "
+       "index register that leads there is 6706; M8022 is written by programs too"},
       {"BMOV",
        "a word takes a group of fewer bits as a number, and a group the low bits of a word; two groups are "
        "of as many bits"},
       {"SFWR", "also SFRD: M8022 and M8020 go off again when the queue has room, or a value"},
       {"clock",
        "begins with each run at 2000-01-01, a Saturday, 0:00:00, goes on without power, and has the "
-       "calendar's weekday"},
+       "calendar's weekday; TWR alone sets it: M8015 is none of the relays here, and D8013 to D8019 are read "
+       "only"},
       {"M8034", "pulse outputs too give nothing, while D8140.. and the cams count on"},
+      {"RUN",
+       "while the program is stopped, by M8037 or 6105, M8000 and M8002 are off, M8001 and M8003 on, and the "
+       "clocks M8011 to M8014 and D8013 to D8019 go on; without power all special relays but M8001 and M8003 "
+       "are off"},
       {"M8037",
        "stops with or without M8035, which is none of the relays here; pulses stop at once and high-speed "
        "counters too; timers, counters and registers that are not retentive are cleared unless M8033 is on; "

@@ -69,7 +69,9 @@ constexpr OperandKind operand_kinds[] = {
     {'W', "D, T, C, V or Z", "DTCVZ", 1, 1},
     {'O', "D, T, C, Y, M or S", "DTCYMS", 1, 1},
     {'c', "D, T or C", "DTC", 3, 3},
+    {'C', "D, T or C", "DTC", 3, 3},
     {'7', "D, T or C", "DTC", 7, 7},
+    {'8', "D, T or C", "DTC", 7, 7},
     {'3', "D", "D", 3, 3},
     {'A', "X or Y", "XY", 1, 1, false},
     {'X', "X0 to X5", "X", 1, 1, false},
@@ -77,8 +79,10 @@ constexpr OperandKind operand_kinds[] = {
     {'I', "Y, M, S or I010 to I060", "YMSI", 1, 1},
     {'R', "Y, M, S or the same C", "YMSC", 1, 1},
     {'i', "D", "D", 1, 2},
+    {'G', "D", "D", 1, 2},
     {'q', "D", "D", 2, 4},
     {'F', "D", "D", 2, 2},
+    {'Q', "D", "D", 2, 2},
     {'D', "D", "D", 2, 2, false},
     {'a', "D", "D", ecamtbx_parameters, ecamtbx_parameters, false},
     {'d', "D", "D", block_length, block_length, false},
@@ -256,8 +260,7 @@ class OperandReader {
 
 /// Whether a kind of operand takes what the text named.
 bool takes(char kind, const Operand& operand) {
-  const bool writes = kind == 'w' || kind == 'U';
-  if (writes && operand.kind == OperandType::bits && operand.of == OperandType::X) return false;
+  if (is_written(kind) && operand.kind == OperandType::bits && operand.of == OperandType::X) return false;
   if (kind == 'p' && operand.number >= pulse_outputs) return false;
   if (kind == 'X' && operand.number >= interrupt_inputs) return false;
   if (kind == 'H' && operand.number < first_wide_counter) return false;
@@ -266,7 +269,7 @@ bool takes(char kind, const Operand& operand) {
   return operand_kind(kind).takes.find(letter_of(operand.kind)) != std::string_view::npos;
 }
 
-bool is_word(char kind) { return std::string_view("nwuUzZWOc7").find(kind) != std::string_view::npos; }
+bool is_word(char kind) { return std::string_view("nwuUzZWOcC78").find(kind) != std::string_view::npos; }
 
 /// V and Z, as devices and as indexes.
 std::optional<ValueFault> misfit_of_index(const Operand& operand, char kind, const Spelling& spelling) {
@@ -320,6 +323,52 @@ std::string_view operand_text(char kind) { return operand_kind(kind).text; }
 bool exists(const Operand& operand) {
   const auto* family = family_of(operand.kind == OperandType::bits ? operand.of : operand.kind);
   return family == nullptr || exists(*family, operand.number);
+}
+
+std::string devices_text(const Operand& operand) {
+  const auto& family = *family_of(operand.kind == OperandType::bits ? operand.of : operand.kind);
+  return fmt::format("there are {}", range_text(family));
+}
+
+bool is_written(char kind) {
+  return std::string_view("oserlhBwUWOC83iqFDIR").find(kind) != std::string_view::npos;
+}
+
+int extent_of(const Operand& operand, char kind, bool wide) {
+  if (operand.kind == OperandType::bits) return 4 * operand.count;
+  return wide ? operand_kind(kind).wide_extent : operand_kind(kind).extent;
+}
+
+std::optional<ValueFault> read_only(const Operand& operand, int count, const Spelling& spelling) {
+  const bool word = operand.kind == OperandType::D || operand.kind == OperandType::word_bit;
+  const bool relay = (operand.kind == OperandType::bits ? operand.of : operand.kind) == OperandType::M;
+  if (!word && !relay) return {};
+  const char letter = word ? 'D' : 'M';
+  for (int number = std::max(operand.number, first_special); number < operand.number + count; ++number) {
+    const auto* const row = special_register(letter, number);
+    if (row == nullptr || row->access != "read") continue;
+    const bool clock = word && number >= first_clock_word && number <= last_clock_word;
+    return ValueFault{
+        "il.operand"_code,
+        fmt::format("{} writes {}{}, which is read only: {}", spelling.text, letter, number, row->meaning),
+        clock  ? "set the clock with TWR"
+        : word ? "write a word of your own, D0 to D7999"
+               : "write a relay of your own, M0 to M3071"};
+  }
+  return {};
+}
+
+int stride_of(const Operand& first, bool wide) {
+  if (first.kind == OperandType::bits) return 4 * first.count;
+  const bool wide_counter = first.kind == OperandType::C && first.number >= first_wide_counter;
+  return wide && !wide_counter ? 2 : 1;
+}
+
+bool has_values(const Operand& first, int count, bool wide) {
+  Operand last = first;
+  last.number += count * stride_of(first, wide) - 1;
+  const bool narrow_counter = first.kind == OperandType::C && first.number < first_wide_counter;
+  return exists(last) && (!narrow_counter || last.number < first_wide_counter);
 }
 
 std::optional<ValueFault> unserved(const Operand& operand) {

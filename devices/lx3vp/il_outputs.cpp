@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
 #include <tuple>
 
@@ -117,10 +116,12 @@ void drive_outputs(const Registers& registers, const Step& step, bool powered, I
   using enum PulseOrder::Kind;
   const auto number = [&](std::size_t i) { return step.operands[i].number; };
   // Without power index registers are not applied, and nobody looks at the values.
-  const auto value = [&](std::size_t i, int least = std::numeric_limits<int>::min(), const char* name = "") {
-    const auto read = powered || !step.indexed ? read_value(registers, step.operands[i], step.wide()) : 0;
-    if (powered && read < least)
-      throw IlError(bad_operand, fmt::format("{} is {}; write {} or more", name, read, least));
+  const auto value = [&](std::size_t i) {
+    return powered || !step.indexed ? read_value(registers, step.operands[i], step.wide()) : 0;
+  };
+  const auto ranged = [&](std::size_t i) {
+    const auto read = value(i);
+    if (powered) need_in_range(step, i, read);
     return read;
   };
   const auto give = [&](const PulseOrder& order) { instructions.pulses(step.number, order, powered); };
@@ -142,18 +143,16 @@ void drive_outputs(const Registers& registers, const Step& step, bool powered, I
     case Op::hsz:
       return compare(CounterCompare::Kind::zone, 2);
     case Op::spd:
-      return instructions.measure_speed(step.number, {number(0), number(2), value(1, 1, "the time S2")},
-                                        powered);
+      return instructions.measure_speed(step.number, {number(0), number(2), ranged(1)}, powered);
     case Op::plsr: {
-      PulseOrder order{ramped, number(3), PulseOrder::no_direction, value(0, 1, "the frequency S1"),
-                       value(1, 1, "the number of pulses S2")};
-      order.ramp_ms = value(2, 1, "the ramp S3");
+      PulseOrder order{ramped, number(3), PulseOrder::no_direction, ranged(0), ranged(1)};
+      order.ramp_ms = ranged(2);
       return give(order);
     }
     case Op::pwm: {
       PulseOrder order{pwm, number(2)};
-      order.width_ms = value(0, 0, "the time S1");
-      order.period_ms = value(1, 1, "the period S2");
+      order.width_ms = ranged(0);
+      order.period_ms = ranged(1);
       if (powered && order.width_ms > order.period_ms)
         throw IlError(bad_operand, fmt::format("S1 is {}, more than the period S2 of {}", order.width_ms,
                                                order.period_ms));
@@ -162,13 +161,11 @@ void drive_outputs(const Registers& registers, const Step& step, bool powered, I
     case Op::plsv:
       return give({speed, number(1), number(2), value(0)});
     case Op::plsy: {
-      const auto frequency = value(0, 0, "the frequency S1");
-      return give(
-          {train, number(2), PulseOrder::no_direction, frequency, value(1, 0, "the number of pulses S2")});
+      return give({train, number(2), PulseOrder::no_direction, ranged(0), ranged(1)});
     }
     case Op::zrn: {
-      PulseOrder order{zero, number(3), PulseOrder::no_direction, value(0, 1, "the speed S1")};
-      order.creep = value(1, 1, "the creep speed S2");
+      PulseOrder order{zero, number(3), PulseOrder::no_direction, ranged(0)};
+      order.creep = ranged(1);
       order.dog = {static_cast<char>(step.operands[2].kind), number(2)};
       return give(order);
     }

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -97,6 +98,18 @@ inline constexpr std::uint8_t wp = w | p;
 inline constexpr std::uint8_t nwp = n | w | p;
 }  // namespace form
 
+/// What an operand's number may be, where it is less than it can hold: a constant is judged as the program is
+/// read, a register as it runs.
+struct NumberRange {
+  std::size_t operand = 0;
+  std::string_view name;  ///< "the time S1"
+  std::int32_t least = 0;
+  std::int32_t most = std::numeric_limits<std::int32_t>::max();
+  std::int32_t wide_most = 0;    ///< of the 32-bit form; 0: the same
+  std::string_view counts = {};  ///< operands, a digit each, of which it takes so many devices
+  bool powers = false;           ///< of bits 2^n of them, of a word those that it has
+};
+
 /// One instruction of the list as the program's text names it. One table for the compiler, the tests and the
 /// reader.
 struct Mnemonic {
@@ -108,6 +121,7 @@ struct Mnemonic {
   int wide_steps = 0;
   std::string_view meaning;
   Action action = nullptr;
+  std::span<const NumberRange> ranges = {};
 
   [[nodiscard]] bool has(std::uint8_t form) const { return (forms & form) != 0; }
   /// Of a contact: LD begins, AND is in series, OR in parallel.

@@ -26,9 +26,9 @@ void divide_reals(Call& call) {
 }
 
 constexpr Mnemonic real_rows[] = {
-    {"FLT", Op::action, "iF", nwp, 5, 9, "D = S as a floating-point number",
+    {"FLT", Op::action, "GF", nwp, 5, 9, "D = S as a floating-point number",
      [](Call& c) { c.registers().set_f32(c.number(1), static_cast<float>(c.value(0))); }},
-    {"INT", Op::action, "Fi", nwp, 5, 9, "D = S without its decimals", to_integer},
+    {"INT", Op::action, "Qi", nwp, 5, 9, "D = S without its decimals", to_integer},
     {"EMOV", Op::action, "fF", wp, 9, 9, "D = S, floating point",
      [](Call& c) { c.registers().set_f32(c.number(1), c.real(0)); }},
     {"EADD", Op::action, "ffF", wp, 13, 13, "D = S1 + S2, floating point",

@@ -235,7 +235,9 @@ const Step* ProgramScan::with_index(const Step& step, Rung& rung) {
     if (operand.index == Operand::no_index) continue;
     apply_index(rung.registers, operand, step.wide());
     if (operand.kind == OperandType::constant ||
-        (exists(operand) && !misfit(operand, kinds[i], *step.spelling)))
+        (exists(operand) && !misfit(operand, kinds[i], *step.spelling) &&
+         !(is_written(kinds[i]) &&
+           read_only(operand, extent_of(operand, kinds[i], step.wide()), *step.spelling))))
       continue;
     tell_error(step,
                IlError(bad_operand, fmt::format("{} is no device that it takes: the index register leads "

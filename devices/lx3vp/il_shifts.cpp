@@ -26,8 +26,8 @@ void need_bits(const Call& call, std::size_t i, int count) {
 
 /// SFTL and SFTR: n1 bits from D on move by n2; what becomes free is filled from S on.
 void shift(Call& call, bool up) {
-  const int length = call.count(2, most_shifted);
-  const int by = call.count(3, most_shifted);
+  const int length = call.ranged(2);
+  const int by = call.ranged(3);
   if (by > length) throw IlError(bad_operand, fmt::format("{} bits of {} are to be shifted", by, length));
   need_bits(call, 0, by);
   need_bits(call, 1, length);
@@ -50,7 +50,7 @@ void shift(Call& call, bool up) {
 /// ROL and ROR: what leaves at one end comes in at the other.
 void rotate(Call& call, bool left) {
   const int width = call.wide() ? 32 : 16;
-  const int by = call.count(1, width);
+  const int by = call.ranged(1);
   const std::uint64_t mask = (std::uint64_t{1} << width) - 1;
   const auto bits = static_cast<std::uint64_t>(call.value(0)) & mask;
   const int to_left = left ? by : width - by;
@@ -63,10 +63,7 @@ void rotate(Call& call, bool left) {
 int digits_of(const Call& call) { return call.wide() ? 8 : 4; }
 
 void to_decimal_digits(Call& call) {
-  const std::int64_t most = call.wide() ? 99'999'999 : 9999;
-  std::int64_t rest = call.value(0);
-  if (rest < 0 || rest > most)
-    throw IlError(bad_operand, fmt::format("{} has no BCD; it goes from 0 to {}", rest, most));
+  std::int32_t rest = call.ranged(0);
   std::uint32_t digits = 0;
   for (int i = 0; i < digits_of(call); ++i, rest /= 10)
     digits |= static_cast<std::uint32_t>(rest % 10) << 4 * i;
@@ -87,7 +84,7 @@ void from_decimal_digits(Call& call) {
 }
 
 void average(Call& call) {
-  const int count = call.count(2, most_averaged);
+  const int count = call.ranged(2);
   call.need_values(0, count);
   std::int64_t sum = 0;
   for (int i = 0; i < count; ++i) sum += read_value(call.registers(), call.nth(0, i), call.wide());
@@ -95,8 +92,7 @@ void average(Call& call) {
 }
 
 void square_root(Call& call) {
-  const std::int32_t square = call.value(0);
-  if (square < 0) throw IlError(bad_operand, fmt::format("{} has no square root", square));
+  const std::int32_t square = call.ranged(0);
   // Exact: a double holds all of 32 bit.
   const auto root = static_cast<std::int32_t>(std::sqrt(static_cast<double>(square)));
   call.set(1, root);
@@ -104,20 +100,29 @@ void square_root(Call& call) {
   call.set_flag(borrow_flag, root * root != square);
 }
 
+constexpr NumberRange sft_numbers[] = {{2, "n1", 1, most_shifted, 0, "1"},
+                                       {3, "n2", 1, most_shifted, 0, "0"}};
+constexpr NumberRange rotation_numbers[] = {{1, "n", 1, 16, 32}};
+constexpr NumberRange bcd_numbers[] = {{0, "S", 0, 9999, 99'999'999}};
+constexpr NumberRange mean_numbers[] = {{2, "n", 1, most_averaged, 0, "0"}};
+constexpr NumberRange sqr_numbers[] = {{0, "S", 0}};
+
 constexpr Mnemonic shift_rows[] = {
     {"SFTL", Op::shift, "ghkk", np, 9, 0, "shifts n1 bits from D on up by n2, from S on fill in",
-     [](Call& c) { shift(c, true); }},
+     [](Call& c) { shift(c, true); }, sft_numbers},
     {"SFTR", Op::shift, "ghkk", np, 9, 0, "shifts n1 bits from D on down by n2, from S on fill in",
-     [](Call& c) { shift(c, false); }},
+     [](Call& c) { shift(c, false); }, sft_numbers},
     {"ROL", Op::rotate, "wk", nwp, 5, 7, "turns D round to the left by n bits, the last of them in M8022",
-     [](Call& c) { rotate(c, true); }},
+     [](Call& c) { rotate(c, true); }, rotation_numbers},
     {"ROR", Op::rotate, "wk", nwp, 5, 7, "turns D round to the right by n bits, the last in M8022",
-     [](Call& c) { rotate(c, false); }},
-    {"BCD", Op::action, "nw", nwp, 5, 9, "D = S with a decimal digit in each four bits", to_decimal_digits},
+     [](Call& c) { rotate(c, false); }, rotation_numbers},
+    {"BCD", Op::action, "nw", nwp, 5, 9, "D = S with a decimal digit in each four bits", to_decimal_digits,
+     bcd_numbers},
     {"BIN", Op::action, "nw", nwp, 5, 9, "D = S, which has a decimal digit in each four bits",
      from_decimal_digits},
-    {"MEAN", Op::action, "uwk", nwp, 7, 13, "D = mean of n values (1 to 64) from S on, no decimals", average},
-    {"SQR", Op::action, "ji", nwp, 5, 9, "D = square root of S, no decimals", square_root},
+    {"MEAN", Op::action, "uwk", nwp, 7, 13, "D = mean of n values (1 to 64) from S on, no decimals", average,
+     mean_numbers},
+    {"SQR", Op::action, "ji", nwp, 5, 9, "D = square root of S, no decimals", square_root, sqr_numbers},
 };
 
 }  // namespace

@@ -125,12 +125,22 @@ void apply_index(const Registers& registers, Operand& operand, bool wide) {
   operand.number = static_cast<int>(std::clamp(operand.number + index, -beyond, beyond));
 }
 
+void need_in_range(const Step& step, std::size_t operand, std::int32_t number) {
+  for (const NumberRange& range : step.spelling->mnemonic->ranges)
+    if (range.operand == operand && !is_in(range, step, number))
+      throw IlError(bad_operand, fmt::format("{} is {}; {}", range.name, number, remedy_of(range, step)));
+}
+
+std::int32_t Call::ranged(std::size_t i) const {
+  const bool count = step_.kind(i) == 'k';
+  const auto number = read_value(registers_, operand(i), wide_ && !count);
+  need_in_range(step_, i, number);
+  return number;
+}
+
 void Call::need_values(std::size_t i, int count) const {
   const Operand& first = operand(i);
-  Operand last = nth(i, count - 1);
-  last.number += stride(i) - 1;
-  const bool narrow_counter = first.kind == OperandType::C && first.number < first_wide_counter;
-  if (exists(last) && (!narrow_counter || last.number < first_wide_counter)) return;
+  if (has_values(first, count, wide_)) return;
   throw IlError(bad_operand,
                 fmt::format("{} values from {} on go beyond what there is", count, to_string(first)));
 }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "devices/lx3vp/il_operands.hpp"
 #include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/registers.hpp"
 
@@ -32,6 +33,9 @@ void reset(Registers& registers, const Operand& device);
 std::int32_t read_value(const Registers& registers, const Operand& operand, bool wide);
 /// Stores the low 16 bit of `value`, or all 32.
 void write_value(Registers& registers, const Operand& operand, bool wide, std::int32_t value);
+
+/// Throws if the table has a range for an operand and its number is not in it.
+void need_in_range(const Step& step, std::size_t operand, std::int32_t number);
 
 /// Adds the operand's index register to its number, of a constant to its value: V or Z, of a 32-bit
 /// instruction V and Z. The number may then be of no device.
@@ -105,24 +109,12 @@ class Call {
     set_three(i, value < low ? 0 : value > high ? 2 : 1);
   }
 
-  /// K or D that counts devices, 1 to `most`.
-  [[nodiscard]] int count(std::size_t i, int most = 512) const {
-    const int count = read_value(registers_, step_.operands[i], false);
-    if (count < 1 || count > most)
-      throw IlError(bad_operand, fmt::format("a count of {} is none of 1 to {}", count, most));
-    return count;
-  }
-  /// Of an operand that stands for several values: from one to the next, in its devices.
-  [[nodiscard]] int stride(std::size_t i) const {
-    const Operand& first = operand(i);
-    if (first.kind == OperandType::bits) return 4 * first.count;
-    const bool wide_counter = first.kind == OperandType::C && first.number >= first_wide_counter;
-    return wide_ && !wide_counter ? 2 : 1;
-  }
-  /// The n-th of them, which has to be there: `need_values`.
+  /// A number that the table has a range for.
+  [[nodiscard]] std::int32_t ranged(std::size_t i) const;
+  /// The n-th value of an operand that stands for several, which has to be there: `need_values`.
   [[nodiscard]] Operand nth(std::size_t i, int n) const {
     Operand value = operand(i);
-    value.number += n * stride(i);
+    value.number += n * stride_of(value, wide_);
     return value;
   }
   void need_values(std::size_t i, int count) const;

@@ -51,7 +51,7 @@ void divide(Call& call) {
 
 void move_block(Call& call) {
   constexpr int backwards_flag = 8024;
-  const int count = call.count(2);
+  const int count = call.ranged(2);
   call.need_values(0, count);
   call.need_values(1, count);
   const std::size_t from = call.flag(backwards_flag) ? 1 : 0;
@@ -70,11 +70,15 @@ void move_block(Call& call) {
 }
 
 void fill_block(Call& call) {
-  const int count = call.count(2);
+  const int count = call.ranged(2);
   call.need_values(1, count);
   const auto value = call.value(0);
   for (int i = 0; i < count; ++i) write_value(call.registers(), call.nth(1, i), call.wide(), value);
 }
+
+constexpr int most_moved = 512;  // FX
+constexpr NumberRange bmov_numbers[] = {{2, "n", 1, most_moved, 0, "01"}};
+constexpr NumberRange fmov_numbers[] = {{2, "n", 1, most_moved, 0, "1"}};
 
 constexpr Mnemonic word_rows[] = {
     {"ZRST", Op::zrst, "ll", np, 5, 0, "resets all devices from the one to the other", reset_all},
@@ -82,8 +86,10 @@ constexpr Mnemonic word_rows[] = {
     {"MOV", Op::action, "nw", nwp, 5, 9, "D = S", [](Call& c) { c.set(1, c.value(0)); }},
     {"CML", Op::action, "nw", nwp, 5, 9, "D = S with every bit inverted",
      [](Call& c) { c.set(1, ~c.value(0)); }},
-    {"BMOV", Op::block, "uUk", np, 7, 0, "moves n words, or groups of bits, from S on to D on", move_block},
-    {"FMOV", Op::action, "nUk", nwp, 7, 13, "writes S into n words (values) from D on", fill_block},
+    {"BMOV", Op::block, "uUk", np, 7, 0, "moves n words, or groups of bits, from S on to D on", move_block,
+     bmov_numbers},
+    {"FMOV", Op::action, "nUk", nwp, 7, 13, "writes S into n words (values) from D on", fill_block,
+     fmov_numbers},
     {"XCH", Op::action, "ww", nwp, 5, 9, "exchanges two values", exchange},
     {"ADD", Op::action, "nnw", nwp, 7, 13, "D = S1 + S2",
      [](Call& c) { c.set_sum(2, c.long_value(0) + c.value(1)); }},

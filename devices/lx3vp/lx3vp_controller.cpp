@@ -103,21 +103,27 @@ void Lx3vpController::run_devices(std::int64_t time_ns) {
   if (!tick_.take(time_ns)) return;
   if (!powered_) return;
   if (std::exchange(power_up_due_, false)) power_up_ns_ = time_ns;
+  if (stopped_ || halted_) {
+    registers_.now_ns = time_ns;
+    run_clocks(time_ns - power_up_ns_);
+  }
   if (ticks_inputs_) take_inputs();
   for (const auto& [number, counter] : counters_row_.of(cards_.counters))
     counters_.count(static_cast<int>(number), counter->count, registers_);
   CamPort cams = port();
   pulses_.tick(cams);
+  give_all_ = give_all_ || cams.changed;
   if (pulses_.has_notes()) tell_notes();
   if (speeds_.measures()) speeds_.tick(inputs_, registers_);
   if (counters_.has_news()) {
     const auto news = counters_.take_news();
     for (const auto& [y, on] : news.outputs) outputs_[static_cast<std::size_t>(y)] = on;
+    give_all_ = give_all_ || !news.outputs.empty();
     for (const int interrupt : news.interrupts) scanner_.request(interrupt, registers_);
   }
   if (scanner_.has_interrupts() && !stopped_ && !halted_)
     scanner_.take_interrupts(inputs_, time_ns - power_up_ns_, registers_, *this);
-  if (give_all_ || outputs_ != given_)
+  if (give_all_)
     give_outputs();
   else
     give_pulses();
@@ -209,6 +215,7 @@ void Lx3vpController::obey_relays() {
 void Lx3vpController::stop_program() {
   registers_.m[halt_relay] = registers_.m[run_relay] = false;
   halted_ = true;
+  tell_run(false);
   counters_.halt();
   speeds_ = {};
   const auto held = outputs_;
@@ -245,6 +252,8 @@ void Lx3vpController::power(bool on) {
   powered_ = on;
   if (!on) {
     stop_outputs();
+    std::fill(registers_.m.begin() + first_special, registers_.m.end(), false);
+    tell_run(false);
     return;
   }
   reset_registers();
@@ -302,6 +311,7 @@ void Lx3vpController::watchdog(int step, const std::string& text) {
   registers_.d[error_step_register] = static_cast<std::uint16_t>(step);
   stopped_ = true;
   stopped_at_ = step;
+  tell_run(false);
   stop_outputs();
   tell(step, "error", text + "; the PLC stops until it is switched on again");
 }
@@ -333,6 +343,7 @@ void Lx3vpController::reset_registers() {
   std::fill(registers_.d.begin() + first_special, registers_.d.end(), std::uint16_t{0});
   std::fill(registers_.m.begin() + first_special, registers_.m.end(), false);
   for (std::size_t i = first_special; i < data_words; ++i) registers_.written.reset(i);
+  tell_run(false);
   registers_.x.fill(false);
   registers_.d[watchdog_register] = default_watchdog_ms;
   registers_.set_i32(8146, default_top_speed);
@@ -357,7 +368,6 @@ void Lx3vpController::take_inputs() {
 void Lx3vpController::give_outputs() {
   const bool on = !outputs_off_;
   for (const auto& [number, output] : outputs_row_.of(cards_.outputs)) output->level = outputs_[number] && on;
-  given_ = outputs_;
   give_all_ = false;
   give_pulses();
 }
@@ -373,29 +383,40 @@ void Lx3vpController::give_pulses() {
 }
 
 void Lx3vpController::set_system_relays(std::int64_t time_ns) {
-  auto& m = registers_.m;
-  m[8000] = true;
-  m[8001] = false;
-  m[8002] = first_scan_;
-  m[8003] = !first_scan_;
-  // Clocks: off in the first half of their period.
-  const auto clock = [&](std::int64_t period_ms) { return time_ns / (period_ms * ns_per_ms / 2) % 2 == 1; };
-  m[8011] = clock(10);
-  m[8012] = clock(100);
-  m[8013] = clock(1000);
-  m[8014] = clock(60'000);
+  tell_run(true);
   constexpr std::int64_t unit_ns = ns_per_ms / 10;
   const auto took = static_cast<std::uint16_t>(std::min<std::int64_t>(scan_took_ns_ / unit_ns, 0xFFFF));
   auto& d = registers_.d;
   d[8010] = took;
   d[shortest_scan_register] = first_scan_ ? took : std::min(d[shortest_scan_register], took);
   d[longest_scan_register] = first_scan_ ? took : std::max(d[longest_scan_register], took);
-  if (first_scan_ || clock_second(registers_) != d[second_register]) show_clock(registers_);
+  if (first_scan_) show_clock(registers_);
+  run_clocks(time_ns);
+}
+
+void Lx3vpController::tell_run(bool runs) {
+  auto& m = registers_.m;
+  m[8000] = runs;
+  m[8001] = !runs;
+  m[8002] = runs && first_scan_;
+  m[8003] = !m[8002];
+}
+
+// Off in the first half of their period.
+void Lx3vpController::run_clocks(std::int64_t time_ns) {
+  auto& m = registers_.m;
+  const auto clock = [&](std::int64_t period_ms) { return time_ns / (period_ms * ns_per_ms / 2) % 2 == 1; };
+  m[8011] = clock(10);
+  m[8012] = clock(100);
+  m[8013] = clock(1000);
+  m[8014] = clock(60'000);
+  if (clock_second(registers_) != registers_.d[second_register]) show_clock(registers_);
 }
 
 void Lx3vpController::decam(int step, const DecamOperands& operands, bool powered) {
   CamPort cams = port();
   pulses_.decam(step, operands, powered, cams);
+  give_all_ = give_all_ || cams.changed;
 }
 
 void Lx3vpController::pulses(int step, const PulseOrder& order, bool powered) {
@@ -416,10 +437,12 @@ void Lx3vpController::measure_speed(int step, const SpeedMeasure& measure, bool 
 
 void Lx3vpController::refresh(char letter, int first, int count) {
   const auto from = static_cast<std::ptrdiff_t>(first);
-  if (letter == 'X')
+  if (letter == 'X') {
     std::copy_n(inputs_.begin() + from, count, registers_.x.begin() + from);
-  else
-    std::copy_n(registers_.y.begin() + from, count, outputs_.begin() + from);
+    return;
+  }
+  std::copy_n(registers_.y.begin() + from, count, outputs_.begin() + from);
+  give_all_ = true;
 }
 
 void Lx3vpController::error(int step, int code, const std::string& text) {

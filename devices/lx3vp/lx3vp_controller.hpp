@@ -125,6 +125,9 @@ class Lx3vpController : public Controller, private Instructions {
   void end_scan();
   void run_timed(std::int64_t time_ns);
   void set_system_relays(std::int64_t time_ns);
+  /// M8000 to M8003.
+  void tell_run(bool runs);
+  void run_clocks(std::int64_t time_ns);
   void tell_notes();
   void tell(int step, std::string event, std::string text);
   [[nodiscard]] CamPort port() { return {registers_, inputs_, counters_.pulses(), outputs_}; }
@@ -169,9 +172,8 @@ class Lx3vpController : public Controller, private Instructions {
   PulseUnit pulses_;
   std::array<bool, terminals> inputs_{};  ///< levels of the terminals
   std::array<bool, terminals> outputs_{};
-  std::array<bool, terminals> given_{};  ///< what the terminals have of it
-  bool give_all_ = true;                 ///< the terminals may have something else: no state
-  bool ticks_inputs_ = false;            ///< inputs are taken every tick
+  bool give_all_ = true;       ///< the terminals may have something else: no state
+  bool ticks_inputs_ = false;  ///< inputs are taken every tick
   std::array<std::int64_t, pulse_outputs> pulses_before_{};  ///< given in earlier times of power
   bool powered_ = true;
   RegisterFace modbus_{powered_};

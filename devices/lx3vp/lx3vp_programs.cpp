@@ -19,7 +19,7 @@ std::optional<RegisterName> register_of(const il::Step& step, std::size_t at) {
   const char kind = step.kind(at);
   if (operand.index != il::Operand::no_index) return std::nullopt;
   const bool contact = kind == 'b';
-  const bool real = kind == 'f' || kind == 'F';
+  const bool real = kind == 'f' || kind == 'F' || kind == 'Q';
   switch (operand.kind) {
     case il::OperandType::X:
       return RegisterName{Name::x, operand.number};

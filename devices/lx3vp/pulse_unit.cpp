@@ -37,7 +37,9 @@ void PulseUnit::Line::visit(StateArchive& archive) { STATE(archive, output, moti
 void PulseUnit::visit(StateArchive& archive) { STATE(archive, lines_, cams_, drives_, refused_, notes_); }
 
 void PulseUnit::decam(int step, const DecamOperands& operands, bool powered, CamPort& port) {
-  Decam& cam = cams_[step];
+  auto place = std::ranges::lower_bound(cams_, step, {}, &std::pair<int, Decam>::first);
+  if (place == cams_.end() || place->first != step) place = cams_.emplace(place, step, Decam());
+  Decam& cam = place->second;
   if (powered == cam.enabled()) return;
   if (!powered) return cam.disable(port);
   std::optional<CamFault> fault;

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "devices/lx3vp/decam.hpp"
@@ -37,8 +38,9 @@ class PulseUnit {
   }
   /// The cam of the DECAM at `step`; nullptr until the program has passed it.
   [[nodiscard]] const Decam* cam(int step) const {
-    const auto found = cams_.find(step);
-    return found == cams_.end() ? nullptr : &found->second;
+    for (const auto& [of, cam] : cams_)
+      if (of == step) return &cam;
+    return nullptr;
   }
   [[nodiscard]] const PulseOutput& output(int output) const {
     return lines_[static_cast<std::size_t>(output)].output;
@@ -96,9 +98,9 @@ class PulseUnit {
   void tick_motion(int output, CamPort& port);
 
   std::array<Line, pulse_outputs> lines_;
-  std::map<int, Decam> cams_;       ///< by step
-  std::map<int, Progress> drives_;  ///< by step
-  std::map<int, bool> refused_;     ///< by step: told since it got power
+  std::vector<std::pair<int, Decam>> cams_;  ///< in the order of their steps; each tick walks them
+  std::map<int, Progress> drives_;           ///< by step
+  std::map<int, bool> refused_;              ///< by step: told since it got power
   std::vector<PulseNote> notes_;
 };
 

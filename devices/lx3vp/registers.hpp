@@ -134,6 +134,8 @@ ClockWords clock_of(const Registers& registers);
 int clock_second(const Registers& registers);
 /// Sets it; false, and nothing changed, if there is no such time. The weekday is not looked at.
 bool set_clock(Registers& registers, const ClockWords& words);
+inline constexpr int first_clock_word = 8013;
+inline constexpr int last_clock_word = 8019;
 /// Writes it to D8013..D8019.
 void show_clock(Registers& registers);
 
@@ -241,6 +243,8 @@ struct SpecialRegister {
   int count = 1;  ///< of a row of relays: so many, each for the counter after the one before
 };
 std::span<const SpecialRegister> special_registers();
+/// The row of D or M `number`; nullptr of those below D8000 and M8000, and of what is not served.
+const SpecialRegister* special_register(char letter, int number);
 /// Whether the simulated PLC serves D or M `number`: all below D8000 and M8000, of the others those above.
 bool is_served(char letter, int number);
 /// D8000 [ms], what it has at power-up, and the error (D8061) of a scan that works longer.

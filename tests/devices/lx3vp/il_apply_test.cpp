@@ -219,14 +219,15 @@ TEST(IlErrors, AreToldAndTheScanGoesOn) {
 }
 
 TEST(IlErrors, ByTheirMessage) {
-  EXPECT_THAT(errors("DEDIV D0 E0 D10", {0}), ElementsAre("error 1 6706 p.il:2: 6706: DEDIV: division by 0"));
+  EXPECT_THAT(errors("DEDIV D0 D2 D10", {0, 0}),
+              ElementsAre("error 1 6706 p.il:2: 6706: DEDIV: division by 0"));
   EXPECT_THAT(
       errors("BMOV D0 D7999 D2", {0, 300}),
       ElementsAre("error 1 6706 p.il:2: 6706: BMOV: 300 values from D7999 on go beyond what there is"));
   EXPECT_THAT(errors("BMOV D0 D100 D2", {0, 0}),
-              ElementsAre("error 1 6706 p.il:2: 6706: BMOV: a count of 0 is none of 1 to 512"));
+              ElementsAre("error 1 6706 p.il:2: 6706: BMOV: n is 0; write 1 to 512"));
   EXPECT_THAT(
-      errors("DFMOV K1 D8152 K100", {}),
+      errors("DFMOV K1 D8152 D0", {100}),
       ElementsAre("error 1 6706 p.il:2: 6706: DFMOV: 100 values from D8152 on go beyond what there is"));
   EXPECT_THAT(errors("DEMUL E1E30 E1E30 D10", {}),
               ElementsAre("error 1 6706 p.il:2: 6706: DEMUL: the result is no floating-point number"));

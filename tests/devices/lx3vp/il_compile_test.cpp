@@ -80,6 +80,47 @@ TEST(IlCompile, SpecialDevicesThatAreNotServedAreRefused) {
                          {"MOV D7999 D0", {}}});
 }
 
+TEST(IlCompile, WhatThePlcWritesItselfIsReadOnly) {
+  const std::string run = "which is read only: on while the program runs; ";
+  const std::string own_relay = "write a relay of your own, M0 to M3071 [il.operand]";
+  const std::string own_word = "write a word of your own, D0 to D7999 [il.operand]";
+  const std::string clock = "set the clock with TWR [il.operand]";
+  expect_operand_faults(
+      {{"OUT M8000", {"2:5: OUT writes M8000, " + run + own_relay}},
+       {"SET M8000", {"2:5: SET writes M8000, " + run + own_relay}},
+       {"RST M8000", {"2:5: RST writes M8000, " + run + own_relay}},
+       {"PLS M8013", {"2:5: PLS writes M8013, which is read only: clock of 1 s; " + own_relay}},
+       {"MOV K0 K4M7", {}},
+       {"MOV K0 K1M8000", {"2:8: MOV writes M8000, " + run + own_relay}},
+       {"CMP K1 D0 M8012", {"2:11: CMP writes M8012, which is read only: clock of 100 ms; " + own_relay}},
+       {"ZRST M8000 M8002", {"2:6: ZRST writes M8000, " + run + own_relay}},
+       {"MOV K5 D8010", {"2:8: MOV writes D8010, which is read only: time of a scan [0.1 ms]; " + own_word}},
+       {"RST D8013", {"2:5: RST writes D8013, which is read only: clock: second; " + clock}},
+       {"SET D8019.0", {"2:5: SET writes D8019, which is read only: clock: weekday, 0 is Sunday; " + clock}},
+       {"DMOV K0 D8039",
+        {"2:9: DMOV writes D8040, which is read only: with M8047: number of the first active step; up to "
+         "D8047 of the eighth; " +
+         own_word}},
+       {"FMOV K0 D7990 K25",
+        {"2:9: FMOV writes D8010, which is read only: time of a scan [0.1 ms]; " + own_word}},
+       {"TADD D0 D3 D8013", {"2:12: TADD writes D8013, which is read only: clock: second; " + clock}}});
+  // Read they may be, and what asks something of the PLC may be written.
+  expect_operand_faults(
+      {{"MOV D8013 D0\nMOV K1M8000 D0\nTADD D8013 D8013 D0\nFLT D8010 D0\nINT D8012 D0", {}},
+       {"OUT M8034\nSET M8037\nRST M8022\nDMOV K0 D8140\nMOV K300 D8000", {}}});
+  for (const SpecialRegister& special : special_registers())
+    EXPECT_EQ(faults("LD X0\nRST " + std::string(special.name) + "\nEND").empty(), special.access == "write")
+        << special.name;
+}
+
+TEST(IlIndex, AnIndexThatLeadsToAReadOnlyRegisterIsAnError) {
+  Plc plc("LD M8000\nMOV K13 Z0\nMOV K77 D8000Z0\nMOV K10 Z1\nSET M8024Z1");
+  EXPECT_THAT(plc.scan().notes.calls,
+              ElementsAre("error 6 6706 p.il:3: 6706: MOV: D8000Z0 is no device that it takes: the index "
+                          "register leads to number 8013"));
+  EXPECT_THAT(plc.values("D8013 M8034"), ElementsAre(0, 1));
+}
+
 TEST(IlCompile, DevicesOutOfRange) {
   expect_operand_faults(
       {{"OUT Y400", {"2:5: 'Y400' does not exist; there are Y0 to Y377 [il.out-of-range]"}},
@@ -231,13 +272,13 @@ TEST(IlMnemonics, EverySpellingCompilesWithTheOperandsThatTheTableNames) {
     EXPECT_TRUE(seen.insert(spelling.text).second) << spelling.text << " is there twice";
     const auto& m = *spelling.mnemonic;
     std::string line = spelling.text;
-    for (const char kind : m.operands) {
-      // REF has rows of eight.
-      if (m.op == Op::ref && kind == 'k') {
-        line += " K8";
-        continue;
-      }
-      line += " " + example(kind);
+    for (std::size_t i = 0; i < m.operands.size(); ++i) {
+      const char kind = m.operands[i];
+      auto operand = example(kind);
+      if (m.op == Op::ref && kind == 'k') operand = "K8";  // rows of eight
+      for (const auto& range : m.ranges)
+        if (range.operand == i) operand = fmt::format("K{}", std::max(range.least, -32768));
+      line += " " + operand;
       EXPECT_FALSE(operand_text(kind).empty()) << m.name;
     }
     // Something before it and behind it that makes a sound rung of any instruction.
@@ -264,6 +305,70 @@ TEST(IlMnemonics, EverySpellingCompilesWithTheOperandsThatTheTableNames) {
     // And without its last operand, or with one too many, it is refused.
     EXPECT_FALSE(faults(before + line + " K1\n" + after + "END\n").empty()) << line;
   }
+}
+
+// Each at its place; those at the ends of the range are taken.
+TEST(IlMnemonics, ConstantsOutOfTheRangeOfTheTableAreRefused) {
+  int ranges = 0;
+  for (const auto& spelling : spellings()) {
+    const auto& m = *spelling.mnemonic;
+    for (const auto& range : m.ranges) {
+      ++ranges;
+      const auto told = [&](std::int64_t number) {
+        std::string line = spelling.text;
+        std::size_t column = 0;
+        for (std::size_t i = 0; i < m.operands.size(); ++i) {
+          if (i == range.operand) column = line.size() + 2;
+          const auto other = example(m.operands[i]);
+          line += " " + (i == range.operand ? fmt::format("K{}", number) : other == "K1" ? "D7" : other);
+        }
+        const auto all = faults("LD X0\n" + line + "\nEND\n");
+        const auto place = fmt::format("2:{}: ", column);
+        for (const auto& fault : all) EXPECT_TRUE(fault.starts_with(place)) << line << " " << fault;
+        return all.size();
+      };
+      const auto most = range.powers                            ? 4  // of a word
+                        : spelling.wide && range.wide_most != 0 ? range.wide_most
+                                                                : range.most;
+      EXPECT_EQ(told(range.least - std::int64_t{1}), 1U) << spelling.text << " " << range.name;
+      EXPECT_EQ(told(range.least), spelling.wide || range.least >= -32768 ? 0U : 1U) << spelling.text;
+      EXPECT_EQ(told(most + std::int64_t{1}), 1U) << spelling.text << " " << range.name;
+      EXPECT_EQ(told(spelling.wide ? most : std::min(most, 32767)), 0U) << spelling.text << " " << range.name;
+    }
+  }
+  EXPECT_GT(ranges, 40);
+}
+
+TEST(IlCompile, ConstantsThatDoNotGoTogether) {
+  expect_operand_faults(
+      {{"PWM K11 K10 Y0",
+        {"2:5: PWM: S1 is 11, more than the period S2 of 10; write 10 or less [il.operand]"}},
+       {"PWM K10 K10 Y0", {}},
+       {"SFWR D0 D1 K1", {"2:12: SFWR: n is 1; write 2 to 512 [il.operand]"}},
+       {"SFRD D0 D1 K513", {"2:12: SFRD: n is 513; write 2 to 512 [il.operand]"}},
+       {"TCMP K24 K0 K0 D0 M0", {"2:6: TCMP: the hour S1 is 24; write 0 to 23 [il.operand]"}},
+       {"PLSR K1000 K10 K5001 Y0", {"2:16: PLSR: the ramp S3 is 5001; write 50 to 5000 [il.operand]"}},
+       {"DPLSV K200001 Y0 Y4",
+        {"2:7: DPLSV: the frequency S is 200001; write -200000 to 200000 [il.operand]"}},
+       {"DECO D0 D1 K5", {"2:12: DECO: n is 5; write 0 to 4 [il.operand]"}},
+       {"DECO D0 M0 K9", {"2:12: DECO: n is 9; write 0 to 8 [il.operand]"}},
+       {"DECO D0 M3000 K8",
+        {"2:9: DECO takes 256 values from M3000 on; there are M0 to M3071 and M8000 to M8255 "
+         "[il.out-of-range]"}},
+       {"ENCO M0 D0 K8\nENCO D0 D1 K4", {}},
+       {"SMOV D0 K2 K3 D1 K4", {"2:12: SMOV: 3 digits from place 2 down; write 2 or less [il.operand]"}},
+       {"SMOV D0 K4 K3 D1 K2", {"2:12: SMOV: 3 digits to place 2 and down; write 2 or less [il.operand]"}},
+       {"WSFR D0 D2 K2 K3", {"2:15: WSFR: 2 words are shifted by 3; write 2 or less [il.operand]"}},
+       {"ZCP K20 K10 D0 M0", {"2:5: ZCP: the zone is from 20 to 10; write 10 or less [il.operand]"}},
+       {"BMOV D0 C190 K20",
+        {"2:9: BMOV takes 20 values from C190 on; the 16-bit counters end at C199 [il.out-of-range]"}},
+       {"MEAN T254 D0 K3", {"2:6: MEAN takes 3 values from T254 on; there are T0 to T255 [il.out-of-range]"}},
+       {"DIV D0 K0 D2", {"2:8: DIV: division by 0; divide by another number [il.operand]"}},
+       {"DEDIV D0 E0 D2", {"2:10: DEDIV: division by 0; divide by another number [il.operand]"}},
+       {"BIN H1A84 D2", {"2:5: BIN: H1A84 is no BCD; write decimal digits: H1984 [il.operand]"}},
+       {"BIN H9876 D2\nDBIN H98765432 D2", {}},
+       // What an index register or a register changes is judged as it runs.
+       {"BON D0 M0 K20Z0\nSFWR D0 D1 D2\nDIV D0 K0Z0 D2", {}}});
 }
 
 TEST(IlMnemonics, WideAndPulseForms) {

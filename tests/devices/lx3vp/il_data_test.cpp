@@ -40,9 +40,9 @@ TEST(Lx3vpIlData, SmovMovesDecimalDigits) {
   EXPECT_EQ(Done("SET M8168\nSMOV D0 K4 K2 D1 K2", {0x1A2B, 0x7777}).d(1), 0x771A);
   EXPECT_EQ(Done("SMOV D0 K4 K2 D1 K3", {10000}).error(), "SMOV: 10000 has no four decimal digits");
   EXPECT_EQ(Done("SMOV D0 K4 K2 D1 K3", {0, -1}).error(), "SMOV: -1 has no four decimal digits");
-  EXPECT_EQ(Done("SMOV D0 K2 K3 D1 K4").error(),
+  EXPECT_EQ(Done("SMOV D0 K2 D2 D1 K4", {0, 0, 3}).error(),
             "SMOV: 3 digits from place 2 to place 4: m2 is above m1 or n");
-  EXPECT_EQ(Done("SMOV D0 K5 K3 D1 K4").error(), "SMOV: a count of 5 is none of 1 to 4");
+  EXPECT_EQ(Done("SMOV D0 D2 K3 D1 K4", {0, 0, 5}).error(), "SMOV: m1 is 5; write 1 to 4");
   covers({"M8168"});
 }
 
@@ -57,9 +57,10 @@ TEST(Lx3vpIlData, DecoNamesOneBit) {
   EXPECT_EQ(Done("DECOP D0 D1 K3", {0xFFFB, 0}).d(1), 1 << 3) << "the low three bits of S";
   EXPECT_EQ(Done("DECO K15 D1 K4", {0, 1}).d(1), static_cast<std::int16_t>(0x8000));
   EXPECT_EQ(Done("DECO D0 D1 K0", {3, 77}).d(1), 77) << "n of 0 does nothing";
-  EXPECT_EQ(Done("DECO D0 D1 K5").error(), "DECO: n is 5; write 0 to 4");
-  EXPECT_EQ(Done("DECO D0 M0 K9").error(), "DECO: n is 9; write 0 to 8");
-  EXPECT_EQ(Done("DECO D0 M3000 K8").error(), "DECO: 256 devices from M3000 on go beyond what there is");
+  EXPECT_EQ(Done("DECO D0 D1 D2", {0, 0, 5}).error(), "DECO: n is 5; write 0 to 4");
+  EXPECT_EQ(Done("DECO D0 M0 D2", {0, 0, 9}).error(), "DECO: n is 9; write 0 to 8");
+  EXPECT_EQ(Done("DECO D0 M3000 D2", {0, 0, 8}).error(),
+            "DECO: 256 devices from M3000 on go beyond what there is");
 }
 
 TEST(Lx3vpIlData, EncoFindsTheHighestBit) {
@@ -78,8 +79,8 @@ TEST(Lx3vpIlData, SumCountsAndBonTests) {
   EXPECT_THAT(Done("DSUM D0 D2", {-1, 1, 9, 9}).words(2, 2), ElementsAre(17, 0));
   EXPECT_THAT(Done("BON D0 M0 K15\nBONP D0 M1 K14\nDBON D0 M2 K31", {0x4000, -1}).plc.values("M0 M1 M2"),
               ElementsAre(0, 1, 1));
-  EXPECT_EQ(Done("BON D0 M0 K16").error(), "BON: n is 16; write 0 to 15");
-  EXPECT_EQ(Done("DBON D0 M0 K32").error(), "DBON: n is 32; write 0 to 31");
+  EXPECT_EQ(Done("BON D0 M0 D2", {0, 0, 16}).error(), "BON: n is 16; write 0 to 15");
+  EXPECT_EQ(Done("DBON D0 M0 D2", {0, 0, 32}).error(), "DBON: n is 32; write 0 to 31");
 }
 
 TEST(Lx3vpIlData, WordsShiftBothWays) {
@@ -88,10 +89,11 @@ TEST(Lx3vpIlData, WordsShiftBothWays) {
   EXPECT_THAT(Done("WSFLP D0 D2 K4 K2", words).words(2, 4), ElementsAre(91, 92, 1, 2));
   EXPECT_THAT(Done("WSFL D2 D2 K4 K1", words).words(2, 4), ElementsAre(1, 1, 2, 3)) << "S may lie in D";
   EXPECT_EQ(Done("MOV H21 K2M0\nWSFR K1M8 K1M0 K2 K1\nMOV K2M0 D0").d(0), 0x02) << "groups of four bits";
-  EXPECT_EQ(Done("WSFR D0 D2 K2 K3").error(), "WSFR: 3 words of 2 are to be shifted");
-  EXPECT_EQ(Done("WSFR D0 D8150 K200 K1").error(), "WSFR: 200 values from D8150 on go beyond what there is");
+  EXPECT_EQ(Done("WSFR D0 D2 K2 D1", {0, 3}).error(), "WSFR: 3 words of 2 are to be shifted");
+  EXPECT_EQ(Done("WSFR D0 D8150 D1 K1", {0, 200}).error(),
+            "WSFR: 200 values from D8150 on go beyond what there is");
   EXPECT_THAT(faults("LD X0\nWSFL K1M0 K2M20 K2 K1\nEND"),
-              ElementsAre("2:20: WSFL from K1M0 to K2M20; group as many bits in both [il.operand]"));
+              ElementsAre("2:11: WSFL from K1M0 to K2M20; group as many bits in both [il.operand]"));
 }
 
 TEST(Lx3vpIlData, AQueueGivesFirstWhatCameFirst) {
@@ -121,7 +123,7 @@ TEST(Lx3vpIlData, AQueueGivesFirstWhatCameFirst) {
   EXPECT_THAT(plc.values("D1 D10"), ElementsAre(33, 0));
   EXPECT_EQ(Done("SFWR D0 D1 K4", {0, -1}).error(), "SFWR: -1 words stand in the queue");
   EXPECT_EQ(Done("SFRD D1 D0 K4", {0, 4}).error(), "SFRD: 4 words stand in a queue of 3");
-  EXPECT_EQ(Done("SFRD D1 D0 K1").error(), "SFRD: n is 1; write 2 to 512");
+  EXPECT_EQ(Done("SFRD D1 D0 D2", {0, 0, 1}).error(), "SFRD: n is 1; write 2 to 512");
 }
 
 TEST(Lx3vpIlData, BlocksOfBitsMoveInTheirGroups) {
@@ -134,7 +136,7 @@ TEST(Lx3vpIlData, BlocksOfBitsMoveInTheirGroups) {
   EXPECT_THAT(Done("MOV K7 T5\nBMOV T5 D0 K1\nFMOV K3 K1M0 K2\nMOV K2M0 D1").words(0, 2),
               ElementsAre(7, 0x33));
   EXPECT_THAT(faults("LD X0\nBMOV K2M0 K1M20 K2\nBMOV D0 K1X0 K1\nEND"),
-              ElementsAre("2:17: BMOV from K2M0 to K1M20; group as many bits in both [il.operand]",
+              ElementsAre("2:11: BMOV from K2M0 to K1M20; group as many bits in both [il.operand]",
                           "3:9: BMOV does not take K1X0 here; it takes D, T, C or bits (K4M0) of Y, M or S "
                           "[il.operand]"));
   covers({"M8024"});
@@ -164,6 +166,7 @@ TEST(Lx3vpIlData, TimesOfDayAreComparedAndAdded) {
   const Done early("TSUBP D0 D3 D6", {5, 0, 0, 5, 0, 1});
   EXPECT_THAT(early.words(6, 3), ElementsAre(23, 59, 59));
   EXPECT_TRUE(early.flag(below));
+  EXPECT_EQ(Done("TCMP K12 D1 K0 D3 M0", {0, 60}).error(), "TCMP: the minute S2 is 60; write 0 to 59");
   EXPECT_EQ(Done("TADD D0 D3 D6", {24, 0, 0}).error(), "TADD: 24:0:0 is no time of day");
 }
 

@@ -272,11 +272,11 @@ TEST(IlPulses, SpeedsAndCountsOutOfRange) {
     scan(plc, {input});
     return plc.notes.calls.empty() ? "" : plc.notes.calls[input == 0 ? 0 : 1];
   };
-  EXPECT_EQ(told(-1, 5, 0), "error 1 6706 p.il:2: 6706: PLSY: the frequency S1 is -1; write 0 or more");
+  EXPECT_EQ(told(-1, 5, 0), "error 1 6706 p.il:2: 6706: PLSY: the frequency S1 is -1; write 0 to 200000");
   EXPECT_EQ(told(100, -5, 0),
             "error 1 6706 p.il:2: 6706: PLSY: the number of pulses S2 is -5; write 0 or more");
-  EXPECT_EQ(told(0, 5, 1), "error 9 6706 p.il:4: 6706: ZRN: the speed S1 is 0; write 1 or more");
-  EXPECT_EQ(told(100, 0, 1), "error 9 6706 p.il:4: 6706: ZRN: the creep speed S2 is 0; write 1 or more");
+  EXPECT_EQ(told(0, 5, 1), "error 9 6706 p.il:4: 6706: ZRN: the speed S1 is 0; write 1 to 200000");
+  EXPECT_EQ(told(100, 0, 1), "error 9 6706 p.il:4: 6706: ZRN: the creep speed S2 is 0; write 1 to 200000");
   EXPECT_THAT(faults("LD X0\nPLSY K100 K5 Y4\nZRN K100 K5 D0 Y0\nEND"),
               ElementsAre("2:14: PLSY does not take Y4 here; it takes Y0 to Y3 [il.operand]",
                           "3:13: ZRN does not take D0 here; it takes X, Y, M or S [il.operand]"));

@@ -180,7 +180,7 @@ TEST(Lx3vpInterrupts, LabelsAreLookedAt) {
                   "2:15: there is no label I010; begin an interrupt routine with it, behind FEND [il.jump]"));
   EXPECT_THAT(
       faults("LD X0\nREF X1 K8\nREF Y0 K12\nREF M0 K8\nEND"),
-      ElementsAre("2:8: REF begins at X1; begin where a row of eight does: X0, X10, X20 [il.operand]",
+      ElementsAre("2:5: REF begins at X1; begin where a row of eight does: X0, X10, X20 [il.operand]",
                   "3:8: REF refreshes 12 of Y0; write K8, K16 and on, as many as there are [il.operand]",
                   "4:5: REF does not take M0 here; it takes X or Y [il.operand]"));
 }
@@ -309,6 +309,48 @@ TEST(Lx3vpRelays, M8037StopsAndM8036RunsAgain) {
     EXPECT_GT(plc.pulses(), at);
   }
   covers({"M8033", "M8036", "M8037"});
+}
+
+// M8000 to M8003 tell that it does not run, the clocks go on, those of the calendar too.
+TEST(Lx3vpRelays, AStopIsToldAndTheClocksGoOn) {
+  for (const std::int64_t step_ns : {0, 1'000}) {
+    SlowPlc plc("LD M8000\nINC D0\nLDI M0\nCJ P0\nFOR K32767\nFOR K32767\nNEXT\nNEXT\nP0", a_ms, step_ns);
+    const std::string relays = "M8000 M8001 M8002 M8003";
+    EXPECT_THAT(plc.ticks(1).values(relays), ElementsAre(1, 0, 1, 0)) << "the first scan";
+    plc.run(100).set("M8037", 1).run(2);
+    EXPECT_THAT(plc.values(relays), ElementsAre(0, 1, 0, 1));
+    int seconds = 0;
+    int hundredths = 0;
+    bool second = plc.get("M8013") != 0;
+    bool hundredth = plc.get("M8011") != 0;
+    const double clock = plc.get("D8013");
+    for (int i = 0; i < 50'000; ++i) {
+      plc.ticks(1);
+      seconds += std::exchange(second, plc.get("M8013") != 0) != second ? 1 : 0;
+      hundredths += std::exchange(hundredth, plc.get("M8011") != 0) != hundredth ? 1 : 0;
+    }
+    EXPECT_EQ(seconds, 10);
+    EXPECT_EQ(hundredths, 1'000);
+    EXPECT_EQ(plc.get("D8013"), clock + 5);
+    plc.set("M8036", 1).run(5);
+    EXPECT_THAT(plc.values(relays), ElementsAre(1, 0, 0, 1));
+    // So it is where the watchdog has stopped it.
+    plc.set("D8000", 1).run(1).set("M0", 1).run(10);
+    EXPECT_THAT(plc.values(relays + " M8061"), ElementsAre(0, 1, 0, 1, 1)) << step_ns;
+    const double before = plc.get("M8014");
+    EXPECT_NE(plc.run(30'000).get("M8014"), before);
+  }
+}
+
+TEST(Lx3vpRelays, WithoutPowerTheProgramDoesNotRun) {
+  SlowPlc plc("LD M8000\nDPLSV K1000 Y0 Y5", a_ms);
+  const std::string relays = "M8000 M8001 M8002 M8003 M8013 M8147";
+  EXPECT_THAT(plc.run(700).values(relays), ElementsAre(1, 0, 0, 1, 1, 1));
+  plc.controller_.power(false);
+  EXPECT_THAT(plc.values(relays), ElementsAre(0, 1, 0, 1, 0, 0));
+  EXPECT_THAT(plc.run(700).values(relays), ElementsAre(0, 1, 0, 1, 0, 0));
+  plc.controller_.power(true);
+  EXPECT_THAT(plc.ticks(1).values("M8000 M8001 M8002 M8003"), ElementsAre(1, 0, 1, 0));
 }
 
 TEST(Lx3vpRelays, AStoppedProgramTakesNoInterruptAndComparesNothing) {

@@ -46,11 +46,11 @@ TEST(IlShifts, RotationsTurnAllBitsRound) {
 
 TEST(IlShifts, RotationsRefuseWhatIsNotOneWord) {
   EXPECT_THAT(faults("LD X0\nROL K2M0 K1\nDROR K4M0 K1\nROR D0 K17\nDROL D0 K0\nEND"),
-              ElementsAre("2:10: ROL turns 16 bits, not those of K2M0; group K4 [il.operand]",
-                          "3:11: DROR turns 32 bits, not those of K4M0; group K8 [il.operand]",
-                          "4:8: ROR turns by K17 bits; write K1 to K16 [il.operand]",
-                          "5:9: DROL turns by K0 bits; write K1 to K32 [il.operand]"));
-  EXPECT_EQ(error("ROL D0 D5"), "6706 p.il:2: 6706: ROL: a count of 0 is none of 1 to 16");
+              ElementsAre("2:5: ROL turns 16 bits, not those of K2M0; group K4 [il.operand]",
+                          "3:6: DROR turns 32 bits, not those of K4M0; group K8 [il.operand]",
+                          "4:8: ROR: n is 17; write 1 to 16 [il.operand]",
+                          "5:9: DROL: n is 0; write 1 to 32 [il.operand]"));
+  EXPECT_EQ(error("ROL D0 D5"), "6706 p.il:2: 6706: ROL: n is 0; write 1 to 16");
 }
 
 TEST(IlShifts, BitsMoveUpAndDownInGroups) {
@@ -72,10 +72,10 @@ TEST(IlShifts, BitsMoveUpAndDownInGroups) {
 
 TEST(IlShifts, ShiftsRefuseCountsThatDoNotFit) {
   EXPECT_THAT(faults("LD X0\nSFTL X0 M0 K4 K5\nSFTR X0 M0 K1025 K1\nSFTL X0 X0 K4 K1\nEND"),
-              ElementsAre("2:15: SFTL shifts 4 bits by 5; n1 is up to K1024, n2 K1 up to n1 [il.operand]",
-                          "3:18: SFTR shifts 1025 bits by 1; n1 is up to K1024, n2 K1 up to n1 [il.operand]",
+              ElementsAre("2:15: SFTL: 4 bits are shifted by 5; write 4 or less [il.operand]",
+                          "3:12: SFTR: n1 is 1025; write 1 to 1024 [il.operand]",
                           "4:9: SFTL does not take X0 here; it takes Y, M or S [il.operand]"));
-  EXPECT_EQ(error("SFTL X0 M3070 K4 K1"),
+  EXPECT_EQ(error("SFTL X0 M3070 D0 K1", 4),
             "6706 p.il:2: 6706: SFTL: 4 devices from M3070 on go beyond what there is");
   EXPECT_EQ(error("SFTL X0 M0 D0 K3", 2), "6706 p.il:2: 6706: SFTL: 3 bits of 2 are to be shifted");
 }
@@ -86,10 +86,10 @@ TEST(IlConversions, DecimalDigitsInFourBitsEach) {
   EXPECT_EQ(Once("BIN D0 D10", 0x1984).d(10), 1984);
   EXPECT_EQ(Once("DBIN D0 D10", 0x12345678, true).plc.registers.i32(10), 12345678);
   EXPECT_EQ(Once("MOV H42 K2Y0\nBIN K2Y0 D10").d(10), 42);
-  EXPECT_EQ(error("BCD D0 D10", -1), "6706 p.il:2: 6706: BCD: -1 has no BCD; it goes from 0 to 9999");
-  EXPECT_EQ(error("BCD D0 D10", 10000), "6706 p.il:2: 6706: BCD: 10000 has no BCD; it goes from 0 to 9999");
+  EXPECT_EQ(error("BCD D0 D10", -1), "6706 p.il:2: 6706: BCD: S is -1; write 0 to 9999");
+  EXPECT_EQ(error("BCD D0 D10", 10000), "6706 p.il:2: 6706: BCD: S is 10000; write 0 to 9999");
   EXPECT_EQ(error("DBCD D0 D10", 100000000, true),
-            "6706 p.il:2: 6706: DBCD: 100000000 has no BCD; it goes from 0 to 99999999");
+            "6706 p.il:2: 6706: DBCD: S is 100000000; write 0 to 99999999");
   EXPECT_EQ(error("BIN D0 D10", 0x1A84), "6706 p.il:2: 6706: BIN: H1A84 is no BCD: it has a digit A");
 }
 
@@ -98,8 +98,8 @@ TEST(IlConversions, MeansLeaveTheRemainder) {
   EXPECT_EQ(Once("MOV K-5 D1\nMEAN D0 D10 K2", 0).d(10), -2) << "towards 0";
   EXPECT_EQ(Once("DMOV K1000000 D2\nDMEANP D0 D10 K2", 2000001, true).plc.registers.i32(10), 1500000);
   EXPECT_EQ(Once("MOV H31 K2M0\nMEAN K1M0 D10 K2").d(10), 2) << "of groups, one behind the other";
-  EXPECT_EQ(error("MEAN D0 D10 K65"), "6706 p.il:2: 6706: MEAN: a count of 65 is none of 1 to 64");
-  EXPECT_EQ(error("MEAN T254 D10 K3"),
+  EXPECT_EQ(error("MEAN D0 D10 D0", 65), "6706 p.il:2: 6706: MEAN: n is 65; write 1 to 64");
+  EXPECT_EQ(error("MEAN T254 D10 D0", 3),
             "6706 p.il:2: 6706: MEAN: 3 values from T254 on go beyond what there is");
   EXPECT_EQ(error("DMEAN D8152 D10 K1"), "no error");
 }
@@ -113,7 +113,7 @@ TEST(IlConversions, SquareRootsTellWhetherTheyAreWhole) {
   EXPECT_TRUE(not_whole.flag(borrow));
   EXPECT_TRUE(Once("SQR D0 D10", 0).flag(zero));
   EXPECT_EQ(Once("DSQRP D0 D10", 2147395600, true).plc.registers.i32(10), 46340);
-  EXPECT_EQ(error("SQR D0 D10", -4), "6706 p.il:2: 6706: SQR: -4 has no square root");
+  EXPECT_EQ(error("SQR D0 D10", -4), "6706 p.il:2: 6706: SQR: S is -4; write 0 or more");
 }
 
 // Index registers.

@@ -643,9 +643,11 @@ TEST(Lx3vpState, NoMemberIsForNothing) {
   // What nobody sees, as things are: it is told and forgotten within a tick, made anew before it is read,
   // told but once anyway, or not read any more.
   const std::set<std::string> unseen{
-      "pulses_.cams_.fault_",       "pulses_.cams_.notes_",     "pulses_.cams_.slave_.pulses",
-      "pulses_.cams_.place_.cycle", "pulses_.cams_.told_late_", "pulses_.cams_.refusal_.code",
-      "pulses_.cams_.refusal_.row", "pulses_.notes_.#.code",    "pulses_.lines_.#.motion.order.output"};
+      "pulses_.cams_.#.second.fault_",        "pulses_.cams_.#.second.notes_",
+      "pulses_.cams_.#.second.slave_.pulses", "pulses_.cams_.#.second.place_.cycle",
+      "pulses_.cams_.#.second.told_late_",    "pulses_.cams_.#.second.refusal_.code",
+      "pulses_.cams_.#.second.refusal_.row",  "pulses_.notes_.#.code",
+      "pulses_.lines_.#.motion.order.output"};
   std::set<std::string> all;
   std::set<std::string> needed = unseen;
   for (const Story& story : {pulses, logic, cams, stopped, quick}) {
