@@ -22,6 +22,14 @@ class CoverageReader {
     }
   }
 
+  /// Whether a body between two places has a statement of the text.
+  [[nodiscard]] bool has_statements(std::size_t begin, std::size_t end) const {
+    for (std::size_t i = begin; i < end; ++i)
+      if (code_.code[i].statement && !code_.origins[i].standard && code_.origins[i].statement > 0)
+        return true;
+    return false;
+  }
+
   void function(const Pou& pou) {
     file(pou.line).functions[{line(pou.line), pou.name}] +=
         counts_.passed[static_cast<std::size_t>(pou.body)];
@@ -87,9 +95,14 @@ Coverage coverage_of(const Compiled& code, const Counts& counts, std::span<const
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Pou& pou = *bodies[i];
     if (pou.line == 0 || is_test(pou.name) || is_test(pou.name.substr(pou.name.find('.') + 1))) continue;
-    reader.function(pou);
-    reader.read(static_cast<std::size_t>(pou.body),
-                i + 1 < bodies.size() ? static_cast<std::size_t>(bodies[i + 1]->body) : end);
+    const auto first = static_cast<std::size_t>(pou.body);
+    const auto last = i + 1 < bodies.size() ? static_cast<std::size_t>(bodies[i + 1]->body) : end;
+    const bool by_methods = std::any_of(bodies.begin(), bodies.end(), [&](const Pou* other) {
+      return other->name.starts_with(pou.name + ".");
+    });
+    // A block of methods alone has no body to be called.
+    if (!by_methods || reader.has_statements(first, last)) reader.function(pou);
+    reader.read(first, last);
   }
   reader.read(end, code.code.size());
   return all;
