@@ -199,7 +199,10 @@ TEST(StErrors, OfWhatHasNoValueSayWhatItIs) {
       "a := SEL(c, a, b);\nEND_PROGRAM",
       {"2:13: SEL does not take P2; numbers, bits, times and texts; IF chooses between others$"});
   expect_problems("TYPE c : REAL (a, b); END_TYPE PROGRAM m VAR v : c; END_VAR END_PROGRAM",
-                  {"1:15: a range of REAL"});
+                  {"1:10: an enumeration of REAL; its values are whole numbers: (a, b) or INT (a, b)"});
+  // Its values are known for all that.
+  expect_problems("TYPE c : TIME (a, b); END_TYPE PROGRAM m VAR v : c := b; END_VAR v := a; END_PROGRAM",
+                  {"1:10: an enumeration of TIME"});
 }
 
 TEST(StErrors, UnknownNamesAreToldOncePerPou) {
