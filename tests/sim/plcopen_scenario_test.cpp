@@ -441,13 +441,14 @@ TEST_F(PlcopenScenario, AnOutputThatACallOrAnotherFileWorksIsNotIdle) {
     EXPECT_THAT(told(), IsEmpty());
     return sentences(simulation.warnings());
   };
+  const std::string idle = "QX0.0 is wired to panel.locked, and no program works it";
   // The place itself; a declaration on the line of its VAR; a variable of another file.
-  EXPECT_THAT(warned("", ", InSync\n => %QX0.0"), IsEmpty());
-  EXPECT_THAT(warned("END_VAR VAR locked AT %QX0.0 : BOOL;\n", ", InSync => locked"), IsEmpty());
-  EXPECT_THAT(warned("", ", InSync => locked", "VAR_GLOBAL locked AT %QX0.0 : BOOL; END_VAR\n"), IsEmpty());
+  EXPECT_THAT(warned("", ", InSync\n => %QX0.0"), Not(Contains(idle)));
+  EXPECT_THAT(warned("END_VAR VAR locked AT %QX0.0 : BOOL;\n", ", InSync => locked"), Not(Contains(idle)));
+  EXPECT_THAT(warned("", ", InSync => locked", "VAR_GLOBAL locked AT %QX0.0 : BOOL; END_VAR\n"),
+              Not(Contains(idle)));
   // Its declaration alone works nothing.
-  EXPECT_THAT(warned("END_VAR VAR locked AT %QX0.0 : BOOL;\n", ""),
-              ElementsAre("QX0.0 is wired to panel.locked, and no program works it"));
+  EXPECT_THAT(warned("END_VAR VAR locked AT %QX0.0 : BOOL;\n", ""), Contains(idle));
 }
 
 TEST_F(PlcopenScenario, ASlaveThatWouldCreepToItsCamIsNoted) {

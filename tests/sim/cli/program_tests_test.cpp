@@ -131,7 +131,7 @@ TEST_F(ProgramTests, EachHasItsTimeAndOneThatAssertsNothingIsSkipped) {
               "FUNCTION_BLOCK TEST_Short AssertTrue(TRUE); END_FUNCTION_BLOCK\n"
               "FUNCTION_BLOCK TEST_Idle VAR n : INT; END_VAR n := n + 1; END_FUNCTION_BLOCK\n");
   EXPECT_EQ(drycut({"test", at("t_test.st"), "--junit", at("j.xml"), "--annotate", "github"}), all_passed);
-  EXPECT_THAT(out, AllOf(HasSubstr("TEST_Idle (0.0 s), asserts nothing\n"),
+  EXPECT_THAT(out, AllOf(HasSubstr("TEST_Idle (0.0 s, asserts nothing)\n"),
                          HasSubstr("t_test.st,line=6,col=1,title=t_test%3A TEST_Idle::it asserts nothing")));
   EXPECT_THAT(content(folder / "j.xml"),
               AllOf(HasSubstr("tests=\"3\" failures=\"0\" errors=\"0\" time=\"0.500000\" skipped=\"1\""),
