@@ -109,6 +109,23 @@ TEST(StCoverage, LoopsMethodsAndWhatNothingCalls) {
                                           Pair(Pair(14, "Main"), 4)));
 }
 
+TEST(StCoverage, AConstantDecidesNothing) {
+  const auto file = scanned(
+      "PROGRAM Main\n"                                 // 1
+      "VAR i : INT; END_VAR\n"                         // 2
+      "VAR CONSTANT debug : BOOL := FALSE; END_VAR\n"  // 3
+      "IF debug THEN i := 7; END_IF\n"                 // 4
+      "WHILE TRUE DO\n"                                // 5
+      "  IF i > 2 THEN EXIT; END_IF\n"                 // 6
+      "  i := i + 1;\n"                                // 7
+      "END_WHILE\n"                                    // 8
+      "REPEAT i := 2; UNTIL TRUE END_REPEAT\n"         // 9
+      "END_PROGRAM\n",
+      1);
+  EXPECT_THAT(file.decisions, ElementsAre(Pair(6, ElementsAre(Ways{1, 3}))));
+  EXPECT_THAT(file.lines, ElementsAre(Pair(4, 1), Pair(5, 4), Pair(6, 4), Pair(7, 3), Pair(9, 1)));
+}
+
 TEST(StCoverage, WatchingAndCountingDoNotDisturbEachOther) {
   const std::string text =
       "PROGRAM Main\nVAR n : INT; END_VAR\nn := n + 1;\nIF n > 2 THEN\nn := 0;\nEND_IF\nEND_PROGRAM\n";

@@ -174,10 +174,11 @@ const Variable* Expressions::pin_of(const Type& type, const StToken& name, bool 
 void Expressions::input_of(const TypedExpression& instance, const Argument& argument, BlockCall& call) {
   const Type& type = *instance.type;
   const std::vector<const Variable*> inputs = inputs_of(type);
-  if (argument.name == nullptr && call.unnamed == inputs.size()) {
-    complain("st.call"_code, argument.tree->token->place,
-             fmt::format("{} has {} input{}", type.name, inputs.size(), inputs.size() == 1 ? "" : "s"),
-             "leave the rest out");
+  if (argument.name == nullptr && call.unnamed >= inputs.size()) {
+    if (call.unnamed++ == inputs.size())
+      complain("st.call"_code, argument.tree->token->place,
+               fmt::format("{} has {} input{}", type.name, inputs.size(), inputs.size() == 1 ? "" : "s"),
+               "leave the rest out");
     call.given.insert("?");
     return;
   }

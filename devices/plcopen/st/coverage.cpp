@@ -48,7 +48,11 @@ class CoverageReader {
     }
     const int at = code_.origins[first].line;
     file(at).line(line(at), counts_.passed[first]);
-    file(at).decisions[line(at)].push_back({counts_.passed[last] - counts_.refused[last], fails});
+    // A constant decides nothing.
+    const StInstruction& jump = code_.code[first];
+    const bool one_jump = first == last && (jump.op == StOp::jump_if || jump.op == StOp::jump_unless);
+    if (!one_jump || jump.a.base != Base::constant)
+      file(at).decisions[line(at)].push_back({counts_.passed[last] - counts_.refused[last], fails});
     return last;
   }
 

@@ -86,6 +86,7 @@ TEST(StErrors, OfStatementsAreToldOnceAtTheirPlace) {
            {"i := MUX(5, i, j);", "2:10: MUX has no value 5; 0 to 1"},
            {"TON(IN := b);", "2:1: there is no function 'TON'; it is a kind of function block"},
            {"t(b, T#1s, 3);", "2:12: TON has 2 inputs; leave the rest out"},
+           {"t(b, T#1s, 3, 4);", "2:12: TON has 2 inputs; leave the rest out"},
            {"t(b, PT := T#1s);", "2:3: an argument of 't' without a name; name its input: IN := value"},
            {"t(IN := b, IN := b);", "2:12: 'IN' is given twice; once a call"},
            {"t(Q => 5);", "2:8: the output 'Q' goes into a variable"},
