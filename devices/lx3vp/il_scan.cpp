@@ -163,33 +163,6 @@ void ProgramScan::mark(const Step& step, const Rung& rung) {
   if (watched_ && line < scanning_.size() && scanning_[line] != '+') scanning_[line] = on ? '+' : '-';
 }
 
-void ProgramScan::count() { counts_ = std::make_unique<Counts>(program_.steps.size()); }
-
-void ProgramScan::add_coverage(Coverage& to) const {
-  if (!counts_) return;
-  Coverage all;
-  auto& file = all.files[program_.file];
-  std::vector<bool> called(program_.steps.size());
-  for (const Step& step : program_.steps)
-    if (step.op() == Op::call) called[static_cast<std::size_t>(step.target)] = true;
-  for (std::size_t i = 0; i < program_.steps.size(); ++i) {
-    constexpr int always_on = 8000;
-    constexpr int always_off = 8001;
-    const Step& step = program_.steps[i];
-    const auto passed = counts_->passed[i];
-    const auto refused = counts_->refused[i];
-    if (called[i]) file.functions[{step.line, to_string(step.operands[0])}] = passed;
-    if (step.op() == Op::label || step.op() == Op::nop) continue;
-    const bool contact = is_contact(step.op());
-    file.line(step.line, contact ? passed : passed - refused);
-    const bool fixed = contact && step.operands[0].kind == OperandType::M &&
-                       step.operands[0].index == Operand::no_index &&
-                       (step.operands[0].number == always_on || step.operands[0].number == always_off);
-    if (contact && !fixed) file.decisions[step.line].push_back({passed - refused, refused});
-  }
-  to.add(all);
-}
-
 bool ProgramScan::run(Rung& rung, std::int64_t work) {
   if (!watched_ && !counts_) return run_steps<false>(rung, work);
   const bool done = run_steps<true>(rung, work);

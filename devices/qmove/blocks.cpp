@@ -69,12 +69,14 @@ void QclCompiler::for_block() {
   // The block is opened whatever its header is like, so that its NEXT is not a fault too.
   Block block{Block::Kind::for_, place, place, -1, here()};
   const NamedThing* variable = nullptr;
+  const auto before = told();
   if (expect("(", form)) {
     if (peek().kind != QclToken::Kind::name)
       syntax_error("qcl.syntax"_code, peek(), "FOR begins with an assignment, found " + found(peek()), form);
     else
       variable = assignment();
   }
+  const bool sound = told() == before;
   if (!line_failed_ && expect(",", form)) {
     const int test = here();
     condition();
@@ -83,7 +85,7 @@ void QclCompiler::for_block() {
     const int body = emit(QclOp::jump);
     block.again = here();
     mark(here());
-    if (!line_failed_ && expect(",", form)) for_step(variable, form);
+    if (!line_failed_ && expect(",", form)) for_step(variable, sound, form);
     if (!line_failed_) expect(")", form);
     emit(QclOp::jump, test);
     aim(body);
@@ -91,7 +93,7 @@ void QclCompiler::for_block() {
   blocks_.push_back(block);
 }
 
-void QclCompiler::for_step(const NamedThing* variable, const std::string& form) {
+void QclCompiler::for_step(const NamedThing* variable, bool sound, const std::string& form) {
   stack_ = 0;
   const bool assigns = peek().kind == QclToken::Kind::name &&
                        std::any_of(tokens_.begin() + static_cast<std::ptrdiff_t>(at_), tokens_.end(),
@@ -101,6 +103,10 @@ void QclCompiler::for_step(const NamedThing* variable, const std::string& form) 
     return;
   }
   const bool counts = variable && variable->kind == NamedThing::Kind::scalar;
+  if (!counts && !sound) {
+    expression();
+    return;
+  }
   if (!counts)
     return syntax_error("qcl.syntax"_code, peek(),
                         "a step without assignment needs a plain variable to count", form);

@@ -79,6 +79,7 @@ QclProgram QclCompiler::compile(std::string_view text, bool tests) {
     at_ = 0;
     stop_ = tokens_.size() - 1;
     line_failed_ = false;
+    told_names_.clear();
     last_ = tokens_.back().place;
     const int begin = here();
     const auto at = static_cast<std::size_t>(lines[i].data() - program_.text.data());
@@ -99,6 +100,7 @@ QclProgram QclCompiler::compile(std::string_view text, bool tests) {
     program_.subs.push_back({name, target.place.line, target.code});
   }
   sort();
+  if (tests) note_misspelt_assertions(program_);
   program_.begins.assign(program_.code.size(), false);
   for (const int begin : marks_) program_.begins[static_cast<std::size_t>(begin)] = true;
   if (told() > 0) {

@@ -81,7 +81,8 @@ class QclCompiler : public TokenReader<QclToken> {
   void else_block();
   void close_block(Block::Kind kind);
   void for_block();
-  void for_step(const NamedThing* variable, const std::string& form);
+  /// `sound`: no problem was told of the variable.
+  void for_step(const NamedThing* variable, bool sound, const std::string& form);
   void sub_block();
   std::optional<Block> close(std::string_view closing, Block::Kind kind, Block::Kind other);
   void unclosed(const Block& block);
@@ -98,6 +99,8 @@ class QclCompiler : public TokenReader<QclToken> {
   Type parenthesis();
   /// `left_code` and `right_code`: where the code of the two sides begins.
   void binary(std::size_t row, Type left, Type right, int left_code, int right_code, const QclToken& op);
+  /// Whether the code from `begin` on gives a constant 0.
+  [[nodiscard]] bool is_zero(Type type, int begin) const;
   void note_overflow(QclOp op, int left_code, int right_code, const QclToken& sign);
   /// The value of the code from `begin` to `end`, if it is of longs that are known.
   [[nodiscard]] std::optional<std::int32_t> constant(int begin, int end) const;
@@ -126,10 +129,11 @@ class QclCompiler : public TokenReader<QclToken> {
   QclProgram program_;
 
   bool line_failed_ = false;
-  int nesting_ = 0;             ///< of parentheses and signs, in the present expression
-  int stack_ = 0;               ///< cells on the stack at this point of the code
-  std::set<int> marks_;         ///< code at which statements begin
-  std::set<int> devices_read_;  ///< by the present statement: it waits for their samples
+  std::set<std::string> told_names_;  ///< of the present line, that are not known, in lower case
+  int nesting_ = 0;                   ///< of parentheses and signs, in the present expression
+  int stack_ = 0;                     ///< cells on the stack at this point of the code
+  std::set<int> marks_;               ///< code at which statements begin
+  std::set<int> devices_read_;        ///< by the present statement: it waits for their samples
 
   std::vector<Block> blocks_;
   Targets labels_;

@@ -101,6 +101,10 @@ void QclCompiler::binary(std::size_t row, Type left, Type right, int left_code, 
                          const QclToken& op) {
   const QclOperator& found = operators[row];
   const bool any_real = left == Type::real || right == Type::real;
+  const bool divides = found.integer == QclOp::divide || found.integer == QclOp::modulo;
+  if (divides && is_zero(right, right_code))
+    complain("qcl.out-of-range"_code, op.place, "a division by 0",
+             "it stops all tasks: test the divisor before");
   if (found.operands == Operands::longs && any_real)
     complain("qcl.type"_code, op.place,
              fmt::format("{} works on whole numbers, one side is a single", found.spelling),
@@ -115,6 +119,13 @@ void QclCompiler::binary(std::size_t row, Type left, Type right, int left_code, 
   if (found.operands == Operands::flags && left == Type::real) emit(QclOp::to_flag_real_below);
   if (!any_real) note_overflow(found.integer, left_code, right_code, op);
   emit(found.integer);
+}
+
+bool QclCompiler::is_zero(Type type, int begin) const {
+  if (line_failed_) return false;
+  if (type == Type::integer) return constant(begin, here()) == 0;
+  const Instruction& last = program_.code.back();
+  return here() == begin + 1 && last.op == QclOp::push && std::bit_cast<float>(last.a) == 0.0F;
 }
 
 // Numbers are calculated in 32 bits, which wrap.
@@ -353,6 +364,7 @@ void QclCompiler::condition() {
 
 const NamedThing* QclCompiler::find_name(const QclToken& name) {
   const NamedThing* thing = names_.find(name.text);
+  if (!thing && !told_names_.insert(lower(name.text)).second) return nullptr;
   if (const auto remedy = thing ? "" : instead_of(name.text); !remedy.empty())
     complain("qcl.unknown-name"_code, name.place, fmt::format("QCL has no {}", name.text),
              std::string(remedy));
@@ -370,6 +382,7 @@ bool QclCompiler::is_device(std::string_view name) const {
 std::optional<int> QclCompiler::find_device(const QclToken& name) {
   const NamedThing* thing = names_.find(name.text);
   if (thing && thing->kind == NamedThing::Kind::device) return thing->index;
+  if (!told_names_.insert(lower(name.text)).second) return std::nullopt;
   complain("qcl.unknown-name"_code, name.place,
            thing ? fmt::format("{} is {}, not a device", in_quotes(name.text), name_of(thing->kind))
                  : "unknown device " + in_quotes(name.text),

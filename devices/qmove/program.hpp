@@ -177,5 +177,7 @@ QclProgram compile_module(std::string_view text, const std::string& file_name,
 
 /// The text with the assertions in TEST_ subroutines as statements: the `;` before each is a blank.
 std::string with_assertions(std::string_view text);
+/// Notes comments in TEST_ subroutines that begin with nearly ASSERT.
+void note_misspelt_assertions(QclProgram& program);
 
 }  // namespace drycut::devices::qmove

@@ -80,7 +80,9 @@ TestResult run_test(const Configuration& configuration, std::vector<QclProgram> 
       result.log.add(failure_of(controller, programs[stop->task], *stop));
     if (!result.log.failures.empty() || controller.ended(task)) break;
     if (result.took_ns + times.cycle_ns <= times.timeout_ns) continue;
-    result.log.add(not_finished(result, times, "see what it waits for"));
+    auto late = not_finished(result, times, "see what it waits for here");
+    late.line = controller.positions(result.took_ns).tasks[task].line;
+    result.log.add(std::move(late));
     break;
   }
   if (coverage != nullptr) controller.add_coverage(*coverage);
@@ -102,6 +104,25 @@ std::string with_assertions(std::string_view text) {
   return all;
 }
 
+void note_misspelt_assertions(QclProgram& program) {
+  bool in_test = false;
+  int number = 0;
+  for (const auto line : split_lines(program.text)) {
+    ++number;
+    if (same_word(word_at(line, 0), "SUB")) in_test = is_test(word_at(line, 1));
+    if (same_word(word_at(line, 0), "ENDSUB")) in_test = false;
+    const auto comment = trimmed(line);
+    if (!in_test || !comment.starts_with(';')) continue;
+    const auto word = word_at(comment.substr(1), 0);
+    // INSERT and its like are words of comments.
+    if (word.empty() || lower(word)[0] != 'a' || nearest(std::string(word), {"ASSERT"}).empty()) continue;
+    program.notes.emplace_back(
+        "qcl.unknown-name"_code,
+        fmt::format("{}:{}:{}: {} is a comment and tests nothing; did you mean 'ASSERT'?", program.file,
+                    number, word.data() - line.data() + 1, word));
+  }
+}
+
 std::vector<TestResult> run_tests(const Configuration& configuration, std::span<const QclProgram> modules,
                                   std::span<const CatalogueEntry> catalogue, const TestTimes& times,
                                   Coverage* coverage) {
@@ -117,6 +138,48 @@ std::vector<TestResult> run_tests(const Configuration& configuration, std::span<
   return results;
 }
 
+namespace {
+
+/// The instructions that the task may come to; subroutines, whether something calls them or not.
+std::vector<bool> reached(const QclProgram& program) {
+  std::vector<bool> seen(program.code.size());
+  std::vector<int> open{0, program.start};
+  for (const QclSub& sub : program.subs) open.push_back(sub.code);
+  while (!open.empty()) {
+    const auto at = static_cast<std::size_t>(open.back());
+    open.pop_back();
+    if (at >= seen.size() || seen[at]) continue;
+    seen[at] = true;
+    const auto& [op, a, b] = program.code[at];
+    if (op == QclOp::jump || op == QclOp::jump_if_zero) open.push_back(a);
+    if (op != QclOp::jump && op != QclOp::back && op != QclOp::end) open.push_back(static_cast<int>(at) + 1);
+  }
+  return seen;
+}
+
+/// Whether an operator works on one value, or on one of two.
+bool is_of_one(QclOp op) {
+  return op == QclOp::negate || (op >= QclOp::negate_real && op <= QclOp::to_flag_real_below) ||
+         op == QclOp::logic_not || op == QclOp::bit_not;
+}
+
+/// Whether what stands on top of the stack before instruction `at` is made of constants alone.
+bool is_constant_before(const QclProgram& program, std::size_t at) {
+  for (int wanted = 1; wanted > 0;) {
+    if (at == 0) return false;
+    const auto op = program.code[--at].op;
+    if (op == QclOp::push)
+      --wanted;
+    else if (op < QclOp::add || op > QclOp::bit_not)
+      return false;
+    else if (!is_of_one(op))
+      ++wanted;
+  }
+  return true;
+}
+
+}  // namespace
+
 Coverage coverage_of(const QclProgram& program, const Counts& counts) {
   constexpr std::array<std::string_view, 6> structure{"ELSE", "ENDIF", "ENDWHILE", "NEXT", "SUB", "ENDSUB"};
   Coverage all;
@@ -129,13 +192,16 @@ Coverage coverage_of(const QclProgram& program, const Counts& counts) {
     left_out[i + 1] = in_test || is_one_of(structure, word_at(lines[i], 0));
     if (same_word(word_at(lines[i], 0), "ENDSUB")) in_test = false;
   }
+  const auto may_run = reached(program);
   for (std::size_t i = 0; i < counts.passed.size(); ++i) {
     const int line = program.lines[i];
     const auto op = program.code[i].op;
-    if (left_out[static_cast<std::size_t>(line)]) continue;
+    // Every module has an END; behind a JUMP it only ends the text.
+    if (left_out[static_cast<std::size_t>(line)] || (op == QclOp::end && !may_run[i])) continue;
     const bool decides = op == QclOp::jump_if_zero || op == QclOp::wait_until;
     if (program.begins[i] || decides) file.line(line, counts.passed[i]);
-    if (decides) file.decisions[line].push_back({counts.passed[i] - counts.refused[i], counts.refused[i]});
+    if (decides && !is_constant_before(program, i))
+      file.decisions[line].push_back({counts.passed[i] - counts.refused[i], counts.refused[i]});
   }
   for (const QclSub& sub : program.subs) {
     if (is_test(sub.name)) continue;

@@ -97,11 +97,18 @@ class Checker {
     if (structured_text_.empty()) return;
     constexpr st::CompileOptions library{.library = true};
     Problems together;
-    st::compile(structured_text_, library, together);
-    Problems alone;
-    for (const auto& [name, text] : structured_text_) st::compile(text, name, alone, library);
-    if (!together.empty() && !alone.empty())
-      problems_.insert(problems_.end(), together.begin(), together.end());
+    auto notes = st::compile(structured_text_, library, together).notes();
+    if (!together.empty()) {
+      Problems alone;
+      std::vector<Finding> of_each;
+      for (const auto& [name, text] : structured_text_)
+        for (auto& note : st::compile(text, name, alone, library).notes()) of_each.push_back(std::move(note));
+      if (alone.empty())
+        notes = std::move(of_each);
+      else
+        problems_.insert(problems_.end(), together.begin(), together.end());
+    }
+    notes_.insert(notes_.end(), notes.begin(), notes.end());
   }
 
   void take_doubts(const devices::lx3vp::il::IlProgram& program) {

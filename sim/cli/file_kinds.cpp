@@ -140,8 +140,12 @@ void refuse_wrong_kinds(const Takes& takes, const std::vector<std::string>& file
   for (const auto& file : files) {
     const auto* found = row_of(kind_of(file));
     if (found == nullptr || std::ranges::find(takes.kinds, found->kind) != takes.kinds.end()) continue;
+    // Where Structured Text is taken a folder of it is, too.
+    const bool lacks_texts = found->kind == FileKind::folder &&
+                             std::ranges::find(takes.kinds, FileKind::structured_text) != takes.kinds.end();
     problems.push_back({"file.other-kind"_code, file, 1, 1,
-                        fmt::format("this is {}, not {}", found->what, name_of(takes.kinds.front())),
+                        fmt::format("this is {}{}, not {}", found->what,
+                                    lacks_texts ? " without .st files" : "", name_of(takes.kinds.front())),
                         remedy_for(*found, file)});
   }
   if (problems.empty()) return;

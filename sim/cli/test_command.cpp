@@ -55,6 +55,13 @@ struct Programs {
   std::optional<st::Program> program;
   std::optional<qmove::Configuration> configuration;
   std::vector<qmove::QclProgram> modules;
+
+  /// What is no fault of theirs and worth knowing.
+  [[nodiscard]] std::vector<Finding> notes() const {
+    auto all = program ? program->notes() : std::vector<Finding>();
+    for (const auto& module : modules) all.insert(all.end(), module.notes.begin(), module.notes.end());
+    return all;
+  }
 };
 
 Time read_span_of(const std::string& text, const char* option, Problems& problems) {
@@ -120,6 +127,8 @@ std::string told(const devices::TestFailure& failure) {
   return fmt::format("{}:{}: {}", failure.file, failure.line, to_string(failure));
 }
 
+constexpr auto* asserts_nothing = "it asserts nothing";
+
 /// As a run has its checks: a suite a file.
 std::vector<report::RunResult> as_runs(const std::vector<devices::TestResult>& results) {
   std::vector<report::RunResult> runs;
@@ -136,6 +145,7 @@ std::vector<report::RunResult> as_runs(const std::vector<devices::TestResult>& r
     check.name =
         result.log.title.empty() ? result.name : fmt::format("{}: {}", result.name, result.log.title);
     check.passed = result.passed();
+    if (check.passed && result.log.assertions == 0) check.doubt = asserts_nothing;
     for (const auto& failure : result.log.failures)
       check.detail = fmt::format("{}{}{}", check.detail, check.detail.empty() ? "" : "; ", told(failure));
     if (!check.passed) check.expectation = to_string(result.log.failures.front());
@@ -143,10 +153,26 @@ std::vector<report::RunResult> as_runs(const std::vector<devices::TestResult>& r
         check.passed ? report::FilePlace{result.file, result.line}
                      : report::FilePlace{result.log.failures.front().file, result.log.failures.front().line};
     run->places.push_back(place);
+    run->took.push_back(result.took_ns);
     run->outcome.checks.push_back(std::move(check));
     run->outcome.end += result.took_ns;
   }
   return runs;
+}
+
+/// What failed, and what could not fail.
+std::vector<Annotation> annotations_of_tests(const std::vector<report::RunResult>& runs) {
+  auto all = annotations_of(runs);
+  for (const auto& run : runs)
+    for (std::size_t i = 0; i < run.outcome.checks.size(); ++i) {
+      const auto& check = run.outcome.checks[i];
+      if (!check.judged_nothing()) continue;
+      auto place = run.place_of(i);
+      place.file = report::path_from_here(place.file);
+      const auto title = printable(fmt::format("{}: {}", run.name, check.name));
+      all.push_back({Annotation::Kind::warning, std::move(place), title, check.doubt, title});
+    }
+  return all;
 }
 
 void print_result(const devices::TestResult& result) {
@@ -176,6 +202,7 @@ int test_files(const TestOptions& options) {
   check_file("--junit", options.junit, {options.force || is_own_junit(options.junit)});
   check_file("--coverage", options.coverage, {options.force, devices::lcov_header});
   const auto programs = compile_all(options, problems);
+  for (const auto& note : programs.notes()) fmt::print("note {}\n", to_string(note));
   devices::Coverage coverage;
   std::vector<devices::TestResult> results;
   if (problems.empty()) {
@@ -201,7 +228,7 @@ int test_files(const TestOptions& options) {
       write_file(options.coverage, devices::lcov_text(coverage));
       fmt::print("coverage: {}, {}\n", report::coverage_text(coverage), options.coverage.string());
     }
-    annotate(options.annotate, annotations_of(runs));
+    annotate(options.annotate, annotations_of_tests(runs));
   } catch (const std::exception& error) {
     return print_failure(drycut::words_of(error));
   }

@@ -54,11 +54,25 @@ int times_named(const std::string& text, const std::string& word) {
   return times;
 }
 
-/// The name before `at` in its line, and its colon: "  lamp AT %QX0.1".
-std::string name_before(const std::string& text, std::size_t at) {
-  const auto line = text.rfind('\n', at) + 1;
-  const auto words = split_words(std::string_view(text).substr(line, at - line), {1, 1}, " \t,:");
-  return words.empty() ? "" : words.front().text;
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+/// The names that a declaration has before `at`, where its AT or its ':' stands: "lamp" of "VAR lamp AT",
+/// "first", "second" of "first, second :".
+std::vector<std::string> names_before(std::string_view text, std::size_t at) {
+  std::vector<std::string> names;
+  const auto skip = [&] {
+    while (at > 0 && is_blank(text[at - 1])) --at;
+  };
+  for (;;) {
+    skip();
+    const auto end = at;
+    while (at > 0 && in_name(text[at - 1])) --at;
+    if (at == end) return names;
+    names.emplace_back(text.substr(at, end - at));
+    skip();
+    if (at == 0 || text[at - 1] != ',') return names;
+    --at;
+  }
 }
 
 /// "IX0.0", "QX0.0", which a program declares, and not "Knife.ready", which an axis has.
@@ -67,15 +81,28 @@ bool is_declared(const std::string& terminal) {
          is_digit(terminal[2]);
 }
 
+/// The name that a variable of Structured Text has by AT for a terminal, "" where only the terminal itself is
+/// named; nothing where neither is.
+std::optional<std::string> name_by_at(const std::string& words, const std::string& terminal) {
+  std::optional<std::string> name;
+  for (auto place = words.find("%" + terminal); place != std::string::npos;
+       place = words.find("%" + terminal, place + 1)) {
+    if (!is_word_at(words, place + 1, terminal.size())) continue;
+    std::size_t at = place;  // behind the last letter before it
+    while (at > 0 && is_blank(words[at - 1])) --at;
+    const bool named = at >= 2 && words.compare(at - 2, 2, "at") == 0 && is_word_at(words, at - 2, 2);
+    if (const auto names = named ? names_before(words, at - 2) : std::vector<std::string>(); !names.empty())
+      return names.front();
+    name = "";
+  }
+  return name;
+}
+
 /// The name, "" = without one or a device's, that Structured Text by AT or a configuration has for a
 /// terminal; nothing where it does not have the terminal. All in small letters.
 std::optional<std::string> declared_name(const std::string& language, const std::string& words,
                                          const std::string& terminal) {
-  if (language == "st") {
-    const auto at = words.find("%" + terminal);
-    if (at == std::string::npos || !is_word_at(words, at + 1, terminal.size())) return {};
-    return name_before(words, at);
-  }
+  if (language == "st") return name_by_at(words, terminal);
   const auto at = language == "cnf" ? words.find(terminal) : std::string::npos;
   if (at == std::string::npos) return {};
   const auto line = words.rfind('\n', at) + 1;
@@ -133,15 +160,17 @@ bool is_named(const std::string& terminal, const std::vector<ReadProgram>& progr
       continue;
     }
     if (program.language == "st")
-      for (const auto* whole : {"%qb", "%qw", "%qd"})
+      for (const auto* whole : {"%qb", "%qw", "%qd", "%ql"})
         if (how == Named::perhaps && words.find(whole) != std::string::npos) return true;
     const auto name = declared_name(program.language, words, wanted);
     if (!name) continue;
     if (name->empty()) return true;
-    if (program.language == "st") return times_named(words, *name) > 1;
-    int times = 0;
+    // All texts of one language are one program; AT names both once.
+    const bool is_st = program.language == "st";
+    int times = is_st ? -2 : 0;
     for (const auto& [other, other_words] : programs)
-      if (other.language == "qcl") times += times_named(other_words, *name);
+      if (other.language == (is_st ? "st" : "qcl"))
+        times += times_named(other_words, *name) + (is_st ? times_named(other_words, wanted) : 0);
     return times > 0;
   }
   return false;
@@ -160,20 +189,29 @@ std::string name_in_program(const std::string& terminal, const std::vector<ReadP
   return "";
 }
 
+namespace {
+
+/// Whether one of the calls of an instance has this argument, without blanks.
+bool calls_with(const std::string& words, const std::string& name, const std::string& argument) {
+  for (auto call = words.find(name + "("); call != std::string::npos;
+       call = words.find(name + "(", call + 1)) {
+    auto arguments = words.substr(call, words.find(')', call) - call);
+    std::erase_if(arguments, is_blank);
+    if (is_word_at(words, call, name.size()) && arguments.find(argument) != std::string::npos) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 bool calls_block(const std::vector<ReadProgram>& programs, const std::string& type, const std::string& axis) {
   for (const auto& [program, words] : programs) {
     if (program.language != "st") continue;
     for (auto at = words.find(type); at != std::string::npos; at = words.find(type, at + 1)) {
-      const auto name = name_before(words, at);
-      if (name.empty()) continue;
-      for (auto call = words.find(name + "("); call != std::string::npos;
-           call = words.find(name + "(", call + 1)) {
-        auto arguments = words.substr(call, words.find(')', call) - call);
-        std::erase_if(arguments, [](char c) { return c == ' ' || c == '\t' || c == '\n'; });
-        if (is_word_at(words, call, name.size()) &&
-            arguments.find("axis:=" + lower(axis)) != std::string::npos)
-          return true;
-      }
+      const auto colon = words.find_last_not_of(" \t\n\r", at - 1);
+      if (at == 0 || colon == std::string::npos || words[colon] != ':') continue;
+      for (const auto& name : names_before(words, colon))
+        if (calls_with(words, name, "axis:=" + lower(axis))) return true;
     }
   }
   return false;

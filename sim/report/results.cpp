@@ -63,16 +63,20 @@ std::string suite_of(const RunResult& result) {
   const bool stopped = !outcome.failure.empty();
   const auto cases = outcome.checks.size() + (stopped ? 1 : 0);
   const double each = seconds(outcome.end) / static_cast<double>(std::max<std::size_t>(cases, 1));
+  const auto skipped = std::ranges::count_if(
+      outcome.checks, [](const auto& check) { return check.so_far || check.judged_nothing(); });
   auto text = fmt::format(
-      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.6f}\" file=\"{}\">\n",
-      escaped(result.name), cases, failed, stopped ? 1 : 0, seconds(outcome.end),
+      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.6f}\" skipped=\"{}\" "
+      "file=\"{}\">\n",
+      escaped(result.name), cases, failed, stopped ? 1 : 0, seconds(outcome.end), skipped,
       escaped(path_from_here(result.scenario)));
   text += properties_of(result);
   const auto sign = loop::sign_told(outcome);
   for (std::size_t i = 0; i < outcome.checks.size(); ++i) {
     const auto& check = outcome.checks[i];
-    text += case_of(result, i, check.name, each,
-                    check.so_far ? "<skipped message=\"it held until the run stopped\"/>"
+    text += case_of(result, i, check.name, i < result.took.size() ? seconds(result.took[i]) : each,
+                    check.so_far             ? "<skipped message=\"it held until the run stopped\"/>"
+                    : check.judged_nothing() ? fmt::format("<skipped message=\"{}\"/>", escaped(check.doubt))
                     : check.passed
                         ? ""
                         : fmt::format("<failure message=\"{}{}{}\">{}; {}{}{}</failure>",

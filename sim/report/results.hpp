@@ -34,6 +34,8 @@ struct RunResult {
   std::optional<std::uint64_t> seed = {};  ///< absent: it compares runs
   /// Of the checks, in their order; a check of the program's own has none.
   std::vector<FilePlace> places = {};
+  /// Of checks that ran one after the other, as tests do, what each took; empty: they share one run.
+  std::vector<Time> took = {};
 
   /// Of a check, else the beginning of the scenario.
   [[nodiscard]] FilePlace place_of(std::size_t check) const;
@@ -72,9 +74,9 @@ std::string scenario_text(const scenario::Scenario& scenario);
 void write_scenario(const scenario::Scenario& scenario, const std::filesystem::path& file);
 
 /// junit.xml over all scenarios: a suite a scenario, a case a check with its place; a run that stopped is an
-/// error. Times are the machine's: the same run has the same bytes. All checks are judged in one run, whose
-/// time is shared out among them, so that sums are right. A report is attached to its suite and to what
-/// failed.
+/// error, a check that judged nothing is skipped. Times are the machine's: the same run has the same bytes.
+/// Where all checks are judged in one run its time is shared out among them, so that sums are right. A report
+/// is attached to its suite and to what failed.
 void write_junit(const std::vector<RunResult>& results, const std::filesystem::path& file);
 
 /// "0.0530 mm left, at 7.2040 s"; "" where there is no margin to tell. Then what else

@@ -104,8 +104,26 @@ TEST(StCoverage, LoopsMethodsAndWhatNothingCalls) {
   EXPECT_THAT(file.decisions,
               ElementsAre(Pair(17, ElementsAre(Ways{8, 4})), Pair(20, ElementsAre(Ways{4, 4})),
                           Pair(21, ElementsAre(Ways{0, 4})), Pair(23, ElementsAre(Ways{2, 2}))));
-  EXPECT_THAT(file.functions, ElementsAre(Pair(Pair(1, "Ramp"), 0), Pair(Pair(3, "Ramp.Up"), 2),
-                                          Pair(Pair(6, "Ramp.Down"), 0), Pair(Pair(14, "Main"), 4)));
+  // Ramp has no body of its own.
+  EXPECT_THAT(file.functions, ElementsAre(Pair(Pair(3, "Ramp.Up"), 2), Pair(Pair(6, "Ramp.Down"), 0),
+                                          Pair(Pair(14, "Main"), 4)));
+}
+
+TEST(StCoverage, AConstantDecidesNothing) {
+  const auto file = scanned(
+      "PROGRAM Main\n"                                 // 1
+      "VAR i : INT; END_VAR\n"                         // 2
+      "VAR CONSTANT debug : BOOL := FALSE; END_VAR\n"  // 3
+      "IF debug THEN i := 7; END_IF\n"                 // 4
+      "WHILE TRUE DO\n"                                // 5
+      "  IF i > 2 THEN EXIT; END_IF\n"                 // 6
+      "  i := i + 1;\n"                                // 7
+      "END_WHILE\n"                                    // 8
+      "REPEAT i := 2; UNTIL TRUE END_REPEAT\n"         // 9
+      "END_PROGRAM\n",
+      1);
+  EXPECT_THAT(file.decisions, ElementsAre(Pair(6, ElementsAre(Ways{1, 3}))));
+  EXPECT_THAT(file.lines, ElementsAre(Pair(4, 1), Pair(5, 4), Pair(6, 4), Pair(7, 3), Pair(9, 1)));
 }
 
 TEST(StCoverage, WatchingAndCountingDoNotDisturbEachOther) {
@@ -172,11 +190,33 @@ TEST(IlCoverage, ContactsAreDecisionsAndWhatNeedsPowerRunsWithIt) {
   const auto& file = coverage.files["p.il"];
   EXPECT_THAT(file.lines, ElementsAre(Pair(1, 4), Pair(2, 4), Pair(3, 4), Pair(4, 4), Pair(5, 4), Pair(6, 2),
                                       Pair(7, 4), Pair(8, 1), Pair(9, 4), Pair(10, 0), Pair(11, 4),
-                                      Pair(13, 1), Pair(14, 1), Pair(15, 1), Pair(16, 0)));
+                                      Pair(13, 1), Pair(14, 1), Pair(15, 1)))
+      << "nothing leads to the END";
   EXPECT_THAT(file.decisions, ElementsAre(Pair(3, ElementsAre(Ways{2, 2})), Pair(4, ElementsAre(Ways{0, 4})),
                                           Pair(5, ElementsAre(Ways{4, 0})), Pair(7, ElementsAre(Ways{1, 3})),
                                           Pair(9, ElementsAre(Ways{0, 4}))));
   EXPECT_THAT(file.functions, ElementsAre(Pair(Pair(12, "P1"), 1)));
+}
+
+TEST(IlCoverage, AnEndThatAScanComesToIsALine) {
+  using namespace lx3vp;
+  for (const auto& [text, end] : {std::pair<std::string, int>{"LD X0\nOUT Y0\nEND\n", 3},
+                                  {"LD X0\nCJ P63\nLD X1\nOUT Y1\nFEND\nEND\n", 6}}) {
+    Problems problems;
+    const auto program = il::compile(text, "p.il", problems);
+    for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
+    il::ProgramScan scan(program);
+    Registers registers;
+    registers.x[0] = true;
+    il::Notes notes;
+    scan.count();
+    scan.scan(registers, notes);
+    Coverage coverage;
+    scan.add_coverage(coverage);
+    const auto& lines = coverage.files["p.il"].lines;
+    ASSERT_TRUE(lines.contains(end)) << text;
+    EXPECT_EQ(lines.at(end), 1U) << text;
+  }
 }
 
 TEST(QclCoverage, CountsAreThoseOfACountByHand) {
@@ -233,9 +273,48 @@ TEST(QclCoverage, CountsAreThoseOfACountByHand) {
   EXPECT_THAT(file.decisions.at(3), ElementsAre(Ways{1, 2}));
   EXPECT_THAT(file.decisions.at(8), ElementsAre(Ways{9, 3}));
   EXPECT_EQ(file.decisions.at(11)[0][0], 3U);
-  EXPECT_THAT(file.decisions.at(12), ElementsAre(Ways{3, 0}));
+  EXPECT_FALSE(file.decisions.contains(12)) << "a constant decides nothing";
   EXPECT_THAT(file.decisions.at(13), ElementsAre(Ways{2, 1}));
   EXPECT_THAT(file.functions, ElementsAre(Pair(Pair(17, "Twice"), 1)));
+}
+
+TEST(QclCoverage, WhatDecidesNothingIsNoBranchAndAnEndWithoutAWayToItNoLine) {
+  using namespace qmove;
+  Problems problems;
+  const auto configuration =
+      parse_configuration(qmove::testing::usual_cnf, "test.cnf", qmove::testing::puppets(), problems);
+  const auto program = compile_module(
+      "MAIN:\n"                   // 1
+      "IF cTen GT 2 AND NOT 0\n"  // 2
+      "  glI = glI + 1\n"         // 3
+      "ENDIF\n"                   // 4
+      "WHILE 1.5 - 2\n"           // 5
+      "  IF glI GT cTen - 8\n"    // 6
+      "    END\n"                 // 7
+      "  ENDIF\n"                 // 8
+      "  glI = glI + 1\n"         // 9
+      "  WAIT cTen\n"             // 10
+      "ENDWHILE\n"                // 11
+      "JUMP MAIN\n"               // 12
+      "SUB Idle\n"                // 13
+      "  glJ = 0\n"               // 14
+      "ENDSUB\n"                  // 15
+      "END\n",                    // 16
+      "t.mod", configuration, qmove::testing::puppets(), problems);
+  for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
+  QmoveController controller(configuration, {program}, qmove::testing::puppets(), 2'000'000);
+  controller.count_programs();
+  for (std::int64_t time = 0; time < 20'000'000; time += 1'000'000) {
+    controller.run_devices(time);
+    controller.run_tasks(time);
+  }
+  Coverage coverage;
+  controller.add_coverage(coverage);
+  const auto& file = coverage.files["t.mod"];
+  EXPECT_THAT(file.decisions, ElementsAre(Pair(6, ElementsAre(Ways{1, 2}))));
+  EXPECT_GT(file.lines.at(7), 0U) << "an END that something leads to";
+  EXPECT_FALSE(file.lines.contains(16));
+  EXPECT_EQ(file.lines.at(14), 0U);
 }
 
 TEST(Lcov, ATableOfAllThatItKnows) {

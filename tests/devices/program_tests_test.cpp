@@ -191,6 +191,38 @@ TEST(StTests, WhatDoesNotFitIsToldWhereItStands) {
                   HasSubstr("takes a text, not INT"), testing::StartsWith("9:"), testing::StartsWith("11:")));
 }
 
+TEST(StTests, AMisspeltAssertionIsToldWithTheRightOne) {
+  EXPECT_THAT(
+      st_problems("FUNCTION_BLOCK TEST_a VAR n : INT; END_VAR\n"
+                  "ASSERT_EQUALS_INT(1, n);\n"
+                  "AssertEqualINT(1, n);\n"
+                  "AssertTru(TRUE);\n"
+                  "TEST_FINISH();\n"
+                  "END_FUNCTION_BLOCK\n"),
+      ElementsAre(HasSubstr("2:1: there is no function 'ASSERT_EQUALS_INT'; did you mean "
+                            "'AssertEquals_INT'?"),
+                  HasSubstr("3:1: there is no function 'AssertEqualINT'; did you mean "
+                            "'AssertEquals_INT'?"),
+                  HasSubstr("did you mean 'AssertTrue'?"), HasSubstr("did you mean 'TEST_FINISHED'?")));
+  // Where there are none its name is known all the same.
+  EXPECT_THAT(st_problems("PROGRAM Main AssertTrue(TRUE, 'x'); END_PROGRAM\n", false),
+              ElementsAre(HasSubstr("there is no function 'AssertTrue'; tests have it")));
+}
+
+TEST(StTests, AFunctionIsNoTest) {
+  const auto notes = [](const std::string& text) {
+    std::vector<std::string> told;
+    for (const auto& note : compiled({{"t.st", text}}).notes()) told.push_back(note.text);
+    return told;
+  };
+  const std::string function =
+      "FUNCTION TEST_Twice : BOOL\nAssertTrue(TRUE);\nTEST_Twice := TRUE;\nEND_FUNCTION\n";
+  EXPECT_THAT(notes(function),
+              ElementsAre(HasSubstr("t.st:1:10: FUNCTION TEST_Twice is no test, and nothing calls it")));
+  EXPECT_THAT(notes(function + "FUNCTION_BLOCK TEST_a AssertTrue(TEST_Twice()); END_FUNCTION_BLOCK\n"),
+              IsEmpty());
+}
+
 TEST(StTests, AProgramThatIsNoTestHasNoAssertions) {
   const std::string main = "PROGRAM Main AssertTrue(TRUE, 'x'); END_PROGRAM\n";
   Problems problems;
@@ -232,6 +264,17 @@ TEST(StTests, CoverageLeavesTheTestsOut) {
   const auto& file = coverage.files.at("a.st");
   EXPECT_THAT(file.lines, ElementsAre(Pair(3, 2), Pair(4, 0), Pair(5, 2), Pair(6, 1)));
   EXPECT_THAT(file.functions, ElementsAre(Pair(Pair(1, "Sign"), 2)));
+}
+
+TEST(StTests, ASuiteOfMethodsIsNoFunctionOfTheProgram) {
+  Coverage coverage;
+  plcopen::st::run_tests(compiled({{"t.st",
+                                    "FUNCTION_BLOCK Suite\n"
+                                    "METHOD TEST_one AssertTrue(TRUE); END_METHOD\n"
+                                    "METHOD TEST_two AssertTrue(TRUE); END_METHOD\n"
+                                    "END_FUNCTION_BLOCK\n"}}),
+                         {}, &coverage);
+  EXPECT_THAT(coverage.files, IsEmpty());
 }
 
 struct Qcl {
@@ -304,8 +347,29 @@ TEST(QclTests, TasksWithoutTestsRunBesideItAndTimeGoesOn) {
             "  glI = 5 / glJ\n"
             "ENDSUB\n"}}};
   EXPECT_THAT(told(qcl.results({1'000'000, 100'000'000})),
-              ElementsAre("TEST_Lamp 20 ms", HasSubstr("t.mod:9: it has not come to its end within 0.1 s"),
+              ElementsAre("TEST_Lamp 20 ms", HasSubstr("t.mod:10: it has not come to its end within 0.1 s"),
                           "TEST_Error 0 ms; t.mod:13: error 6: division by zero"));
+}
+
+TEST(QclTests, AMisspeltAssertionIsNoted) {
+  Problems problems;
+  const auto configuration =
+      qmove::parse_configuration(qmove::testing::usual_cnf, "test.cnf", qmove::testing::puppets(), problems);
+  const std::string text =
+      "END\nSUB TEST_a\n  ; ASERT glI\n  ;assertt glI\n  ; insert, asks, ASSERTION\n  ; ASSERT 1\nENDSUB\n"
+      "SUB Other\n  ; ASERT glI\nENDSUB\n";
+  const auto notes = [&](bool tests) {
+    std::vector<std::string> told;
+    for (const auto& note :
+         qmove::compile_module(text, "t.mod", configuration, qmove::testing::puppets(), problems, tests)
+             .notes)
+      told.push_back(note.text);
+    return told;
+  };
+  EXPECT_THAT(notes(true), ElementsAre(HasSubstr("t.mod:3:5: ASERT is a comment and tests nothing"),
+                                       HasSubstr("t.mod:4:4: assertt is a comment and tests nothing")));
+  EXPECT_THAT(notes(false), IsEmpty());
+  EXPECT_TRUE(problems.empty());
 }
 
 TEST(QclTests, ElsewhereItStaysAComment) {

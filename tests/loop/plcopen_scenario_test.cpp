@@ -421,6 +421,36 @@ TEST_F(PlcopenScenario, WhatADriveNeedsAndNothingIsWiredToIsAWarning) {
                           "Knife.reference gives a reference, and nothing is wired to it"));
 }
 
+TEST_F(PlcopenScenario, AnOutputThatACallOrAnotherFileWorksIsNotIdle) {
+  /// With `locked` declared and given so, and a second file.
+  const auto warned = [&](const std::string& declared, const std::string& given,
+                          const std::string& more = "") {
+    std::string text = program;
+    const std::string declaration = "  locked AT %QX0.0 : BOOL;\n";
+    text.replace(text.find(declaration), declaration.size(), declared);
+    text.replace(text.find(", InSync => locked"), 18, given);
+    write("line.st", text);
+    auto scene = std::string(line);
+    if (!more.empty()) {
+      write("more.st", more);
+      scene.replace(scene.find("line.st"), 7, "[line.st, more.st]");
+    }
+    problems.clear();
+    const auto scenario = read(scene);
+    Simulation simulation(scenario, problems);
+    EXPECT_THAT(told(), IsEmpty());
+    return sentences(simulation.warnings());
+  };
+  const std::string idle = "QX0.0 is wired to panel.locked, and no program works it";
+  // The place itself; a declaration on the line of its VAR; a variable of another file.
+  EXPECT_THAT(warned("", ", InSync\n => %QX0.0"), Not(Contains(idle)));
+  EXPECT_THAT(warned("END_VAR VAR locked AT %QX0.0 : BOOL;\n", ", InSync => locked"), Not(Contains(idle)));
+  EXPECT_THAT(warned("", ", InSync => locked", "VAR_GLOBAL locked AT %QX0.0 : BOOL; END_VAR\n"),
+              Not(Contains(idle)));
+  // Its declaration alone works nothing.
+  EXPECT_THAT(warned("END_VAR VAR locked AT %QX0.0 : BOOL;\n", ""), Contains(idle));
+}
+
 TEST_F(PlcopenScenario, ASlaveThatWouldCreepToItsCamIsNoted) {
   const auto notes = [&](const std::string& axes, const std::string& more = "") {
     problems.clear();

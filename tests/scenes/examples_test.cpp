@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "devices/qmove/catalogue.hpp"
+#include "devices/qmove/tests.hpp"
 #include "sim/loop/simulation.hpp"
 
 namespace drycut::sim {
@@ -56,6 +58,27 @@ void run_program(const std::string& name) {
 }
 
 TEST(WholePrograms, StopOrdersInQcl) { run_program("stop_orders"); }
+TEST(WholePrograms, StopOrdersInQclPassTheirOwnTests) {
+  namespace qmove = devices::qmove;
+  const auto folder = fs::path(DRYCUT_SOURCE_DIR) / "tests/scenes/programs";
+  const auto text = [&](const char* name) {
+    std::stringstream buffer;
+    buffer << std::ifstream(folder / name).rdbuf();
+    return buffer.str();
+  };
+  Problems problems;
+  const auto configuration =
+      qmove::parse_configuration(text("stop_orders.cnf"), "stop_orders.cnf", devices::catalogue(), problems);
+  const std::vector modules{qmove::compile_module(text("stop_shift.mod"), "stop_shift.mod", configuration,
+                                                  devices::catalogue(), problems, true)};
+  ASSERT_TRUE(problems.empty()) << to_string(problems.front());
+  const auto results = qmove::run_tests(configuration, modules, devices::catalogue(), {}, nullptr);
+  EXPECT_EQ(results.size(), 4U);
+  for (const auto& result : results) {
+    EXPECT_TRUE(result.passed()) << result.name << ": " << to_string(result.log.failures.front());
+    EXPECT_GT(result.log.assertions, 0) << result.name;
+  }
+}
 TEST(WholePrograms, SawOrdersInAnInstructionList) { run_program("saw_orders"); }
 
 TEST(Examples, Camming4Startup) { run("camming4_startup"); }

@@ -97,6 +97,22 @@ std::vector<TypedExpression> Expressions::bounds_of(const TypedExpression& array
   return bounds;
 }
 
+/// An index less the lower bound, looked at when the program runs; nothing if it is none.
+std::optional<TypedExpression> Expressions::open_index(const Tree& tree, const TypedExpression& low,
+                                                       const TypedExpression& high) {
+  const TypedExpression index = typed(tree);
+  if (index.unknown()) return std::nullopt;
+  if (!is_integer(index.type->basic)) {
+    complain("st.type"_code, index.place, fmt::format("the index is {}", index.type->name),
+             "an index is a whole number");
+    return std::nullopt;
+  }
+  return TypedExpression{
+      type_of(Basic::lint), index.place,
+      add_node(StOp::index, Basic::lint, index.place, value_node(index), value_node(low), value_node(high)),
+      index.depth + 1};
+}
+
 TypedExpression Expressions::open_element(TypedExpression array, const Tree& tree) {
   const auto dimensions = static_cast<std::size_t>(array.type->open);
   if (tree.parts.size() - 1 != dimensions || array.bounds.size() != 2 * dimensions)
@@ -107,27 +123,20 @@ TypedExpression Expressions::open_element(TypedExpression array, const Tree& tre
   const Type* const lint = type_of(Basic::lint);
   std::optional<TypedExpression> behind;
   for (std::size_t i = 0; i < dimensions; ++i) {
-    const TypedExpression index = typed(tree.parts[i + 1]);
-    if (index.unknown()) return unknown_at(tree.token->place);
-    if (!is_integer(index.type->basic))
-      return refuse("st.type"_code, index.place, fmt::format("the index is {}", index.type->name),
-                    "an index is a whole number");
     const TypedExpression& low = array.bounds[2 * i];
     const TypedExpression& high = array.bounds[2 * i + 1];
-    const TypedExpression from_low{
-        lint, index.place,
-        add_node(StOp::index, Basic::lint, index.place, value_node(index), value_node(low), value_node(high)),
-        index.depth + 1};
+    const auto from_low = open_index(tree.parts[i + 1], low, high);
+    if (!from_low) return unknown_at(tree.token->place);
     if (!behind) {
       behind = from_low;
       continue;
     }
     const auto apply = [&](StOp op, const TypedExpression& a, const TypedExpression& b) {
-      return apply_op(op, lint, index.place, a, b);
+      return apply_op(op, lint, from_low->place, a, b);
     };
     const TypedExpression length =
-        apply(StOp::add, apply(StOp::subtract, high, low), constant(lint, 1, index.place));
-    behind = apply(StOp::add, apply(StOp::multiply, *behind, length), from_low);
+        apply(StOp::add, apply(StOp::subtract, high, low), constant(lint, 1, from_low->place));
+    behind = apply(StOp::add, apply(StOp::multiply, *behind, length), *from_low);
   }
   const Type* const element = array.type->element;
   const int span = add_span({0, most_cells, element->cells});

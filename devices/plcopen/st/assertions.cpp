@@ -12,23 +12,22 @@
 
 // Tests in the text: which units they are, what they say, and what becomes of that.
 namespace drycut::devices::plcopen::st {
-namespace {
-
-constexpr std::string_view finished_word = "TEST_FINISHED";
-
-/// The inputs of an assertion in their order, "" = the function has no more.
-using InputWords = std::array<std::string_view, 4>;
-constexpr InputWords of_condition{"Condition", "Message"};
-constexpr InputWords of_two{"Expected", "Actual", "Delta", "Message"};
-constexpr InputWords of_title{"TestName"};
 
 /// What the text calls: AssertTrue, AssertEquals_INT, TEST.
 struct AssertionCall {
+  using Inputs = std::array<std::string_view, 4>;
   Assertion says = Assertion::equal;
-  InputWords inputs = {};
+  Inputs inputs = {};          ///< in their order, "" = it has no more
   const Type* type = nullptr;  ///< of AssertEquals_REAL
   bool truth = true;           ///< AssertTrue
 };
+
+namespace {
+
+constexpr std::string_view finished_word = "TEST_FINISHED";
+constexpr AssertionCall::Inputs of_condition{"Condition", "Message"};
+constexpr AssertionCall::Inputs of_two{"Expected", "Actual", "Delta", "Message"};
+constexpr AssertionCall::Inputs of_title{"TestName"};
 
 std::optional<AssertionCall> assertion_named(std::string_view name) {
   constexpr std::string_view equals = "AssertEquals";
@@ -55,88 +54,112 @@ std::string told_name(const Unit& unit) {
                                : fmt::format("{}.{}", unit.owner->name.text, unit.name.text);
 }
 
+bool Expressions::may_assert() const { return unit_ != nullptr && (asserts_ || tests_something(*unit_)); }
+
+bool Expressions::is_assertion(std::string_view name) { return assertion_named(name).has_value(); }
+
+void Expressions::add_assertion_names(std::vector<std::string>& names) {
+  for (const auto* name : {"AssertTrue", "AssertFalse", "AssertEquals", "TEST", "TEST_FINISHED"})
+    names.emplace_back(name);
+  for (const auto& type : elementary_names()) names.push_back("AssertEquals_" + type);
+}
+
 std::optional<TypedExpression> Expressions::assertion_call(const StToken& name,
                                                            const std::vector<Argument>& given) {
   const auto call = assertion_named(name.text);
-  if (!call || unit_ == nullptr || (!asserts_ && !tests_something(*unit_))) return std::nullopt;
-  std::array<std::optional<TypedExpression>, 4> values;
-  const auto inputs = static_cast<std::size_t>(std::find(call->inputs.begin(), call->inputs.end(), "") -
-                                               call->inputs.begin());
+  if (!call || !may_assert()) return std::nullopt;
+  const auto values = assertion_inputs(*call, name, given);
+  if (!values) return unknown_at(name.place);
+  const auto needed = [&](std::size_t input) {
+    if (!(*values)[input])
+      give_up("st.call"_code, name.place, fmt::format("{} lacks its {}", name.text, call->inputs[input]),
+              "give it");
+    return *(*values)[input];
+  };
+  const Type* boolean = type_of(Basic::boolean);
+  const TypedExpression none = constant(boolean, 0, name.place);
+  Comparison of{none, none, constant(type_of(Basic::lreal), cell_of(0), name.place), boolean};
+  std::optional<TypedExpression> message;
+  if (call->inputs == of_condition) {
+    of.expected = constant(boolean, call->truth ? 1 : 0, name.place);
+    of.actual = converted(needed(0), *boolean);
+    message = (*values)[1];
+  } else if (call->inputs == of_title) {
+    message = needed(0);
+  } else if (call->inputs == of_two) {
+    of.expected = needed(0);
+    of.actual = needed(1);
+    if (!make_comparable(of, *call, (*values)[2], name)) return unknown_at(name.place);
+    message = (*values)[3];
+  }
+  if (message && message->type->basic != Basic::string)
+    return refuse("st.type"_code, message->place,
+                  fmt::format("{} takes a text, not {}", name.text, message->type->name), "'what is tested'");
+  if (of.expected.unknown() || of.actual.unknown() || of.delta.unknown()) return unknown_at(name.place);
+  const int text = message ? message->node : literal_string("", name.place);
+  const int list = add_list({value_node(of.expected), value_node(of.actual), value_node(of.delta), text});
+  const int node = add_node(StOp::assertion, of.type->basic, name.place, list, -1, -1,
+                            static_cast<std::int64_t>(call->says));
+  return TypedExpression{boolean, name.place, node, depth_over({of.expected, of.actual, of.delta})};
+}
+
+/// What is given to each input, by order or by name; nothing if a value of it is unknown.
+std::optional<Expressions::AssertionInputs> Expressions::assertion_inputs(
+    const AssertionCall& call, const StToken& name, const std::vector<Argument>& given) {
+  AssertionInputs values;
+  const auto end = std::find(call.inputs.begin(), call.inputs.end(), "");
+  const auto inputs = static_cast<std::size_t>(end - call.inputs.begin());
   std::size_t next = 0;
   for (const Argument& argument : given) {
-    TypedExpression value = typed(*argument.tree, call->type);
-    if (value.unknown()) return unknown_at(name.place);
+    TypedExpression value = typed(*argument.tree, call.type);
+    if (value.unknown()) return std::nullopt;
     std::size_t input = next++;
     if (argument.name != nullptr)
       input = static_cast<std::size_t>(
-          std::find_if(call->inputs.begin(), call->inputs.begin() + static_cast<std::ptrdiff_t>(inputs),
+          std::find_if(call.inputs.begin(), end,
                        [&](std::string_view known) { return argument.name->word(known); }) -
-          call->inputs.begin());
+          call.inputs.begin());
     // AssertEquals(5, count, 'text'): no Delta.
     const bool text = value.type->basic == Basic::string;
     if (argument.name == nullptr && input == 2 && inputs > 2 && text) ++input;
     if (input >= inputs || values[input])
       give_up("st.call"_code, value.place, fmt::format("{} has no such input", name.text),
-              inputs == 0
-                  ? "it has none"
-                  : fmt::format("{}({})", name.text,
-                                fmt::join(call->inputs.begin(),
-                                          call->inputs.begin() + static_cast<std::ptrdiff_t>(inputs), ", ")));
+              inputs == 0 ? "it has none"
+                          : fmt::format("{}({})", name.text, fmt::join(call.inputs.begin(), end, ", ")));
     values[input] = std::move(value);
   }
-  const auto needed = [&](std::size_t input) -> TypedExpression& {
-    if (!values[input])
-      give_up("st.call"_code, name.place, fmt::format("{} lacks its {}", name.text, call->inputs[input]),
-              "give it");
-    return *values[input];
-  };
-  const Type* boolean = type_of(Basic::boolean);
-  const TypedExpression none = constant(boolean, 0, name.place);
-  TypedExpression expected = none;
-  TypedExpression actual = none;
-  TypedExpression delta = constant(type_of(Basic::lreal), cell_of(0), name.place);
-  std::optional<TypedExpression> message;
-  const Type* type = boolean;
-  if (call->inputs == of_condition) {
-    expected = constant(boolean, call->truth ? 1 : 0, name.place);
-    actual = converted(needed(0), *boolean);
-    message = values[1];
-  } else if (call->inputs == of_title) {
-    message = needed(0);
-  } else if (call->inputs == of_two) {
-    expected = needed(0);
-    actual = needed(1);
-    message = values[3];
-    take_characters(*this, expected, actual);
-    if (expected.unknown() || actual.unknown()) return unknown_at(name.place);
-    const bool texts = expected.type->basic == Basic::string && actual.type->basic == Basic::string;
-    type = call->type != nullptr ? call->type : texts ? actual.type : common_type(expected, actual, nullptr);
-    if (type == nullptr || (type->basic != Basic::string && !is_elementary(type->basic)) ||
-        (type->basic == Basic::string && !texts))
-      return refuse(
-          "st.type"_code, name.place,
-          fmt::format("{} does not compare {} with {}", name.text, expected.type->name, actual.type->name),
-          "two values of one elementary type, or two texts");
-    if (!texts) {
-      expected = converted(expected, *type);
-      actual = converted(actual, *type);
-    }
-    if (values[2]) {
-      if (!is_real(type->basic))
-        return refuse("st.call"_code, values[2]->place, fmt::format("a Delta of {}", type->name),
-                      "only real numbers may lie apart");
-      delta = cast(*values[2], Basic::lreal, values[2]->place);
-    }
+  return values;
+}
+
+/// Both values in one type, which a Delta fits; false if they have none.
+bool Expressions::make_comparable(Comparison& of, const AssertionCall& call,
+                                  const std::optional<TypedExpression>& delta, const StToken& name) {
+  take_characters(*this, of.expected, of.actual);
+  if (of.expected.unknown() || of.actual.unknown()) return false;
+  const bool texts = of.expected.type->basic == Basic::string && of.actual.type->basic == Basic::string;
+  of.type = call.type != nullptr ? call.type
+            : texts              ? of.actual.type
+                                 : common_type(of.expected, of.actual, nullptr);
+  if (of.type == nullptr || (of.type->basic != Basic::string && !is_elementary(of.type->basic)) ||
+      (of.type->basic == Basic::string && !texts)) {
+    complain("st.type"_code, name.place,
+             fmt::format("{} does not compare {} with {}", name.text, of.expected.type->name,
+                         of.actual.type->name),
+             "two values of one elementary type, or two texts");
+    return false;
   }
-  if (message && message->type->basic != Basic::string)
-    return refuse("st.type"_code, message->place,
-                  fmt::format("{} takes a text, not {}", name.text, message->type->name), "'what is tested'");
-  if (expected.unknown() || actual.unknown() || delta.unknown()) return unknown_at(name.place);
-  const int text = message ? message->node : literal_string("", name.place);
-  const int list = add_list({value_node(expected), value_node(actual), value_node(delta), text});
-  const int node =
-      add_node(StOp::assertion, type->basic, name.place, list, -1, -1, static_cast<std::int64_t>(call->says));
-  return TypedExpression{boolean, name.place, node, depth_over({expected, actual, delta})};
+  if (!texts) {
+    of.expected = converted(of.expected, *of.type);
+    of.actual = converted(of.actual, *of.type);
+  }
+  if (!delta) return true;
+  if (!is_real(of.type->basic)) {
+    complain("st.call"_code, delta->place, fmt::format("a Delta of {}", of.type->name),
+             "only real numbers may lie apart");
+    return false;
+  }
+  of.delta = cast(*delta, Basic::lreal, delta->place);
+  return true;
 }
 
 bool Compiler::has_tests() const {
@@ -167,6 +190,22 @@ void Compiler::find_tests() {
     for (const Unit* method : methods)
       code_->tests.push_back(
           {told_name(*method), method->name.place.line, instance, method->pou, finishes(*method)});
+  }
+}
+
+/// A FUNCTION TEST_... that nothing calls: no test, whatever its name says.
+void Compiler::doubt_tests() {
+  for (const auto& unit : units_) {
+    if (unit->standard || unit->kind != Unit::Kind::function || !is_test(unit->name.text)) continue;
+    const bool called = std::any_of(units_.begin(), units_.end(),
+                                    [&](const auto& other) { return other->calls.contains(unit->pou); });
+    if (!called)
+      code_->doubts.push_back(
+          {"program.never-called"_code, unit->name.place.line, unit->name.place.column,
+           fmt::format("FUNCTION {} is no test, and nothing calls it: a FUNCTION_BLOCK, a "
+                       "PROGRAM or a METHOD of that name is one",
+                       unit->name.text),
+           ""});
   }
 }
 

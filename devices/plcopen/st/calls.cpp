@@ -129,12 +129,15 @@ TypedExpression Expressions::function_call(const StToken& name, const std::vecto
       if (unit->kind == Unit::Kind::function) names.emplace_back(unit->name.text);
     for (const Variable& member : unit_->type != nullptr ? unit_->type->members : globals_->members)
       if (member.type->basic == Basic::block) names.push_back(member.name);
+    if (may_assert()) add_assertion_names(names);
     return names;
   };
   if (told_.insert(lower(name.text)).second)
     complain("st.unknown-name"_code, name.place, fmt::format("there is no function {}", in_quotes(name.text)),
              block ? "it is a kind of function block: declare an instance of it in VAR and call that"
-                   : suggested(name.text, known, "declare FUNCTION " + std::string(name.text) + " : type"));
+             : is_assertion(name.text)
+                 ? "tests have it: a FUNCTION_BLOCK or PROGRAM TEST_..., and all units under drycut test"
+                 : suggested(name.text, known, "declare FUNCTION " + std::string(name.text) + " : type"));
   return unknown_at(name.place);
 }
 
@@ -171,10 +174,11 @@ const Variable* Expressions::pin_of(const Type& type, const StToken& name, bool 
 void Expressions::input_of(const TypedExpression& instance, const Argument& argument, BlockCall& call) {
   const Type& type = *instance.type;
   const std::vector<const Variable*> inputs = inputs_of(type);
-  if (argument.name == nullptr && call.unnamed == inputs.size()) {
-    complain("st.call"_code, argument.tree->token->place,
-             fmt::format("{} has {} input{}", type.name, inputs.size(), inputs.size() == 1 ? "" : "s"),
-             "leave the rest out");
+  if (argument.name == nullptr && call.unnamed >= inputs.size()) {
+    if (call.unnamed++ == inputs.size())
+      complain("st.call"_code, argument.tree->token->place,
+               fmt::format("{} has {} input{}", type.name, inputs.size(), inputs.size() == 1 ? "" : "s"),
+               "leave the rest out");
     call.given.insert("?");
     return;
   }

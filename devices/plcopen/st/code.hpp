@@ -398,6 +398,10 @@ struct NoResult {
 /// and products of real numbers may become infinite.
 std::optional<NoResult> no_result(StOp op, Basic basic, Cell a, Cell b);
 
+/// What `result`, which apply() gave for `before`, has lost of it: "300 does not fit in SINT, which makes 44
+/// of it"; nothing if it has not. BYTE to LWORD and the parts of numbers take the lower bits by intention.
+std::optional<std::string> loss_of(StOp op, Basic basic, Cell before, Cell result);
+
 // The functions of STRING as CODESYS has them: places count from 1, and what lies outside of a text is cut
 // off.
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <initializer_list>
 #include <map>
@@ -16,6 +17,8 @@
 #include "devices/plcopen/terminals.hpp"
 
 namespace drycut::devices::plcopen::st {
+
+struct AssertionCall;
 
 /// What expressions, assignments and calls mean: names by the declarations, types by the parts; and their
 /// code. `wanted` is the type that the context asks for, or nullptr.
@@ -68,6 +71,9 @@ class Expressions : public Values {
   // assertions.cpp
   /// AssertTrue and its like, as far as the text may call them.
   std::optional<TypedExpression> assertion_call(const StToken& name, const std::vector<Argument>& given);
+  [[nodiscard]] bool may_assert() const;
+  static bool is_assertion(std::string_view name);
+  static void add_assertion_names(std::vector<std::string>& names);
   bool asserts_ = false;  ///< all units may, not only tests
 
   /// The statements that give an instance's inputs and take its outputs.
@@ -132,9 +138,25 @@ class Expressions : public Values {
   int referent(const Type& type);
   TypedExpression element_at(TypedExpression owner, const TypedExpression& index);
   TypedExpression open_element(TypedExpression array, const Tree& tree);
+  std::optional<TypedExpression> open_index(const Tree& tree, const TypedExpression& low,
+                                            const TypedExpression& high);
   std::optional<TypedExpression> bound_call(const StToken& name, const std::vector<Argument>& given,
                                             const Type* wanted);
   [[nodiscard]] std::vector<std::string> known_names() const;
+
+  // assertions.cpp
+  using AssertionInputs = std::array<std::optional<TypedExpression>, 4>;
+  /// What an assertion of two values looks at.
+  struct Comparison {
+    TypedExpression expected;
+    TypedExpression actual;
+    TypedExpression delta;
+    const Type* type = nullptr;  ///< of the values
+  };
+  std::optional<AssertionInputs> assertion_inputs(const AssertionCall& call, const StToken& name,
+                                                  const std::vector<Argument>& given);
+  bool make_comparable(Comparison& of, const AssertionCall& call, const std::optional<TypedExpression>& delta,
+                       const StToken& name);
 
   // calls.cpp
   /// EN and ENO of a call; nullptr where they are not given.
@@ -363,6 +385,7 @@ class Compiler : public Statements {
   // assertions.cpp
   [[nodiscard]] bool has_tests() const;
   void find_tests();
+  void doubt_tests();
   void check_calls();
   void check_depth();
   void tell_recursion(const Unit& called, const Unit& caller);

@@ -22,6 +22,14 @@ class CoverageReader {
     }
   }
 
+  /// Whether a body between two places has a statement of the text.
+  [[nodiscard]] bool has_statements(std::size_t begin, std::size_t end) const {
+    for (std::size_t i = begin; i < end; ++i)
+      if (code_.code[i].statement && !code_.origins[i].standard && code_.origins[i].statement > 0)
+        return true;
+    return false;
+  }
+
   void function(const Pou& pou) {
     file(pou.line).functions[{line(pou.line), pou.name}] +=
         counts_.passed[static_cast<std::size_t>(pou.body)];
@@ -40,7 +48,11 @@ class CoverageReader {
     }
     const int at = code_.origins[first].line;
     file(at).line(line(at), counts_.passed[first]);
-    file(at).decisions[line(at)].push_back({counts_.passed[last] - counts_.refused[last], fails});
+    // A constant decides nothing.
+    const StInstruction& jump = code_.code[first];
+    const bool one_jump = first == last && (jump.op == StOp::jump_if || jump.op == StOp::jump_unless);
+    if (!one_jump || jump.a.base != Base::constant)
+      file(at).decisions[line(at)].push_back({counts_.passed[last] - counts_.refused[last], fails});
     return last;
   }
 
@@ -87,9 +99,14 @@ Coverage coverage_of(const Compiled& code, const Counts& counts, std::span<const
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Pou& pou = *bodies[i];
     if (pou.line == 0 || is_test(pou.name) || is_test(pou.name.substr(pou.name.find('.') + 1))) continue;
-    reader.function(pou);
-    reader.read(static_cast<std::size_t>(pou.body),
-                i + 1 < bodies.size() ? static_cast<std::size_t>(bodies[i + 1]->body) : end);
+    const auto first = static_cast<std::size_t>(pou.body);
+    const auto last = i + 1 < bodies.size() ? static_cast<std::size_t>(bodies[i + 1]->body) : end;
+    const bool by_methods = std::any_of(bodies.begin(), bodies.end(), [&](const Pou* other) {
+      return other->name.starts_with(pou.name + ".");
+    });
+    // A block of methods alone has no body to be called.
+    if (!by_methods || reader.has_statements(first, last)) reader.function(pou);
+    reader.read(first, last);
   }
   reader.read(end, code.code.size());
   return all;

@@ -128,6 +128,7 @@ void Compiler::find_doubts() {
     doubt_variable(variable, *globals_, all);
   }
   for (const Unit* unit : bodies) doubt_selections(*unit);
+  if (options_.tests || options_.library) doubt_tests();
 }
 
 /// Master and Slave of each call of a block of this type, where they are plain names.

@@ -20,32 +20,33 @@ Cell Machine::operation(const StInstruction& of, Cell a, Cell b) {
   return result;
 }
 
-void Machine::look_at(const StInstruction& of, Cell before, Cell result) {
-  const auto type = [&] { return type_of(of.basic)->name; };
-  if (is_real(of.basic)) {
-    if (std::isnan(real_of(result)))
-      tell_loss(of, "the result is no number; test the values before");
-    else
-      tell_loss(of, fmt::format("a {} overflows; it goes to {}", type(),
-                                of.basic == Basic::real ? "3.4e38" : "1.8e308"));
-    return;
+std::optional<std::string> loss_of(StOp op, Basic basic, Cell before, Cell result) {
+  const auto type = [&] { return type_of(basic)->name; };
+  if (is_real(basic)) {
+    if (std::isfinite(real_of(result))) return std::nullopt;
+    if (std::isnan(real_of(result))) return "the result is no number; test the values before";
+    return fmt::format("a {} overflows; it goes to {}", type(), basic == Basic::real ? "3.4e38" : "1.8e308");
   }
-  // BYTE to LWORD and the parts of numbers take the lower bits by intention.
-  const bool number = (is_integer(of.basic) && of.basic <= Basic::ulint) || is_span(of.basic);
-  if (of.op == StOp::wrap) {
-    if (number && result != before)
-      tell_loss(of, fmt::format("{} does not fit in {}, which makes {} of it", before, type(), result));
-    return;
-  }
+  const bool number = (is_integer(basic) && basic <= Basic::ulint) || is_span(basic);
+  if (op == StOp::wrap)
+    return number && result != before
+               ? std::optional(
+                     fmt::format("{} does not fit in {}, which makes {} of it", before, type(), result))
+               : std::nullopt;
+  if (op != StOp::to_whole && op != StOp::truncate) return std::nullopt;
   constexpr double two_to_64 = 18446744073709551616.0;
-  const double value =
-      of.op == StOp::truncate ? std::trunc(real_of(before)) : std::nearbyint(real_of(before));
-  const Subrange range = range_of(of.basic);
-  const double high = is_wide(of.basic) ? two_to_64 : static_cast<double>(range.high);
-  if (value >= static_cast<double>(range.low) && (is_wide(of.basic) ? value < high : value <= high)) return;
-  tell_loss(of, fmt::format("{} does not fit in {}, which makes {} of it", real_of(before), type(),
-                            is_wide(of.basic) ? fmt::format("{}", static_cast<std::uint64_t>(result))
-                                              : fmt::format("{}", result)));
+  const double value = op == StOp::truncate ? std::trunc(real_of(before)) : std::nearbyint(real_of(before));
+  const Subrange range = range_of(basic);
+  const double high = is_wide(basic) ? two_to_64 : static_cast<double>(range.high);
+  if (value >= static_cast<double>(range.low) && (is_wide(basic) ? value < high : value <= high))
+    return std::nullopt;
+  return fmt::format(
+      "{} does not fit in {}, which makes {} of it", real_of(before), type(),
+      is_wide(basic) ? fmt::format("{}", static_cast<std::uint64_t>(result)) : fmt::format("{}", result));
+}
+
+void Machine::look_at(const StInstruction& of, Cell before, Cell result) {
+  if (auto loss = loss_of(of.op, of.basic, before, result)) tell_loss(of, std::move(*loss));
 }
 
 void Machine::tell_loss(const StInstruction& of, std::string text) {

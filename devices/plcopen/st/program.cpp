@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "devices/plcopen/pins.hpp"
 #include "devices/plcopen/st/compiler.hpp"
 
@@ -29,6 +31,16 @@ const SourceLines& Program::lines() const { return compiled_->lines; }
 Problem Program::problem_at(Code code, int line, int column, std::string what, std::string remedy) const {
   const auto at = lines().at(line);
   return {code, files().at(at.file).name, at.line, column, std::move(what), std::move(remedy)};
+}
+
+std::vector<Finding> Program::notes() const {
+  std::vector<Finding> notes;
+  for (const auto& [code, line, column, text, value] : compiled_->doubts) {
+    if (!value.empty()) continue;
+    const auto at = lines().at(line);
+    notes.emplace_back(code, fmt::format("{}:{}:{}: {}", files().at(at.file).name, at.line, column, text));
+  }
+  return notes;
 }
 
 Program compile(std::span<const SourceFile> files, const CompileOptions& options, Problems& problems) {

@@ -85,6 +85,8 @@ class Program {
   /// A problem at a line of all files.
   [[nodiscard]] Problem problem_at(Code code, int line, int column, std::string what,
                                    std::string remedy) const;
+  /// What is no fault and hardly meant, whatever is set from outside: "file:line:column: ...".
+  [[nodiscard]] std::vector<Finding> notes() const;
   [[nodiscard]] const Compiled& compiled() const { return *compiled_; }
 
  private:
@@ -96,8 +98,8 @@ enum class StDialect : std::uint8_t { iec, codesys };
 inline constexpr std::array<std::string_view, 2> dialect_names{"iec", "codesys"};
 
 struct CompileOptions {
-  bool library = false;  ///< it may have no PROGRAM: then there is nothing to run
-  bool tests = false;    ///< what runs are its tests: see tests.hpp
+  bool library = false;                   ///< it may have no PROGRAM: then there is nothing to run
+  bool tests = false;                     ///< what runs are its tests: see tests.hpp
   std::optional<StDialect> dialect = {};  ///< not given: CODESYS's; where it matters that is noted
 };
 

@@ -107,11 +107,11 @@ void Declarations::initial_of(Type& type) {
   if (accept(":=")) type.initial = initial_value(type);
 }
 
-/// INT (a := 0, b): not a range, INT (0..9).
+/// INT (a := 0, b): not a range, INT (0..9), nor a length, STRING(cLong). Of REAL it is refused.
 bool Declarations::at_based_enumeration() const {
   const Type* base = elementary_type(peek().text);
   const StToken& behind = peek(3);
-  return base != nullptr && is_integer(base->basic) && peek(1).is("(") &&
+  return base != nullptr && base->basic != Basic::string && peek(1).is("(") &&
          peek(2).kind == StToken::Kind::name && (behind.is(",") || behind.is(":=") || behind.is(")"));
 }
 
@@ -132,6 +132,13 @@ void Declarations::declare_structure(Type& type) {
 void Declarations::declare_enumeration(Type& type) {
   const StToken before = peek();
   const Type* base = at_based_enumeration() ? elementary_type(take().text) : nullptr;
+  const auto take_whole = [&](const StToken& of) {
+    if (is_integer(base->basic)) return;
+    complain("st.type"_code, of.place, fmt::format("an enumeration of {}", base->name),
+             "its values are whole numbers: (a, b) or INT (a, b)");
+    base = nullptr;
+  };
+  if (base != nullptr) take_whole(before);
   expect("(", "begins an enumeration");
   std::int64_t next = 0;
   std::set<std::string> names;
@@ -151,9 +158,7 @@ void Declarations::declare_enumeration(Type& type) {
   if (base == nullptr && peek().kind == StToken::Kind::name && elementary_type(peek().text) != nullptr) {
     const StToken behind = take();
     base = elementary_type(behind.text);
-    if (!is_integer(base->basic))
-      give_up("st.type"_code, behind.place, fmt::format("an enumeration of {}", base->name),
-              "its values are whole numbers: (a, b) INT");
+    take_whole(behind);
   }
   for (const EnumValue& value : type.values)
     if (base != nullptr && (value.value < range_of(*base).low || value.value > range_of(*base).high))

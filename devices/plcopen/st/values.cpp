@@ -170,7 +170,22 @@ std::string whole_text(const TypedExpression& value) {
 TypedExpression Values::folded(StOp op, const Type* type, Place place, Cell a, Cell b, bool untyped) {
   if (const auto none = no_result(op, type->basic, a, b))
     return refuse(none->code, place, none->what, none->remedy);
-  return constant(type, apply(op, type->basic, a, b), place, untyped);
+  const Cell result = apply(op, type->basic, a, b);
+  note_loss(op, type->basic, place, a, result);
+  return constant(type, result, place, untyped);
+}
+
+/// What a conversion of constants cuts off: noted once, as the machine tells it of variables.
+void Values::note_loss(StOp op, Basic basic, Place place, Cell before, Cell result) {
+  const bool converts =
+      op == StOp::wrap || op == StOp::to_whole || op == StOp::truncate || op == StOp::round_real;
+  if (!converts || (unit_ != nullptr && unit_->standard)) return;
+  const auto loss = loss_of(op, basic, before, result);
+  const auto same = [&](const Compiled::Doubt& doubt) {
+    return doubt.line == place.line && doubt.column == place.column && doubt.text == loss;
+  };
+  if (loss && std::none_of(code_->doubts.begin(), code_->doubts.end(), same))
+    code_->doubts.push_back({"st.out-of-range"_code, place.line, place.column, *loss, ""});
 }
 
 TypedExpression Values::apply_op(StOp op, const Type* type, Place place, const TypedExpression& a,

@@ -194,6 +194,7 @@ class Values : public Parser {
   std::optional<TypedExpression> character_converted(const TypedExpression& value, const Type& to);
   TypedExpression reference_converted(TypedExpression expression, const Type& to);
   TypedExpression folded(StOp op, const Type* type, Place place, Cell a, Cell b, bool untyped);
+  void note_loss(StOp op, Basic basic, Place place, Cell before, Cell result);
   int bits_node(const TypedExpression& expression);
   int in_pool(std::size_t cells);
 

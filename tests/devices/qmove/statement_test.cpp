@@ -44,7 +44,7 @@ TEST(QmoveStatement, WhatNumbersMakeIsJudgedAsANumberIs) {
   const std::string module =
       "slR = 60000 * cBig\ngwMid = 300 * 200\ngbSmall = (cBig - 39999) * 100 + 50\nslR = -2147483648 / -1\n"
       "slR = slA * 60000 + 2000000000\nslR = 2000000000 + slA + 2000000000\ngwMid = 70000 % 7\n"
-      "gwMid = NOTB 40000\nslR = 1 / 0\nIF slA GT 60000 * 60000\nENDIF\nEND\n";
+      "gwMid = NOTB 40000\nslR = 1\nIF slA GT 60000 * 60000\nENDIF\nEND\n";
   Problems problems;
   const Configuration configuration =
       parse_configuration("CONST\ncBig 40000\n" + std::string(testing::usual_cnf.substr(6)), "test.cnf",
@@ -60,6 +60,25 @@ TEST(QmoveStatement, WhatNumbersMakeIsJudgedAsANumberIs) {
                   "task.mod:8:1: gwMid: -40001 does not fit size W, taken as 25535",
                   "task.mod:10:17: 60000 * 60000 is 3600000000, beyond a long, taken as -694967296"));
   EXPECT_EQ(started("slR = 60000 * 40000\nEND\n")["slR"], -1894967296) << "as noted";
+}
+
+TEST(QmoveStatement, AnUnknownNameIsToldOnceALine) {
+  const auto told = [](const std::string& text) { return Bench({text + "END\n"}).problems.size(); };
+  EXPECT_EQ(told("glX = glX + GLX * glX\n"), 1U);
+  EXPECT_EQ(told("glX = glX + glY\n"), 2U);
+  EXPECT_EQ(told("glX = 1\nglX = 2\n"), 2U);
+  EXPECT_EQ(told("FOR (glX = 1, glX LT 3, 1)\nNEXT\n"), 1U);
+  EXPECT_EQ(told("Axs:gain = Axs:posit\n"), 1U);
+}
+
+TEST(QmoveStatement, ADivisionByAConstant0IsRefused) {
+  const auto told = [](const std::string& line) { return text_of(Bench({line + "\nEND\n"}).problems); };
+  using ::testing::HasSubstr;
+  EXPECT_THAT(told("slR = slA / 0"), HasSubstr("1:11: a division by 0; it stops all tasks"));
+  EXPECT_THAT(told("slR = 1 % (cTen - 10)"), HasSubstr("1:9: a division by 0"));
+  EXPECT_THAT(told("slR = slA / 0.0"), HasSubstr("1:11: a division by 0"));
+  for (const char* line : {"slR = slA / 1", "slR = 0 / 5", "slR = slA / (slA - slA)", "slR = slA / 0.5"})
+    EXPECT_EQ(told(line), "") << line;
 }
 
 TEST(QmoveStatement, WordsOfOtherLanguagesAreToldWithWhatQclHas) {

@@ -86,6 +86,7 @@ TEST(StErrors, OfStatementsAreToldOnceAtTheirPlace) {
            {"i := MUX(5, i, j);", "2:10: MUX has no value 5; 0 to 1"},
            {"TON(IN := b);", "2:1: there is no function 'TON'; it is a kind of function block"},
            {"t(b, T#1s, 3);", "2:12: TON has 2 inputs; leave the rest out"},
+           {"t(b, T#1s, 3, 4);", "2:12: TON has 2 inputs; leave the rest out"},
            {"t(b, PT := T#1s);", "2:3: an argument of 't' without a name; name its input: IN := value"},
            {"t(IN := b, IN := b);", "2:12: 'IN' is given twice; once a call"},
            {"t(Q => 5);", "2:8: the output 'Q' goes into a variable"},
@@ -199,7 +200,10 @@ TEST(StErrors, OfWhatHasNoValueSayWhatItIs) {
       "a := SEL(c, a, b);\nEND_PROGRAM",
       {"2:13: SEL does not take P2; numbers, bits, times and texts; IF chooses between others$"});
   expect_problems("TYPE c : REAL (a, b); END_TYPE PROGRAM m VAR v : c; END_VAR END_PROGRAM",
-                  {"1:15: a range of REAL"});
+                  {"1:10: an enumeration of REAL; its values are whole numbers: (a, b) or INT (a, b)"});
+  // Its values are known for all that.
+  expect_problems("TYPE c : TIME (a, b); END_TYPE PROGRAM m VAR v : c := b; END_VAR v := a; END_PROGRAM",
+                  {"1:10: an enumeration of TIME"});
 }
 
 TEST(StErrors, UnknownNamesAreToldOncePerPou) {

@@ -35,6 +35,28 @@ TEST(StLongTimes, LiteralsAreExact) {
               ElementsAre(StartsWith("1:28: 'LDATE#2263-01-01' is no LDATE; LDATE#1970-01-01 to")));
 }
 
+TEST(StLongTimes, PartsGoAsFarAsAnLdt) {
+  Bench bench(
+      "PROGRAM p VAR m : LDT; back : BOOL; y, mo, d, h, mi, s, ms : INT; END_VAR\n"
+      "SPLIT_LDT(LDT#2262-04-11-23:47:16.854, YEAR => y, MONTH => mo, DAY => d, HOUR => h, MINUTE => mi,\n"
+      "  SECOND => s, MILLISECOND => ms);\n"
+      "m := CONCAT_LDT(y, mo, d, h, mi, s, ms);\n"
+      "back := m = LDT#2262-04-11-23:47:16.854 AND CONCAT_LDT(2107, 1, 1, 0, 0, 0, 0) = "
+      "LDT#2107-01-01-00:00:00;\n"
+      "END_PROGRAM");
+  bench.scan();
+  bench.expect(
+      {{"y", 2262}, {"mo", 4}, {"d", 11}, {"h", 23}, {"mi", 47}, {"s", 16}, {"ms", 854}, {"back", 1}});
+  EXPECT_THAT(bench.runtime->take_losses(), testing::IsEmpty());
+  // Before 1970 it counts from the midnight before, as LDT_TO_STRING does.
+  Bench before(
+      "PROGRAM p VAR y, mo, d, h, mi, s, ms : INT; END_VAR\n"
+      "SPLIT_LDT(LDT#1970-01-01-00:00:00 - LTIME#1ms, YEAR => y, MONTH => mo, DAY => d, HOUR => h,\n"
+      "  MINUTE => mi, SECOND => s, MILLISECOND => ms);\nEND_PROGRAM");
+  before.scan();
+  before.expect({{"y", 1969}, {"mo", 12}, {"d", 31}, {"h", 23}, {"mi", 59}, {"s", 59}, {"ms", 999}});
+}
+
 TEST(StLongTimes, Arithmetic) {
   expect_values("LINT",
                 {{"LTIME_TO_LINT(LTIME#1s - LTIME#3s)", -2000000000},

@@ -71,15 +71,36 @@ TEST(StLosses, OfStandardFunctionsAreToldAtTheirCall) {
        {"t := CONCAT_TOD(25, 0, 0, 0);", "t := CONCAT_TOD(0, 0, -1, 0);", "lt := CONCAT_LTOD(0, 60, 0, 0);",
         "m := CONCAT_DT(2023, 2, 29, 0, 0, 0, 0);", "m := CONCAT_DT(2023, 2, 28, 24, 0, 0, 0);",
         "m := CONCAT_DT(2106, 2, 7, 6, 28, 16, 0);", "lm := CONCAT_LDT(2023, 13, 1, 0, 0, 0, 0);",
+        "lm := CONCAT_LDT(2262, 4, 11, 23, 47, 16, 855);", "lm := CONCAT_LDT(2262, 4, 12, 0, 0, 0, 0);",
+        "lm := CONCAT_LDT(32767, 1, 1, 0, 0, 0, 0);", "lm := CONCAT_LDT(1969, 12, 31, 0, 0, 0, 0);",
         "d := CONCAT_DATE(1969, 12, 31);", "d := CONCAT_DATE(2106, 2, 8);", "us := BCD_TO_USINT(16#256);",
         "us := BYTE_BCD_TO_USINT(16#A0);", "b := TO_BCD_BYTE(100);", "b := USINT_TO_BCD_BYTE(100);"})
     EXPECT_THAT(told(statement), testing::SizeIs(1)) << statement;
   for (const char* statement :
        {"t := CONCAT_TOD(23, 59, 59, 999);", "d := CONCAT_DATE(2024, 2, 29);",
         "d := CONCAT_DATE(2106, 2, 7);", "m := CONCAT_DT(2106, 2, 7, 6, 28, 15, 999);",
-        "lm := CONCAT_LDT(2024, 2, 29, 23, 59, 59, 999);", "us := BCD_TO_USINT(16#255);",
-        "w := UINT_TO_BCD_WORD(9999);", "b := TO_BCD_BYTE(99);"})
+        "lm := CONCAT_LDT(2024, 2, 29, 23, 59, 59, 999);", "lm := CONCAT_LDT(2262, 4, 11, 23, 47, 16, 854);",
+        "us := BCD_TO_USINT(16#255);", "w := UINT_TO_BCD_WORD(9999);", "b := TO_BCD_BYTE(99);"})
     EXPECT_THAT(told(statement), IsEmpty()) << statement;
+}
+
+TEST(StLosses, OfConstantsAreNotedAsThoseOfVariablesAreTold) {
+  const auto noted = [](const std::string& statements) {
+    return Bench("PROGRAM p VAR i : SINT; u : USINT; t : TIME; r : REAL; b : BYTE; l : LREAL; END_VAR\n" +
+                 statements + "\nEND_PROGRAM")
+        .doubts;
+  };
+  EXPECT_THAT(noted("i := INT_TO_SINT(300);"),
+              ElementsAre("2:6: 300 does not fit in SINT, which makes 44 of it"));
+  EXPECT_THAT(noted("u := DINT_TO_USINT(-1);"),
+              ElementsAre("2:6: -1 does not fit in USINT, which makes 255 of it"));
+  EXPECT_THAT(noted("i := LREAL_TO_SINT(127.6);"),
+              ElementsAre("2:6: 127.6 does not fit in SINT, which makes -128 of it"));
+  EXPECT_THAT(noted("r := LREAL_TO_REAL(1E39);"), ElementsAre("2:6: a REAL overflows; it goes to 3.4e38"));
+  for (const char* statement :
+       {"i := INT_TO_SINT(-128);", "u := DINT_TO_USINT(255);", "b := WORD_TO_BYTE(16#1234);",
+        "i := LREAL_TO_SINT(127.4);", "r := LREAL_TO_REAL(1E38);", "t := DINT_TO_TIME(5);"})
+    EXPECT_THAT(noted(statement), IsEmpty()) << statement;
 }
 
 TEST(StLosses, LeaveNumbersThatCanBeRecorded) {

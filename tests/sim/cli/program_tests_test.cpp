@@ -122,7 +122,33 @@ TEST_F(ProgramTests, OneThatFailsIsToldEverywhere) {
                                                HasSubstr("wrong_test.st\" line=\"2\"")));
 }
 
+TEST_F(ProgramTests, EachHasItsTimeAndOneThatAssertsNothingIsSkipped) {
+  folder.file("t_test.st",
+              "FUNCTION_BLOCK TEST_Long VAR t : TON; END_VAR\n"
+              "t(IN := TRUE, PT := T#500ms);\n"
+              "IF t.Q THEN AssertTrue(TRUE); TEST_FINISHED(); END_IF\n"
+              "END_FUNCTION_BLOCK\n"
+              "FUNCTION_BLOCK TEST_Short AssertTrue(TRUE); END_FUNCTION_BLOCK\n"
+              "FUNCTION_BLOCK TEST_Idle VAR n : INT; END_VAR n := n + 1; END_FUNCTION_BLOCK\n");
+  EXPECT_EQ(drycut({"test", at("t_test.st"), "--junit", at("j.xml"), "--annotate", "github"}), all_passed);
+  EXPECT_THAT(out, AllOf(HasSubstr("TEST_Idle (0.0 s, asserts nothing)\n"),
+                         HasSubstr("t_test.st,line=6,col=1,title=t_test%3A TEST_Idle::it asserts nothing")));
+  EXPECT_THAT(content(folder / "j.xml"),
+              AllOf(HasSubstr("tests=\"3\" failures=\"0\" errors=\"0\" time=\"0.500000\" skipped=\"1\""),
+                    HasSubstr("name=\"TEST_Long\" time=\"0.500000\""),
+                    HasSubstr("name=\"TEST_Short\" time=\"0.000000\""),
+                    HasSubstr("line=\"6\">\n      <skipped message=\"it asserts nothing\"/>\n")));
+}
+
 TEST_F(ProgramTests, WhatIsNoTestIsBadInput) {
+  fs::create_directory(folder / "empty");
+  EXPECT_EQ(drycut({"test", at("empty")}), bad_input);
+  EXPECT_THAT(err, AllOf(HasSubstr("empty:1:1: this is a folder without .st files, not Structured Text"),
+                         Not(HasSubstr("there is no test"))));
+  folder.file("f.st", "FUNCTION TEST_f : BOOL AssertTrue(TRUE); END_FUNCTION\n");
+  EXPECT_EQ(drycut({"test", at("f.st")}), bad_input);
+  EXPECT_THAT(out, HasSubstr("f.st:1:10: FUNCTION TEST_f is no test"));
+
   EXPECT_EQ(drycut({"test", at("sign.st")}), bad_input);
   EXPECT_THAT(err, HasSubstr("there is no test in it"));
   EXPECT_EQ(drycut({"test", at("axis.mod")}), bad_input);
@@ -133,6 +159,24 @@ TEST_F(ProgramTests, WhatIsNoTestIsBadInput) {
   folder.file("b_test.st", "FUNCTION_BLOCK TEST_b AssertEquals(1); END_FUNCTION_BLOCK\n");
   EXPECT_EQ(drycut({"test", at("b_test.st")}), bad_input);
   EXPECT_THAT(err, HasSubstr("b_test.st:1:23: AssertEquals lacks its Actual"));
+}
+
+TEST_F(ProgramTests, CheckTellsTheNotesOfABareFile) {
+  folder.file("n.st",
+              "FUNCTION_BLOCK Late\n"
+              "VAR t, since : TIME; n : SINT; END_VAR\n"
+              "t := T#1s - since - T#2s;\n"
+              "n := INT_TO_SINT(300);\n"
+              "END_FUNCTION_BLOCK\n");
+  EXPECT_EQ(drycut({"check", at("n.st")}), all_passed) << err;
+  EXPECT_THAT(out, AllOf(HasSubstr("n.st:3:"), HasSubstr("[program.dialect]\n"),
+                         HasSubstr("n.st:4:6: 300 does not fit in SINT, which makes 44 of it")));
+  EXPECT_EQ(drycut({"check", at("n.st"), "--strict"}), check_failed);
+  // Files that are no one program have theirs, too.
+  folder.file("main1.st", "PROGRAM Main VAR n : SINT; END_VAR n := INT_TO_SINT(400); END_PROGRAM\n");
+  folder.file("main2.st", "PROGRAM Main VAR n : SINT; END_VAR n := INT_TO_SINT(500); END_PROGRAM\n");
+  EXPECT_EQ(drycut({"check", at("main1.st"), at("main2.st")}), all_passed) << err;
+  EXPECT_THAT(out, AllOf(HasSubstr("main1.st:1:41: 400 does not fit"), HasSubstr("main2.st:1:41: 500 does")));
 }
 
 TEST_F(ProgramTests, QclWithItsConfiguration) {
