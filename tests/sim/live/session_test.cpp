@@ -360,7 +360,7 @@ TEST_F(LiveSession, ErrorsNameProgramsAsTheScenarioDoes) {
     std::string told;
   };
   const Case cases[] = {
-      {"lx3vp", "p.il", "LD M8000\nDIV D0 K0 D2\nEND\n", "sub/p.il:2: 6706"},
+      {"lx3vp", "p.il", "LD M8000\nDIV D0 D1 D2\nEND\n", "sub/p.il:2: 6706"},
       {"plcopen", "p.st", "PROGRAM p\nVAR x, y : INT; END_VAR\nx := 1 / y;\nEND_PROGRAM\n", "sub/p.st:3:"},
   };
   fs::create_directory(folder / "sub");
