@@ -83,7 +83,7 @@ test-all: test
 	$(MAKE) fuzz FUZZ="-runs=20000 -seed=1"
 
 # The tests of seconds, once built: all rooms but pictures and scenes, without what runs a machine for long.
-SLOW := FitWitness.*:FitPlanned.MoveUnder*:FitPlanned.Chirp*:*EveryMember*:*Coverage.*:*Random.*:*LongRun.*:*Fuzz.*:*BodeLimitCycle.*:*TuneMargins.*:LargeScenario.*:StLong.*:CompareScene.*:*NoTextCrashes*:*OverAMillion*:*Witness.*:DesignCommand.TablesKeep*:*HasRoomForADay*:TunePlay.*:*BodePushes.*:*DesignFit.*:SweepCommand.*:SweepReport.*:PicturesFilm.*:PlcopenTables.*:LivePast.*:ModbusLx3vpLine.*:SizeCommand.*:Reference.*:EnvelopeSearch.*:*EveryStart*:*NoMemberIsForNothing*:FilterAdvice.*:*AdviceOfAGrid.*:SpeedLoopOfAnAxis.*
+SLOW := FitWitness.*:FitPlanned.MoveUnder*:FitPlanned.Chirp*:*EveryMember*:*Coverage.*:*Random.*:*LongRun.*:*Fuzz.*:*BodeLimitCycle.*:*TuneMargins.*:LargeScenario.*:StLong.*:CompareScene.*:*NoTextCrashes*:*OverAMillion*:*Witness.*:DesignCommand.TablesKeep*:*HasRoomForADay*:TunePlay.*:*BodePushes.*:*DesignFit.*:SweepCommand.*:SweepReport.*:PicturesFilm.*:PlcopenTables.*:LivePast.*:ModbusLx3vpLine.*:SizeCommand.*:Reference.*:EnvelopeSearch.*:*EveryStart*:*NoMemberIsForNothing*:FilterAdvice.*:*AdviceOfAGrid.*:SpeedLoopOfAnAxis.*:Lx3vpState.ARestored*:*AHundredMillion*:*DoNotDrift*
 quick: setup
 	$(call install,$(TEST_PACKAGES))
 	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON > /dev/null
