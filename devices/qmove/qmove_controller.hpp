@@ -75,6 +75,8 @@ class QmoveController : public Controller {
   void count_programs() override;
   /// A WAIT counts its looks at the condition; ELSE, SUB and what closes a block are no lines of their own.
   void add_coverage(Coverage& to) const override;
+  /// What ran of a program, where programs are counted.
+  [[nodiscard]] const Counts& counts(std::size_t program) const { return counts_.at(program); }
   /// The run-time error that has stopped all tasks.
   struct Stop {
     std::size_t task = 0;

@@ -67,12 +67,8 @@ TestResult run_test(const Configuration& configuration, std::vector<QclProgram> 
                     const QclSub& sub, std::span<const CatalogueEntry> catalogue, const TestTimes& times,
                     Coverage* coverage) {
   TestResult result{sub.name, programs[task].file, sub.line};
-  const auto lines = split_lines(programs[task].text);
-  for (auto line = static_cast<std::size_t>(sub.line);
-       line < lines.size() && !same_word(word_at(lines[line], 0), "ENDSUB"); ++line)
-    if (same_word(word_at(lines[line], 0), "ASSERT")) ++result.log.assertions;
   QmoveController controller(configuration, programs, catalogue, times.cycle_ns);
-  if (coverage != nullptr) controller.count_programs();
+  controller.count_programs();
   for (;; result.took_ns += times.cycle_ns) {
     controller.run_devices(result.took_ns);
     controller.run_tasks(result.took_ns);
@@ -85,6 +81,9 @@ TestResult run_test(const Configuration& configuration, std::vector<QclProgram> 
     result.log.add(std::move(late));
     break;
   }
+  const auto& code = programs[task].code;
+  for (std::size_t i = 0; i < code.size(); ++i)
+    if (code[i].op == QclOp::assertion && controller.counts(task).passed[i] > 0) ++result.log.assertions;
   if (coverage != nullptr) controller.add_coverage(*coverage);
   return result;
 }

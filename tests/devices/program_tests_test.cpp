@@ -223,6 +223,18 @@ TEST(StTests, AFunctionIsNoTest) {
               IsEmpty());
 }
 
+TEST(StTests, AMethodOfASuiteThatNothingCallsIsNoTest) {
+  const auto notes = compiled({{"t.st",
+                                "FUNCTION_BLOCK Suite\n"
+                                "METHOD TEST_One\nCheck();\nEND_METHOD\n"
+                                "METHOD Check\nAssertTrue(TRUE, '');\nEND_METHOD\n"
+                                "METHOD TST_Typo\nAssertTrue(FALSE, '');\nEND_METHOD\n"
+                                "END_FUNCTION_BLOCK\n"}})
+                         .notes();
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_THAT(notes[0].text, HasSubstr("t.st:8:8: METHOD TST_Typo asserts, and nothing calls it"));
+}
+
 TEST(StTests, AProgramThatIsNoTestHasNoAssertions) {
   const std::string main = "PROGRAM Main AssertTrue(TRUE, 'x'); END_PROGRAM\n";
   Problems problems;
@@ -323,6 +335,7 @@ TEST(QclTests, AnAssertionIsACommentOfATest) {
               ElementsAre("TEST_Limit 0 ms",
                           "TEST_Wrong 0 ms; t.mod:17: expected glJ EQ glI + 5, was glJ = 3, glI = 0"));
   EXPECT_EQ(results[0].log.assertions, 2);
+  EXPECT_EQ(results[1].log.assertions, 1);
   const auto& file = qcl.coverage.files.at("t.mod");
   EXPECT_THAT(file.lines, ElementsAre(Pair(1, 0), Pair(2, 0), Pair(4, 2), Pair(5, 1)));
   EXPECT_THAT(file.decisions, ElementsAre(Pair(4, ElementsAre(Coverage::Ways{1, 1}))));
@@ -349,6 +362,24 @@ TEST(QclTests, TasksWithoutTestsRunBesideItAndTimeGoesOn) {
   EXPECT_THAT(told(qcl.results({1'000'000, 100'000'000})),
               ElementsAre("TEST_Lamp 20 ms", HasSubstr("t.mod:10: it has not come to its end within 0.1 s"),
                           "TEST_Error 0 ms; t.mod:13: error 6: division by zero"));
+}
+
+TEST(QclTests, AnAssertionThatIsNotReachedAssertsNothing) {
+  Qcl qcl{{{"t.mod",
+            "END\n"
+            "SUB TEST_If\n"
+            "  IF glI EQ 1\n"
+            "    ; ASSERT glI EQ 7\n"
+            "  ENDIF\n"
+            "ENDSUB\n"
+            "SUB TEST_Jump\n"
+            "  JUMP OVER\n"
+            "  ; ASSERT 0\n"
+            "OVER:\n"
+            "ENDSUB\n"}}};
+  const auto results = qcl.results();
+  EXPECT_THAT(told(results), ElementsAre("TEST_If 0 ms", "TEST_Jump 0 ms"));
+  for (const auto& result : results) EXPECT_EQ(result.log.assertions, 0) << result.name;
 }
 
 TEST(QclTests, AMisspeltAssertionIsNoted) {

@@ -193,17 +193,35 @@ void Compiler::find_tests() {
   }
 }
 
-/// A FUNCTION TEST_... that nothing calls: no test, whatever its name says.
+/// What is no test, whatever its name says or it asserts, and what nothing calls: a FUNCTION TEST_..., and a
+/// METHOD of a suite.
 void Compiler::doubt_tests() {
+  const auto asserts = [&](const Unit& unit) {
+    return std::any_of(tokens_.begin() + static_cast<std::ptrdiff_t>(unit.first),
+                       tokens_.begin() + static_cast<std::ptrdiff_t>(unit.end),
+                       [](const StToken& token) { return assertion_named(token.text).has_value(); });
+  };
+  const auto is_suite = [&](const Unit& block) {
+    return is_test(block.name.text) || std::any_of(units_.begin(), units_.end(), [&](const auto& unit) {
+             return unit->owner == &block && is_test(unit->name.text);
+           });
+  };
   for (const auto& unit : units_) {
-    if (unit->standard || unit->kind != Unit::Kind::function || !is_test(unit->name.text)) continue;
+    const bool named =
+        unit->kind == Unit::Kind::function && unit->owner == nullptr && is_test(unit->name.text);
+    const bool asserting = unit->owner != nullptr && !is_test(unit->name.text) && unit->pou >= 0 &&
+                           is_suite(*unit->owner) && asserts(*unit);
+    if (unit->standard || !(named || asserting)) continue;
     const bool called = std::any_of(units_.begin(), units_.end(),
                                     [&](const auto& other) { return other->calls.contains(unit->pou); });
     if (!called)
       code_->doubts.push_back(
           {"program.never-called"_code, unit->name.place.line, unit->name.place.column,
-           fmt::format("FUNCTION {} is no test, and nothing calls it: a FUNCTION_BLOCK, a "
-                       "PROGRAM or a METHOD of that name is one",
+           named ? fmt::format("FUNCTION {} is no test, and nothing calls it: a FUNCTION_BLOCK, a "
+                               "PROGRAM or a METHOD of that name is one",
+                               unit->name.text)
+                 : fmt::format(
+                       "METHOD {} asserts, and nothing calls it: one whose name begins with TEST_ is a test",
                        unit->name.text),
            ""});
   }

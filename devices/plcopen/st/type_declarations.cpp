@@ -142,17 +142,17 @@ void Declarations::declare_enumeration(Type& type) {
   expect("(", "begins an enumeration");
   std::int64_t next = 0;
   std::set<std::string> names;
+  std::vector<Place> places;
   do {
     const StToken name = expect_name("the name of a value");
     if (!names.insert(lower(name.text)).second)
       complain("st.declared-twice"_code, name.place, in_quotes(name.text) + " is in the enumeration twice",
                "name each value once");
-    if (accept(":=")) next = constant_value(*type_of(Basic::int_));
-    if (next > range_of(Basic::int_).high)
-      give_up("st.out-of-range"_code, name.place, in_quotes(name.text) + " is above 32767",
-              "an enumeration is kept as an INT");
+    if (accept(":=")) next = constant_value(*type_of(Basic::lint));
+    places.push_back(name.place);
     enum_values_.emplace(lower(name.text), std::pair{&type, next});
-    type.values.push_back({std::string(name.text), next++});
+    type.values.push_back({std::string(name.text), next});
+    if (next < range_of(Basic::lint).high) ++next;
   } while (accept(","));
   expect(")", "ends an enumeration");
   if (base == nullptr && peek().kind == StToken::Kind::name && elementary_type(peek().text) != nullptr) {
@@ -160,11 +160,24 @@ void Declarations::declare_enumeration(Type& type) {
     base = elementary_type(behind.text);
     take_whole(behind);
   }
-  for (const EnumValue& value : type.values)
-    if (base != nullptr && (value.value < range_of(*base).low || value.value > range_of(*base).high))
-      give_up("st.out-of-range"_code, before.place,
-              fmt::format("{} is {}, which is no {}", in_quotes(value.name), value.value, base->name),
-              fmt::format("{} to {}", range_of(*base).low, range_of(*base).high));
+  const Subrange kept = range_of(Basic::int_);
+  const Subrange own = base == nullptr ? kept : range_of(*base);
+  for (std::size_t i = 0; i < type.values.size(); ++i) {
+    const auto& [name, value] = type.values[i];
+    if (value < own.low || value > own.high)
+      complain("st.out-of-range"_code, places[i],
+               fmt::format("{} is {}, which is no {}", in_quotes(name), value,
+                           base == nullptr ? "INT" : base->name),
+               fmt::format("{} to {}", own.low, own.high));
+    else if (value < kept.low || value > kept.high)
+      complain("st.out-of-range"_code, places[i],
+               fmt::format("{} is {}; an enumeration is kept as an INT here, of {} too", in_quotes(name),
+                           value, base->name),
+               fmt::format("{} to {}", kept.low, kept.high));
+    else
+      continue;
+    break;  // those behind it count on
+  }
   type.initial.assign(1, type.values.front().value);
   enumerations_.emplace(lower(type.name), &type);
 }

@@ -38,7 +38,14 @@ END_TYPE )";
                   "END_VAR END_PROGRAM"));
   bench.expect({{"l", 20}, {"m", 4}, {"c", 7}, {"p0.x", 1}, {"p0.y", 2}, {"r[2]", 6}, {"c2", 9}});
   EXPECT_THAT(problems_of("TYPE a : USINT (b := 300); END_TYPE PROGRAM p END_PROGRAM"),
-              ElementsAre(StartsWith("1:10: 'b' is 300, which is no USINT; 0 to 255")));
+              ElementsAre(StartsWith("1:17: 'b' is 300, which is no USINT; 0 to 255")));
+  EXPECT_THAT(
+      problems_of("TYPE a : (b := 1, c := 60000) UINT; END_TYPE PROGRAM p END_PROGRAM"),
+      ElementsAre(StartsWith(
+          "1:19: 'c' is 60000; an enumeration is kept as an INT here, of UINT too; -32768 to 32767")));
+  EXPECT_THAT(
+      problems_of("TYPE a : (b := 32767, c, d); END_TYPE PROGRAM p VAR v : a := d; END_VAR END_PROGRAM"),
+      ElementsAre(StartsWith("1:23: 'c' is 32768, which is no INT")));
   EXPECT_THAT(problems_of("TYPE a : (b, c) REAL; END_TYPE PROGRAM p END_PROGRAM"),
               ElementsAre(StartsWith("1:17: an enumeration of REAL")));
 }
