@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "base/problem.hpp"
@@ -112,6 +114,9 @@ class Scanner : public Complaints {
   int line_;
 };
 
+/// What another language writes, and what is written for it here.
+using ForeignSign = std::pair<std::string_view, std::string_view>;
+
 /// Takes a text apart into the tokens of a language.
 template <typename LanguageToken>
 class Lexer : public Scanner {
@@ -128,6 +133,17 @@ class Lexer : public Scanner {
     token.place = place();
     advance(size);
     return token;
+  }
+
+  /// A sign of other languages, told with what is written for it here; false if none of them is next.
+  template <std::size_t count>
+  bool foreign_sign(const std::array<ForeignSign, count>& signs, Code code) {
+    for (const auto& [sign, remedy] : signs) {
+      if (!starts(sign)) continue;
+      complain(code, add(Kind::bad, sign.size()), "there is no " + in_quotes(sign), std::string(remedy));
+      return true;
+    }
+    return false;
   }
 
   /// A character that the language does not have.

@@ -117,8 +117,11 @@ inline constexpr std::array readings = {
         "at these numbers",
         "IEC 61131-3 leaves the memory's layout to the implementer, 004 says nothing of Modbus"},
     ManualReading{"ST", "places outside of a STRING are cut off", "IEC 61131-3 calls them errors"},
-    ManualReading{"ST", "whole numbers wrap in their width; conversions round halves to the even number",
-                  "IEC 61131-3 leaves overflow to the implementer"},
+    ManualReading{
+        "ST",
+        "whole numbers wrap without a word where they go into a variable that is too small, and on their way "
+        "in the width that the dialect gives them; conversions round halves to the even number",
+        "IEC 61131-3 leaves overflow to the implementer"},
     ManualReading{
         "ST",
         "TIME counts milliseconds in 32 bit, LTIME nanoseconds in 64 with a sign; TOD and LTOD begin "

@@ -6,6 +6,19 @@ namespace drycut::devices::qmove {
 
 namespace {
 
+/// Those that begin with another one stand before it.
+constexpr std::array<ForeignSign, 11> foreign_signs{{{":=", "'=' assigns"},
+                                                     {"==", "EQ compares"},
+                                                     {"!=", "NEQ compares"},
+                                                     {"<>", "NEQ compares"},
+                                                     {"<=", "LE compares"},
+                                                     {">=", "GE compares"},
+                                                     {"<", "LT compares"},
+                                                     {">", "GT compares"},
+                                                     {"&&", "AND combines"},
+                                                     {"||", "OR combines"},
+                                                     {"!", "NOT inverts"}}};
+
 class LineLexer : public Lexer<QclToken> {
  public:
   using Lexer::Lexer;
@@ -19,17 +32,26 @@ class LineLexer : public Lexer<QclToken> {
         add(Kind::name, length(in_name));
       else if (is_digit(c))
         number();
+      else if (c == '"')
+        text();
+      else if (foreign_sign(foreign_signs, "qcl.syntax"_code))
+        continue;
       else if (std::string_view("()[],:.=+-*/%").find(c) != std::string_view::npos)
         add(Kind::sign, 1);
       else
-        stranger(c == '<' || c == '>' || c == '!' ? "compare with EQ, NEQ, LT, LE, GT or GE"
-                                                  : "a comment begins with ';'");
+        stranger("a comment begins with ';'");
     }
     add(Kind::end, 0);
     return std::move(tokens_);
   }
 
  private:
+  void text() {
+    QclToken& token = add(Kind::bad, length([](char c) { return c != '"'; }, 1));
+    if (peek() == '"') advance(1);
+    complain("qcl.syntax"_code, token, "QCL has no texts", "a number, a name or an expression stands here");
+  }
+
   void number() {
     constexpr std::int64_t largest = 2147483648;  // allowed after a minus sign
     const Number found = number_ahead(is_digit, false);

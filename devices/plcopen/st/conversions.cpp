@@ -155,6 +155,13 @@ TypedExpression Values::in_subrange(const TypedExpression& value, const Type& to
 TypedExpression Values::cast(const TypedExpression& expression, Basic to, Place place) {
   const Basic from = expression.type->basic;
   const Type* type = type_of(to);
+  if (expression.on_the_way) {
+    const bool wider = is_real(to) || (is_integer(to) && bits_of(to) > bits_of(from));
+    if (!wider) return cast(taken_as(expression, from), to, place);
+    is_iec(DialectDifference::results_on_the_way, place);
+    const Basic full = range_of(from).low < 0 ? Basic::dint : Basic::udint;
+    return cast(taken_as(expression, is_integer(to) && bits_of(to) <= 32 ? to : full), to, place);
+  }
   if (from == to) return expression;
   if (is_clock(from) && is_clock(to) && (long_clock(from) == from || long_clock(to) == to))
     return clock_cast(expression, to, place);

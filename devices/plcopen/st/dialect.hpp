@@ -15,6 +15,7 @@ enum class DialectDifference : std::uint8_t {
   first_falling_edge,
   negated_power,
   assigned_input,
+  results_on_the_way,
 };
 
 /// A row of the reference; the notes say it, too.
@@ -43,6 +44,10 @@ inline constexpr std::array differences{
                   "Q is TRUE in it: CLK counts as TRUE before", "Q is FALSE: CLK counts as FALSE before"},
     DifferenceRow{"-a ** b", "the sign is the stronger: -2 ** 2 is 4", "** is the stronger: -2 ** 2 is -4"},
     DifferenceRow{"a block assigns its own VAR_INPUT", "refused", "taken, with a note"},
+    DifferenceRow{"SINT to UINT and BYTE, WORD on their way: d := i * j, (i * j) / k, i + 1 > j",
+                  "each result has the width of its type: INT#200 * INT#200 is -25536",
+                  "+ - * / and MOD have 32 bits, INT#200 * INT#200 is 40000, until something of that width "
+                  "takes it: an assignment, a call, TO_INT(i * j)"},
 };
 
 }  // namespace drycut::devices::plcopen::st

@@ -255,6 +255,7 @@ TypedExpression Expressions::typed_literal(const Tree& tree) {
             "INT#5, WORD#16#FF, LREAL#1.5, T#1s");
   if (type->basic == Basic::boolean && (value.word("TRUE") || value.word("FALSE")))
     return constant(type, value.word("TRUE") ? 1 : 0, name.place);
+  if (value.kind == StToken::Kind::bad) throw GiveUp{};
   if (value.kind != StToken::Kind::number || !is_number(value.basic))
     give_up("st.syntax"_code, value.place, fmt::format("{}# has no number", upper(name.text)),
             "INT#5, WORD#16#FF, LREAL#1.5");

@@ -21,6 +21,26 @@ std::string without_underscores(std::string_view text) {
   return result;
 }
 
+/// "a--b" is a difference, "a++b" a sum.
+constexpr std::array<ForeignSign, 16> foreign_signs{{
+    {"==", "'=' compares"},
+    {"!=", "'<>' compares"},
+    {"!", "NOT inverts"},
+    {"&&", "AND combines, AND_THEN where the right side is only looked at when the left one is true"},
+    {"||", "OR combines, OR_ELSE where the right side is only looked at when the left one is false"},
+    {"++;", "write i := i + 1;"},
+    {"--;", "write i := i - 1;"},
+    {"+=", "write i := i + 1;"},
+    {"-=", "write i := i - 1;"},
+    {"*=", "write i := i * 2;"},
+    {"/=", "write i := i / 2;"},
+    {"<<", "SHL(word, bits) shifts to the left"},
+    {">>", "SHR(word, bits) shifts to the right"},
+    {"?", "SEL(condition, if FALSE, if TRUE) chooses"},
+    {"%", "MOD gives the remainder"},
+    {"->", "'^' follows a reference, '.' names a member"},
+}};
+
 class StLexer : public Lexer<StToken> {
  public:
   StLexer(std::string_view text, const std::string& file, Problems& problems, int line)
@@ -84,6 +104,7 @@ class StLexer : public Lexer<StToken> {
     }
     complain("st.syntax"_code, begin, fmt::format("'{}' is never closed", open),
              fmt::format("end it with '{}'", close));
+    add(Kind::bad, 0);  // what should follow is not missed
   }
 
   void next() {
@@ -94,7 +115,7 @@ class StLexer : public Lexer<StToken> {
       number();
     else if (c == '\'' || c == '"')
       string();
-    else if (c == '%')
+    else if (c == '%' && is_letter(peek(1)))
       add(Kind::address, length([](char x) { return in_name(x) || x == '.' || x == '%'; }));
     else
       sign();
@@ -106,6 +127,7 @@ class StLexer : public Lexer<StToken> {
       complain("st.syntax"_code, place(), "'#' begins no comment", "comments are (* ... *) or // ...");
       return advance(length([](char x) { return x != '\n'; }));
     }
+    if (foreign_sign(foreign_signs, "st.syntax"_code)) return;
     constexpr std::array<std::string_view, 7> pairs{":=", "=>", "**", "<=", ">=", "<>", ".."};
     if (std::any_of(pairs.begin(), pairs.end(), [&](std::string_view pair) { return starts(pair); }))
       add(Kind::sign, 2);

@@ -151,7 +151,8 @@ struct Operation {
     if (refuses_bits()) return bits_are_no_numbers();
     convert_both(*type);
     if ((modulo || sign.op == StOp::divide) && is_zero(b)) return division_by_zero();
-    return apply(is_real(type->basic) ? sign.real_op : sign.op, type, a, b);
+    if (is_real(type->basic)) return apply(sign.real_op, type, a, b);
+    return values.computed(sign.op, type, told.place, std::move(a), std::move(b));
   }
 
   TypedExpression time_arithmetic() {
@@ -256,6 +257,7 @@ struct Operation {
     if (type == nullptr || !is_single(type->basic)) return mismatch("compare two of one type");
     a = values.converted(std::move(a), *type);
     b = values.converted(std::move(b), *type);
+    a.on_the_way = b.on_the_way = false;
     if (is_wide(type->basic)) {
       // With the first bit turned over, the order of signed numbers is that of unsigned ones.
       const TypedExpression first = constant(type, std::numeric_limits<std::int64_t>::min(), told.place);
@@ -325,8 +327,10 @@ TypedExpression signed_value(Values& values, const StToken& sign, TypedExpressio
     operand.place = sign.place;
     return values.negated_literal(std::move(operand));
   }
-  return values.apply_op(is_real(basic) ? StOp::negate_real : StOp::negate, operand.type, sign.place,
-                         operand);
+  if (is_real(basic)) return values.apply_op(StOp::negate_real, operand.type, sign.place, operand);
+  if (!is_integer(basic)) return values.apply_op(StOp::negate, operand.type, sign.place, operand);
+  const Type* type = base_of(operand.type);
+  return values.computed(StOp::subtract, type, sign.place, constant(type, 0, sign.place), std::move(operand));
 }
 
 TypedExpression complement(Values& values, const StToken& sign, TypedExpression operand, const Type* wanted) {

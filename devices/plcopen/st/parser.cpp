@@ -103,8 +103,9 @@ Tree Parser::primary_tree() {
     default:
       break;
   }
-  if (token.is("=") && at_ > 0 && tokens_[at_ - 1].is("="))
-    give_up("st.syntax"_code, token.place, "there is no '=='", "'=' compares");
+  if (token.is(".") && peek(1).kind == StToken::Kind::number)
+    give_up("st.syntax"_code, token.place, "a number begins with a digit",
+            fmt::format("write 0.{}", peek(1).text));
   if (!accept("("))
     give_up("st.syntax"_code, token.place,
             fmt::format("an expression is missing before {}", in_quotes(token.text)), "a value stands here");

@@ -136,6 +136,7 @@ int Statements::assignment_or_call() {
   if (!peek().is(":=")) {
     if (left.kind == Tree::Kind::call) return call_statement(left);
     const TypedExpression target = typed(left);
+    if (target.unknown()) throw GiveUp{};
     const bool block = target.type->basic == Basic::block;
     if (block) expect("(", fmt::format("and ')' call it: {}();", target.name));
     expect(":=", "assigns");
@@ -145,6 +146,7 @@ int Statements::assignment_or_call() {
   take();
   const StToken value_token = peek();
   const TypedExpression value = expression(target.type);
+  if (peek().kind == StToken::Kind::bad) throw GiveUp{};
   if (target.cam_file && value.string) cam_file(value_token);
   const int assignment = assign(target, value);
   expect(";", "ends a statement");
@@ -187,16 +189,14 @@ int Statements::condition(std::string_view closing) {
   int node = -1;
   try {
     const TypedExpression value = expression();
-    if (!value.unknown() && value.type->basic != Basic::boolean) {
-      const bool assigns = peek().is(":=");
+    if (peek().is(":=")) give_up("st.syntax"_code, peek().place, "':=' assigns", "'=' compares");
+    if (peek().kind == StToken::Kind::bad) throw GiveUp{};
+    if (!value.unknown() && value.type->basic != Basic::boolean)
       complain("st.type"_code, value.place,
                fmt::format("the condition is {}, not BOOL", value.untyped ? "a number" : value.type->name),
-               assigns ? "'=' compares" : "compare it: <> 0");
-    } else if (!value.unknown()) {
+               "compare it: <> 0");
+    else if (!value.unknown())
       node = value_node(value);
-    }
-    if (peek().is(":=") && (value.unknown() || value.type->basic == Basic::boolean))
-      give_up("st.syntax"_code, peek().place, "':=' assigns", "'=' compares");
     expect_word(closing, "stands behind the condition of " + line_of(place));
   } catch (const GiveUp&) {
     skip_to([&] {
@@ -219,6 +219,15 @@ void Statements::close(const StToken& opened, std::string_view closing) {
            fmt::format("{} is missing before {}", closing,
                        peek().kind == StToken::Kind::end ? "the end of the file" : in_quotes(peek().text)),
            fmt::format("it closes the {} of {}", upper(opened.text), line_of(opened.place)));
+  // Something too much stands before it.
+  std::size_t ahead = 0;
+  while (at_ + ahead < stop_ && peek(ahead).place.line == peek().place.line && !peek(ahead).is(";")) {
+    if (peek(ahead++).word(closing)) {
+      at_ += ahead;
+      accept(";");
+      return;
+    }
+  }
 }
 
 int Statements::if_statement() {

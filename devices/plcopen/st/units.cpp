@@ -145,6 +145,8 @@ std::size_t Compiler::end_of_unit(std::size_t opening, std::string_view closing)
   skip_to([&] { return peek().word(closing) || at_word(opens_unit); });
   if (at_ < stop_ && peek().word(closing)) return at_++;
   const StToken& begin = tokens_[opening];
+  // What swallows the rest of a file has been told.
+  if (at_ == stop_ && tokens_[at_ - 1].kind == StToken::Kind::bad) return at_;
   complain("st.syntax"_code, begin.place, fmt::format("{} has no {}", upper(begin.text), closing),
            at_ < stop_ ? fmt::format("write {} before the {} of {}", closing, upper(peek().text),
                                      line_of(peek().place, begin.place))

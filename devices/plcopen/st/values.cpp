@@ -70,7 +70,35 @@ int Values::add_span(const Span& span) {
   return static_cast<int>(nodes_.spans.size()) - 1;
 }
 
+TypedExpression Values::computed(StOp op, const Type* type, Place place, TypedExpression a,
+                                 TypedExpression b) {
+  const Basic basic = type->basic;
+  const bool narrow = is_integer(basic) && bits_of(basic) < 32 && !(a.untyped && b.untyped);
+  const bool ours = unit_ != nullptr && unit_->standard;
+  if (!narrow || ours || dialect_ == StDialect::iec) return apply_op(op, type, place, a, b);
+  const bool divides = op == StOp::divide || op == StOp::modulo;
+  if (divides && a.on_the_way) is_iec(DialectDifference::results_on_the_way, place);
+  a.on_the_way = b.on_the_way = false;
+  TypedExpression result =
+      apply_op(op, type_of(range_of(basic).low < 0 ? Basic::dint : Basic::udint), place, a, b);
+  if (result.unknown()) return result;
+  result.type = base_of(type);
+  result.on_the_way = true;
+  return result;
+}
+
+TypedExpression Values::taken_as(TypedExpression expression, Basic to) {
+  if (expression.constant)
+    expression.value = wrapped(to, expression.value);
+  else
+    nodes_.nodes[static_cast<std::size_t>(expression.node)].basic = to;
+  expression.type = type_of(to);
+  expression.on_the_way = false;
+  return expression;
+}
+
 int Values::value_node(const TypedExpression& expression) {
+  if (expression.on_the_way) return value_node(taken_as(expression, expression.type->basic));
   if (unit_ != nullptr)
     unit_->levels = std::max(unit_->levels, expression.depth + levels_of_a_statement * nesting_);
   if (expression.bits) return bits_node(expression);
@@ -98,6 +126,7 @@ int Values::bits_node(const TypedExpression& expression) {
 
 TypedExpression Values::as_value(TypedExpression expression) {
   expression.node = value_node(expression);
+  expression.on_the_way = false;
   expression.type = base_of(expression.type);
   expression.bits.reset();
   expression.address = false;

@@ -102,6 +102,7 @@ struct TypedExpression {
   std::vector<TypedExpression> bounds;  ///< of an ARRAY [*]: the lower and the upper one of each dimension
   int reference = -1;                   ///< it is seen by the reference that this node computes
   std::optional<Bits> bits;             ///< it is a part of the variable at `node`
+  bool on_the_way = false;              ///< 32 bits of what has fewer: who takes it decides (CODESYS)
 
   [[nodiscard]] bool unknown() const { return type->basic == Basic::unknown; }
 };
@@ -157,6 +158,11 @@ class Values : public Parser {
   TypedExpression apply_op(StOp op, const Type* type, Place place, const TypedExpression& a,
                            const TypedExpression& b);
   TypedExpression apply_op(StOp op, const Type* type, Place place, const TypedExpression& a);
+
+  /// Arithmetic of whole numbers: the result has as many bits as the dialect gives it on its way.
+  TypedExpression computed(StOp op, const Type* type, Place place, TypedExpression a, TypedExpression b);
+  /// What has more bits than its type on its way, as a value of type `to` of at most 32.
+  TypedExpression taken_as(TypedExpression expression, Basic to);
 
   int value_node(const TypedExpression& expression);
   int address_plus(int node, std::int64_t offset);

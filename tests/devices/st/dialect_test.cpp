@@ -168,6 +168,47 @@ END_FUNCTION_BLOCK PROGRAM p VAR b : f; END_VAR b(); END_PROGRAM)";
     EXPECT_THAT(Bench(text, options).doubts, ElementsAre(StartsWith("2:1: i is an input of f")));
 }
 
+// The four examples of CODESYS's own help, "Overflow/underflow in the data type", and what follows from them.
+TEST(StDialect, ResultsOnTheirWay) {
+  expect_both("w : WORD := 65535; d : DWORD;",
+              "d := UINT_TO_DWORD(WORD_TO_UINT(w) + 1); x := DWORD_TO_UDINT(d);", 0, 65536,
+              "2:6: SINT to UINT");
+  EXPECT_EQ(result("w : WORD := 65535; d : DWORD;", "d := w + 1; x := DWORD_TO_UDINT(d);", codesys), 65536);
+  const std::string two = "u : UINT := 65535; v, k : UINT; b : BOOL;";
+  EXPECT_EQ(result(two, "x := BOOL_TO_LREAL(u + 1 = v) + 2 * BOOL_TO_LREAL(v - 1 = u);", iec), 3);
+  EXPECT_EQ(result(two, "x := BOOL_TO_LREAL(u + 1 = v) + 2 * BOOL_TO_LREAL(v - 1 = u);", codesys), 0);
+  EXPECT_EQ(result(two, "k := u + 1; x := BOOL_TO_LREAL(k = v);", codesys), 1);
+  EXPECT_EQ(
+      result(two, "x := BOOL_TO_LREAL(TO_UINT(u + 1) = v) + 2 * BOOL_TO_LREAL(TO_UINT(v - 1) = u);", codesys),
+      3);
+
+  const std::string ints = "i : INT := 200; j : INT := 200; k : INT; d : DINT; s : SINT := 100;";
+  expect_both(ints, "d := i * j; x := d;", -25536, 40000, "2:");
+  expect_both(ints, "k := i * j / 8; x := k;", -3192, 5000, "2:");
+  expect_both(ints, "d := s * s; x := d;", 16, 10000, "2:");
+  expect_both(ints, "d := -(i * j); x := d;", 25536, -40000, "2:");
+  // Taken by what has the width: nothing differs, nothing is told.
+  for (const auto& options : {iec, codesys, CompileOptions{}}) {
+    EXPECT_EQ(result(ints, "k := i * j; x := k;", options), -25536);
+    EXPECT_EQ(result(ints, "k := MAX(i * j, -30000); x := k;", options), -25536);
+    EXPECT_EQ(result(ints, "k := i * i - j * j + 7; x := k;", options), 7);
+    EXPECT_EQ(result(ints, "k := -i; x := k;", options), -200);
+  }
+  EXPECT_THAT(notes_of(ints, "k := i * j; k := MAX(i * j, 0); IF i * j > 5 THEN k := -i; END_IF"), IsEmpty());
+  // A difference of unsigned ones below 0 is one below 0 where a DINT takes it.
+  EXPECT_EQ(result("a : UINT := 3; b : UINT := 5; d : DINT;", "d := a - b; x := d;", codesys), -2);
+  // Its constants are computed alike.
+  EXPECT_EQ(result("d : DINT;", "d := INT#30000 + INT#30000; x := d;", codesys), 60000);
+  EXPECT_EQ(result("k : INT;", "k := INT#30000 + INT#30000; x := k;", codesys), -5536);
+  // Blocks of the standard count as ever.
+  for (const auto& options : {iec, codesys}) {
+    Bench bench("PROGRAM p VAR c : CTU; b : BOOL; END_VAR b := NOT b; c(CU := b, PV := 2); END_PROGRAM",
+                options);
+    bench.scan(5);
+    EXPECT_EQ(bench["c.CV"], 3);
+  }
+}
+
 TEST(StDialect, EachDifferenceIsNotedOnce) {
   EXPECT_THAT(notes_of("b : BYTE; i : INT;", "b := b + b;\nb := b * b;\ni := i AND 1;"),
               ElementsAre(StartsWith("2:8: + - *"), StartsWith("4:8: AND OR")));

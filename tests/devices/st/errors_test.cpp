@@ -38,6 +38,28 @@ TEST(StErrors, OfStatementsAreToldOnceAtTheirPlace) {
            {"s := i;",
             "2:6: 'i' is INT, which does not go into STRING by itself; INT_TO_STRING(...) converts"},
            {"t := 1;", "2:1: 't' is TON and is not assigned; assign its inputs"},
+           // What other languages write.
+           {"IF i := 1 THEN j := 1; END_IF", "2:6: ':=' assigns; '=' compares"},
+           {"IF i == 1 THEN j := 1; END_IF", "2:6: there is no '=='; '=' compares"},
+           {"IF i != 1 THEN j := 1; END_IF", "2:6: there is no '!='; '<>' compares"},
+           {"IF !b THEN j := 1; END_IF", "2:4: there is no '!'; NOT inverts"},
+           {"b := b && b;", "2:8: there is no '&&'; AND combines"},
+           {"b := b || b;", "2:8: there is no '||'; OR combines"},
+           {"i++;", "2:2: there is no '++;'; write i := i + 1;"},
+           {"i--;", "2:2: there is no '--;'; write i := i - 1;"},
+           {"i += 1;", "2:3: there is no '+='; write i := i + 1;"},
+           {"i -= 1;", "2:3: there is no '-='; write i := i - 1;"},
+           {"i *= 2;", "2:3: there is no '*='; write i := i * 2;"},
+           {"i /= 2;", "2:3: there is no '/='; write i := i / 2;"},
+           {"i := i << 2;", "2:8: there is no '<<'; SHL(word, bits)"},
+           {"i := i >> 2;", "2:8: there is no '>>'; SHR(word, bits)"},
+           {"i := b ? 1 : 2;", "2:8: there is no '?'; SEL("},
+           {"i := j % 3;", "2:8: there is no '%'; MOD gives the remainder"},
+           {"i := t->ET;", "2:7: there is no '->'; '^' follows a reference"},
+           {"x := .5;", "2:6: a number begins with a digit; write 0.5"},
+           {"i := INT#10#5;", "2:10: '10#5' has no base that is known"},
+           {"GOTO 5;", "2:1: 'GOTO' is not declared"},
+           {"REPEAT i := 1; UNTIL b DO END_REPEAT", "2:24: END_REPEAT is missing before 'DO'"},
            {"t;", "2:2: '(' is missing before ';'"},
            {"i(1);", "2:1: 'i' is INT and cannot be called"},
            {"i := j(1);", "2:6: 'j' is INT and cannot be called here; a variable hides a function"},
@@ -156,8 +178,7 @@ TEST(StErrors, OfWholeFiles) {
   expect_problems("PROGRAM m\nVAR i : INT; END_VAR i := 1;",
                   {"1:1: PROGRAM has no END_PROGRAM; write END_PROGRAM at the end"});
   expect_problems("i := 1;\nPROGRAM m END_PROGRAM", {"1:1: 'i' stands outside of all units"});
-  EXPECT_THAT(problems_of("PROGRAM m (* open\nEND_PROGRAM"),
-              testing::Contains(StartsWith("1:11: '(*' is never closed; end it with '*)'")));
+  expect_problems("PROGRAM m (* open\nEND_PROGRAM", {"1:11: '(*' is never closed; end it with '*)'"});
   expect_problems("FUNCTION_BLOCK F END_FUNCTION_BLOCK FUNCTION F : INT END_FUNCTION PROGRAM m END_PROGRAM",
                   {"1:46: 'F' is declared twice"});
   expect_problems("FUNCTION_BLOCK MC_Power END_FUNCTION_BLOCK PROGRAM m END_PROGRAM",

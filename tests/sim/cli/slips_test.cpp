@@ -159,7 +159,7 @@ TEST_F(Slips, InTheQclOfAKnife) {
   const std::string m = "programs/rotary_knife.mod";
   check_all({
       {m, "AxisX:measure ", "AxisX:@mesure ", "did you mean 'measure'?"},
-      {m, "measure  =", "measure  @:=", "write: Device:parameter = value"},
+      {m, "measure  =", "measure  @:=", "there is no ':='; '=' assigns"},
       {m, "pgain EQ 0", "pgain @= 0", "EQ compares"},
       {m, "ENDIF\n\nINIT", "@END_IF\n\nINIT", "did you mean 'ENDIF'?"},
       {m, "st_prsok", "@st_prsk", "did you mean 'st_prsok'?"},
@@ -221,7 +221,7 @@ TEST_F(Slips, InTheStructuredTextOfAKnife) {
       {t, "start AT %IX0.0", "start AT @%IX0.9", "bit 0 to 7"},
       {t, "mcShortestWay", "@mcShortest", "did you mean 'mcShortestWay'?"},
       {t, "failure := Register.failure;", "failure := @rest;", "LREAL_TO_UDINT(...) converts"},
-      {t, "IF Edge.Done THEN", "IF Edge.Done =@= TRUE THEN", "there is no '=='; '=' compares"},
+      {t, "IF Edge.Done THEN", "IF Edge.Done @== TRUE THEN", "there is no '=='; '=' compares"},
       {t, "IF Edge.Done THEN", "IF Edge.@Don THEN", "did you mean 'Done'?"},
       {t, "// 1 mm/s", "@# 1 mm/s", "comments are (* ... *) or //"},
       {t, "homed := TRUE;", "@SLOW := 1.0;", "'SLOW' is a constant"},
