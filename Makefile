@@ -4,7 +4,7 @@
 #   make test    builds and runs all tests; its last line says how long it took
 #   make test-all  those, and the tests that take many minutes
 #   make quick   the tests that take seconds
-#   make bench   speed beside stock Bullet (and MuJoCo), in one run
+#   make bench   speed of the release beside stock Bullet (and MuJoCo), in one run
 #   make         builds build/drycut
 #   make cluster the tests of sweeps on Dask and Slurm, with clusters on this machine
 #   make opcua   what `drycut live --opcua` needs, in build/opcua, and its tests
@@ -52,7 +52,7 @@ if [ -n "$$missing" ]; then \
 fi
 endef
 
-.PHONY: all setup release demo test test-all quick cluster opcua python docs notebooks bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
+.PHONY: all setup profile release demo test test-all quick cluster opcua python docs notebooks bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
 
 all: setup
 	@$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=OFF > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
@@ -126,11 +126,12 @@ notebooks: python
 	$(call install,$(NOTEBOOK_PACKAGES))
 	PYTHONPATH=$(CURDIR)/$(BUILD)/python /usr/bin/python3 tests/python/test_notebooks.py --store
 
-bench: setup
+# Of the program as it is given away.
+bench: profile
 	$(call install,$(BENCH_PACKAGES))
-	$(CONFIGURE) -S . -B $(BUILD) -DDRYCUT_BENCH=ON
-	cmake --build $(BUILD) -j $(JOBS) --target drycut_bench
-	$(BUILD)/drycut_bench
+	$(PROFILED) -DDRYCUT_BENCH=ON
+	cmake --build $(RELEASE) -j $(JOBS) --target drycut_bench
+	$(RELEASE)/drycut_bench
 
 # A second compiler, with assertions, AddressSanitizer, UndefinedBehaviorSanitizer and the fuzzers' counters.
 CLANG := $(BUILD)-clang
@@ -171,14 +172,17 @@ reference: all
 # is trained comes to what the other came to, to the bit. Without ccache, which hands over paths in two ways: a profile is of a path.
 RELEASE := $(BUILD)-release
 TRAINING := $(filter-out scenes/three_way.yaml,$(sort $(wildcard scenes/*.yaml)))  # which compares others
-release: setup
-	$(call install,$(PYTHON_PACKAGES))
+PROFILED = $(CONFIGURE) -S . -B $(RELEASE) -DCMAKE_CXX_COMPILER_LAUNCHER= -DBUILD_TESTING=OFF -DDRYCUT_BENCH=OFF -DDRYCUT_PYTHON=OFF
+profile: setup
 	rm -rf $(RELEASE)/profile
-	$(CONFIGURE) -S . -B $(RELEASE) -DBUILD_TESTING=OFF $(PYTHON) -DCMAKE_CXX_COMPILER_LAUNCHER= -DDRYCUT_PROFILE=generate > $(RELEASE).log 2>&1 || { cat $(RELEASE).log; exit 1; }
+	$(PROFILED) -DDRYCUT_PROFILE=generate > $(RELEASE).log 2>&1 || { cat $(RELEASE).log; exit 1; }
 	cmake --build $(RELEASE) -j $(JOBS) --target drycut_rows
 	$(RELEASE)/drycut_rows $(TRAINING) > $(RELEASE)/trained.txt
-	$(CONFIGURE) -S . -B $(RELEASE) -DCMAKE_CXX_COMPILER_LAUNCHER= -DDRYCUT_PROFILE=use > $(RELEASE).log 2>&1 || { cat $(RELEASE).log; exit 1; }
+	$(PROFILED) -DDRYCUT_PROFILE=use > $(RELEASE).log 2>&1 || { cat $(RELEASE).log; exit 1; }
 	@rm -f $(RELEASE).log
+release: profile
+	$(call install,$(PYTHON_PACKAGES))
+	$(PROFILED) $(PYTHON)
 	cmake --build $(RELEASE) -j $(JOBS) --target all drycut_rows
 	$(RELEASE)/drycut_rows $(TRAINING) | cmp - $(RELEASE)/trained.txt
 

@@ -144,9 +144,9 @@ Encoder::Encoder(const EncoderData& data, double start, Random noise)
 // A disc whose middle lies e beside the axis, read at the radius R, shows e/R sin(angle) more than it turned.
 double Encoder::error(double part) const {
   if (!uneven_) return 0;
-  const double ahead = (data_.eccentricity * std::sin(units::turn * part) +
-                        data_.tooth_error * std::sin(units::turn * part * data_.teeth)) /
-                       units::turn;
+  const double teeth =
+      data_.tooth_error == 0 ? 0 : data_.tooth_error * std::sin(units::turn * part * data_.teeth);
+  const double ahead = (data_.eccentricity * std::sin(units::turn * part) + teeth) / units::turn;
   if (data_.interpolation_error == 0) return ahead;
   const int periods = data_.signal_periods > 0 ? data_.signal_periods : data_.lines;
   return ahead + data_.interpolation_error / periods * std::sin(units::turn * part * periods);
@@ -157,8 +157,9 @@ void Encoder::sense(const Shaft& shaft, double h) {
   double to = shaft.revolutions();
   // The errors are 0 at whole turns: the index stays where it is.
   if (uneven_) {
-    from += error(shaft.part_before);
-    to += error(shaft.part);
+    const auto of = [this](double part) { return error(part); };
+    from += error_.at(shaft.part_before, of);
+    to += error_.at(shaft.part, of);
   }
   const double before = (from - start_) * bits_per_turn_;
   const double now = (to - start_) * bits_per_turn_;

@@ -55,9 +55,9 @@ void MeasuringWheel::sense(double before, double now, double h) {
   double to = revolutions_ = rolled(now);
   travel_ = now;
   if (uneven_) {
-    from = shown(turned(from));
+    from = shown_.at(from, [this](double turns) { return shown(turned(turns)); });
     revolutions_ = turned(to);
-    to = shown(revolutions_);
+    to = shown_.at(to, [this](double) { return shown(revolutions_); });
   }
   const double count_before = from * bits_per_turn_;
   const double count = to * bits_per_turn_;

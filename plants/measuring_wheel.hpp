@@ -71,6 +71,7 @@ class MeasuringWheel {
   double base_ = 0;             // turns there
   double travel_ = 0;
   double revolutions_ = 0;
+  LastValue shown_;
 };
 
 }  // namespace drycut::plants

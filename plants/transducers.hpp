@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -114,6 +115,20 @@ const std::vector<Preset>& encoder_classes();
 Parameters encoder_error_parameters(EncoderData& data);
 /// What is wrong with them, for parameters of the group `encoder.`.
 std::vector<PlantDefinition::Objection> encoder_objections(const EncoderData& data);
+
+/// What a function of one number came to last: a step begins where the one before ended.
+class LastValue {
+ public:
+  template <typename Function>
+  double at(double place, Function function) {
+    if (place != place_) value_ = function(place_ = place);
+    return value_;
+  }
+
+ private:
+  double place_ = std::numeric_limits<double>::quiet_NaN();
+  double value_ = 0;
+};
 
 class Encoder {
  public:

@@ -148,6 +148,7 @@ class QmoveController : public Controller {
   const Configuration configuration_;
   const std::vector<QclProgram> programs_;
   const SymbolTable names_;
+  std::vector<ProgramText> texts_;  ///< of programs(), once somebody has asked
   Cards cards_;
   QclMachine machine_;
   std::vector<Task> tasks_;

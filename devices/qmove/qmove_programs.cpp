@@ -64,10 +64,10 @@ ProgramText QmoveController::module_text(const QclProgram& program) const {
 }
 
 std::vector<ProgramText> QmoveController::programs() {
-  std::vector<ProgramText> texts;
-  texts.reserve(programs_.size() + 1);
-  for (const QclProgram& program : programs_) texts.push_back(module_text(program));
-  ProgramText& set_up = texts.emplace_back(configuration_.file, "cnf", configuration_.text);
+  if (!texts_.empty()) return texts_;
+  texts_.reserve(programs_.size() + 1);
+  for (const QclProgram& program : programs_) texts_.push_back(module_text(program));
+  ProgramText& set_up = texts_.emplace_back(configuration_.file, "cnf", configuration_.text);
   const auto add = [&](const auto& things) {
     for (const auto& thing : things) set_up.add_value(thing.place.line, thing.name);
   };
@@ -75,7 +75,7 @@ std::vector<ProgramText> QmoveController::programs() {
   add(configuration_.timers);
   add(configuration_.inputs);
   add(configuration_.outputs);
-  return texts;
+  return texts_;
 }
 
 ProgramPositions QmoveController::positions(std::int64_t) const {
