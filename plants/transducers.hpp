@@ -151,6 +151,7 @@ class Encoder {
   const bool uneven_;
   const double bits_per_turn_;
   const double start_;  // as it shows it
+  LastValue error_;
 };
 
 /// A proximity or limit switch with a target of some width: on while the position is over the target. All
