@@ -4,9 +4,9 @@
 
 namespace drycut {
 
-// Files that are built into the program, so that it works wherever it is moved: the LICENSE, the meshes of scenes/meshes/,
-// the motors of scenes/catalogue/, what a report is made of, in renders/assets/, and the lines of scenes/new/
-// with their programs (CMakeLists.txt).
+// Files that are built into the program, so that it works wherever it is moved: the LICENSE, the meshes of
+// scenes/meshes/, the motors of scenes/catalogue/, what a report is made of, in renders/assets/, and the
+// lines of scenes/new/ with their programs (CMakeLists.txt).
 
 /// Names of the files, without folders: "drum.stl", "report.css"; those of lines and motors from scenes/ on:
 /// "new/cams/saw.csv", "catalogue/cantoni_sg.yaml".

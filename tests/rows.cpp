@@ -1,5 +1,5 @@
-// rows SCENE...: runs each scenario to its end and prints, ten times a second, all that can be read of it, in hexadecimal. Every
-// build of Drycut, by any compiler, prints the same.
+// rows SCENE...: runs each scenario to its end and prints, ten times a second, all that can be read of it, in
+// hexadecimal. Every build of Drycut, by any compiler, prints the same.
 #include <cstdio>
 #include <drycut/simulation.hpp>
 

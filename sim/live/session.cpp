@@ -8,10 +8,10 @@
 
 #include "sim/file.hpp"
 #include "sim/loop/controller_loader.hpp"
+#include "sim/loop/fingerprint.hpp"
 #include "sim/record/own_file.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
-#include "sim/loop/fingerprint.hpp"
 
 namespace drycut::sim::live {
 

@@ -40,8 +40,8 @@ std::string own_wires(const scenario::Scenario& scenario, const scenario::PlantE
 std::string given_units(const scenario::PlantEntry& plant) {
   std::string text;
   for (const auto& [variable, unit] : plant.units)
-    text += fmt::format("{}{} in {}", text.empty() ? ". By the scenario's word it has " : ", ",
-                        variable.text, unit.text);
+    text += fmt::format("{}{} in {}", text.empty() ? ". By the scenario's word it has " : ", ", variable.text,
+                        unit.text);
   return text;
 }
 

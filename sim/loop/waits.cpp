@@ -85,9 +85,8 @@ Waits waits_of(devices::Controller& controller, Time now) {
         fmt::format(
             "{} stands at line {}, {}{}, since {} s{}", wait.program, wait.line, code_of(*program, wait.line),
             values_of(*program, wait.line, controller), seconds_text(wait.since_ns),
-            wait.until_ns > 0
-                ? fmt::format(", until its timer elapses at {} s", seconds_text(wait.until_ns))
-                : ""));
+            wait.until_ns > 0 ? fmt::format(", until its timer elapses at {} s", seconds_text(wait.until_ns))
+                              : ""));
     if (program->language == "st") break;  // what comes behind has to wait for it
   }
   const auto running = std::count_if(programs.begin(), programs.end(),

@@ -34,13 +34,11 @@ struct TorqueSplit {
 /// more, a machine cycle of up to 100 s among them where `drives` names one.
 void follow_torques(const scenario::Scenario& scenario, loop::Simulation& simulation);
 /// Of each drive that turned. The cycles are the last ten or fewer, as long as each other to 1 %: from cut to
-/// cut of the drive's plant, or those of its verdict, as drives.cycle says; without cycles what its verdict is
-/// of. The cam is that of the controller's axis whose position
-/// is the motor's; its acceleration is that of the table's exact law under the master as it ran. What is left
-/// is the regulator's where it comes back in every cycle, and counting noise where it does not.
-/// `simulation` has followed torques and cams.
-std::vector<TorqueSplit> torque_splits(const scenario::Scenario& scenario,
-                                       const loop::Simulation& simulation,
+/// cut of the drive's plant, or those of its verdict, as drives.cycle says; without cycles what its verdict
+/// is of. The cam is that of the controller's axis whose position is the motor's; its acceleration is that of
+/// the table's exact law under the master as it ran. What is left is the regulator's where it comes back in
+/// every cycle, and counting noise where it does not. `simulation` has followed torques and cams.
+std::vector<TorqueSplit> torque_splits(const scenario::Scenario& scenario, const loop::Simulation& simulation,
                                        const std::vector<record::DriveVerdict>& verdicts);
 
 renders::ReportTable torque_table(const TorqueSplit& split);

@@ -109,8 +109,8 @@ class OverrideSetter {
 
   // Parameters of a plant (servo.rated_torque) or an axis and names of terminals, targets and variables.
   static bool takes_dotted_keys(const std::string& name) {
-    return name.starts_with("plants.") || name.starts_with("controller.plcopen.axes.") || name == "wiring" || name == "inputs" ||
-           (name.starts_with("controller.") && name.ends_with(".set")) ||
+    return name.starts_with("plants.") || name.starts_with("controller.plcopen.axes.") || name == "wiring" ||
+           name == "inputs" || (name.starts_with("controller.") && name.ends_with(".set")) ||
            (name.starts_with("timeline.") && (name.ends_with(".set") || name.ends_with(".ramp")));
   }
 

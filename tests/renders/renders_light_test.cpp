@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "renders/loaded/gl_renderer.hpp"
 #include "renders/lamp.hpp"
+#include "renders/loaded/gl_renderer.hpp"
 
 namespace drycut::renders {
 namespace {

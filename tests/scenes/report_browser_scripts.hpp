@@ -3,7 +3,8 @@
 
 namespace drycut {
 
-/// True once the machine in 3-D shows, or says why it cannot; also on a page without one. Brings it into sight.
+/// True once the machine in 3-D shows, or says why it cannot; also on a page without one. Brings it into
+/// sight.
 inline const char* const kMachineStands = R"js((() => {
   const figure = document.getElementById("machine");
   if (!figure || figure.hidden) return true;

@@ -17,8 +17,8 @@
 #include "base/text.hpp"
 #include "renders/process.hpp"
 #include "sim/interrupt.hpp"
-#include "sim/studies/cluster/engine.hpp"
 #include "sim/loop/fingerprint.hpp"
+#include "sim/studies/cluster/engine.hpp"
 
 namespace drycut::sim::cluster {
 

@@ -10,8 +10,8 @@
 
 #include "base/text.hpp"
 #include "plants/plant.hpp"
-#include "sim/loop/statistics.hpp"
 #include "sim/loop/fingerprint.hpp"
+#include "sim/loop/statistics.hpp"
 #include "sim/studies/recorded_csv.hpp"
 #include "sim/studies/sweep/rated_drive.hpp"
 #include "sim/studies/tune/metric.hpp"

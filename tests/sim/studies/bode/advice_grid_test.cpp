@@ -245,7 +245,8 @@ TEST_P(AdviceOfAGrid, IsWithinTwoPercentOfItsBest) {
 // and needs none of its filters; but its notch has two hills, the lower one of which a coarse grid takes.
 INSTANTIATE_TEST_SUITE_P(Machines, AdviceOfAGrid, testing::Values(GridMachine{2e-2, 3000, 0.5, 60}));
 INSTANTIATE_TEST_SUITE_P(DISABLED_Machines, AdviceOfAGrid,  // half a minute each
-                         testing::Values(GridMachine{2e-2, 3000, 1.5, 150}, GridMachine{2.5e-3, 8000, 0.6, 500}));
+                         testing::Values(GridMachine{2e-2, 3000, 1.5, 150},
+                                         GridMachine{2.5e-3, 8000, 0.6, 500}));
 
 }  // namespace
 }  // namespace drycut::sim::studies

@@ -248,7 +248,8 @@ TEST_F(Compare, OverlaysHoldACurveOfEachRun) {
   EXPECT_EQ(plots[2].panels[0].y_label, "AxisX.follerr [bits x4]");
 }
 
-// A channel that stands at 0 in one run has its panel still, or the others' curves would come into wrong ones.
+// A channel that stands at 0 in one run has its panel still, or the others' curves would come into wrong
+// ones.
 TEST_F(Compare, AChannelThatIsZeroInOneRunIsStillLaidOverTheOthers) {
   RunTexts still;
   RunTexts moving;
@@ -294,7 +295,8 @@ TEST_F(Compare, PiecesAreAlignedByTheirOrderBehindTheStartUp) {
   EXPECT_THAT(comparison.pieces[0].runs, ElementsAre(ElementsAre(800.1, 799.9), ElementsAre(800.1, 799.9)));
   const auto plots = overlay(comparison.runs, usual_overlays(comparison));
   for (const auto& curve : plots[0].panels[0].curves) EXPECT_THAT(curve.x, ElementsAre(1, 2));
-  EXPECT_THAT(comparison_table(comparison, {}).csv(), HasSubstr("\npiece,knife.cut length 2,mm,799.9,799.9\n"));
+  EXPECT_THAT(comparison_table(comparison, {}).csv(),
+              HasSubstr("\npiece,knife.cut length 2,mm,799.9,799.9\n"));
 }
 
 // No plot states limits: the first check that looks at the cuts later than from the start says where they
