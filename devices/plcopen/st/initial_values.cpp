@@ -154,7 +154,7 @@ Cell Declarations::constant_value(const Type& wanted, const char* what, const ch
   const std::size_t before = told();
   value = converted(value, wanted);
   if (told() != before) throw GiveUp{};
-  return value.value;
+  return value.on_the_way ? taken_as(value, value.type->basic).value : value.value;
 }
 
 Declarations::LaterConstants Declarations::constants_of(const Unit& unit) const {

@@ -327,8 +327,9 @@ TypedExpression signed_value(Values& values, const StToken& sign, TypedExpressio
     operand.place = sign.place;
     return values.negated_literal(std::move(operand));
   }
-  if (is_real(basic)) return values.apply_op(StOp::negate_real, operand.type, sign.place, operand);
-  if (!is_integer(basic)) return values.apply_op(StOp::negate, operand.type, sign.place, operand);
+  if (!is_integer(basic))
+    return values.apply_op(is_real(basic) ? StOp::negate_real : StOp::negate, operand.type, sign.place,
+                           operand);
   const Type* type = base_of(operand.type);
   return values.computed(StOp::subtract, type, sign.place, constant(type, 0, sign.place), std::move(operand));
 }

@@ -221,6 +221,8 @@ TypedExpression Values::apply_op(StOp op, const Type* type, Place place, const T
                                  const TypedExpression& b) {
   constexpr int deepest = 400;
   if (a.unknown() || b.unknown()) return unknown_at(place);
+  if (a.on_the_way) return apply_op(op, type, place, taken_as(a, a.type->basic), b);
+  if (b.on_the_way) return apply_op(op, type, place, a, taken_as(b, b.type->basic));
   type = base_of(type);
   if (a.constant && b.constant && is_pure(op)) {
     TypedExpression result = folded(op, type, place, a.value, b.value, a.untyped && b.untyped);
@@ -236,6 +238,7 @@ TypedExpression Values::apply_op(StOp op, const Type* type, Place place, const T
 
 TypedExpression Values::apply_op(StOp op, const Type* type, Place place, const TypedExpression& a) {
   if (a.unknown()) return unknown_at(place);
+  if (a.on_the_way) return apply_op(op, type, place, taken_as(a, a.type->basic));
   type = base_of(type);
   if (a.constant) return folded(op, type, place, a.value, 0, a.untyped && op != StOp::round_real);
   return {type, place, add_node(op, type->basic, place, value_node(a)), a.depth + 1};

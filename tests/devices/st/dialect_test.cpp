@@ -200,6 +200,16 @@ TEST(StDialect, ResultsOnTheirWay) {
   // Its constants are computed alike.
   EXPECT_EQ(result("d : DINT;", "d := INT#30000 + INT#30000; x := d;", codesys), 60000);
   EXPECT_EQ(result("k : INT;", "k := INT#30000 + INT#30000; x := k;", codesys), -5536);
+  for (const auto& options : {iec, codesys}) {
+    EXPECT_EQ(result("i : INT := INT#30000 + INT#30000;", "x := i;", options), -5536);
+    EXPECT_EQ(result("k : INT;", "k := MAX(INT#30000 + INT#30000, INT#0); x := k;", options), 0);
+  }
+  Bench named(
+      "PROGRAM p VAR CONSTANT c : INT := INT#30000 + INT#30000; END_VAR VAR d : DINT; END_VAR d := c; "
+      "END_PROGRAM",
+      codesys);
+  named.scan();
+  EXPECT_EQ(named["d"], -5536);
   // Blocks of the standard count as ever.
   for (const auto& options : {iec, codesys}) {
     Bench bench("PROGRAM p VAR c : CTU; b : BOOL; END_VAR b := NOT b; c(CU := b, PV := 2); END_PROGRAM",
