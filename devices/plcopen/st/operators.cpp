@@ -34,6 +34,13 @@ constexpr std::array operators{
     Operator{"MOD", 6, Kind::modulo, StOp::modulo},
     Operator{"**", 7, Kind::power, StOp::power, StOp::power}};
 
+/// Its place among the operators, or behind them if it is none; any case.
+std::size_t place_of(std::string_view sign) {
+  const auto* const found = std::find_if(operators.begin(), operators.end(),
+                                         [&](const Operator& known) { return same_word(known.sign, sign); });
+  return static_cast<std::size_t>(found - operators.begin());
+}
+
 bool is_zero(const TypedExpression& value) {
   return value.constant && (is_real(value.type->basic) ? real_of(value.value) == 0 : value.value == 0);
 }
@@ -293,21 +300,16 @@ void take_characters(Values& values, TypedExpression& a, TypedExpression& b) {
   if (is_character(b.type->basic) && a.string) a = values.converted(std::move(a), *b.type);
 }
 
-const Operator* find_operator(std::string_view sign) {
-  const auto* const found = std::find_if(operators.begin(), operators.end(),
-                                         [&](const Operator& known) { return same_word(known.sign, sign); });
-  return found == operators.end() ? nullptr : found;
-}
-
 const Operator* find_operator(const StToken& token) {
-  const bool may_be = token.kind == StToken::Kind::name || token.kind == StToken::Kind::sign;
-  return may_be ? find_operator(token.text) : nullptr;
+  if (token.kind != StToken::Kind::name && token.kind != StToken::Kind::sign) return nullptr;
+  const std::size_t place = place_of(token.text);
+  return place < operators.size() ? &operators.at(place) : nullptr;
 }
 
 TypedExpression binary(Values& values, std::string_view sign, const StToken& told, TypedExpression a,
                        TypedExpression b, const Type* wanted) {
   if (a.unknown() || b.unknown()) return unknown_at(told.place);
-  return Operation{values, *find_operator(sign), told, std::move(a), std::move(b), wanted}.result();
+  return Operation{values, operators.at(place_of(sign)), told, std::move(a), std::move(b), wanted}.result();
 }
 
 TypedExpression signed_value(Values& values, const StToken& sign, TypedExpression operand,

@@ -222,7 +222,6 @@ struct Operator {
 /// Above it stand **, and the signs before a value.
 inline constexpr int strongest_level = 6;
 /// nullptr if there is none of this sign or word, any case.
-const Operator* find_operator(std::string_view sign);
 const Operator* find_operator(const StToken& token);
 
 /// `a sign b`; problems are told at `told`, the sign or a function's name. `wanted` is the type that the
