@@ -9,13 +9,12 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "base/json.hpp"
 #include "base/text.hpp"
 
 namespace drycut {
 
 namespace {
-
-using nlohmann::ordered_json;
 
 constexpr std::size_t margin = 2;  ///< blanks before every column
 
@@ -108,11 +107,11 @@ std::string in_columns(const std::vector<std::vector<std::string>>& rows, std::s
   return text;
 }
 
-std::string Sheet::Cell::plain(const ordered_json& value) {
+std::string Sheet::Cell::plain(const Json& value) {
   if (value.is_null()) return "";
   if (value.is_string()) return value.get<std::string>();
   if (value.is_array()) return listed(value.get<std::vector<std::string>>());
-  return value.dump();
+  return json_text(value);
 }
 
 Sheet::Sheet(std::string key, std::string title, const std::vector<std::string>& columns)
@@ -161,10 +160,10 @@ std::string Sheet::markdown() const {
   return text;
 }
 
-ordered_json Sheet::json() const {
-  auto made = ordered_json::array();
+Json Sheet::json() const {
+  auto made = Json::array();
   for (const auto& row : rows_) {
-    auto object = ordered_json::object();
+    auto object = Json::object();
     for (std::size_t i = 0; i < row.size(); ++i)
       if (!keys_[i].empty() && !row[i].value.is_null()) object[keys_[i]] = row[i].value;
     if (!object.empty()) made.push_back(std::move(object));

@@ -2,10 +2,11 @@
 #include <drycut/problem.hpp>
 
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "base/json.hpp"
 
 namespace drycut {
 
@@ -27,17 +28,16 @@ class Sheet {
  public:
   /// What stands in a row: a number stays one in JSON; null is absent there.
   struct Cell {
-    nlohmann::ordered_json value;
+    Json value;
     std::string text;
 
     /// The same in both; a list is joined by commas.
     template <typename Value>
     Cell(const Value& both) : value(both), text(plain(value)) {}
-    Cell(nlohmann::ordered_json in_json, std::string in_text)
-        : value(std::move(in_json)), text(std::move(in_text)) {}
+    Cell(Json in_json, std::string in_text) : value(std::move(in_json)), text(std::move(in_text)) {}
 
    private:
-    static std::string plain(const nlohmann::ordered_json& value);
+    static std::string plain(const Json& value);
   };
 
   /// A key for JSON, a title for text; "" = not shown there. A column has a key and a heading likewise:
@@ -53,7 +53,7 @@ class Sheet {
   /// The same in Markdown, with a heading of the second level; "" without rows.
   [[nodiscard]] std::string markdown() const;
   /// An array of an object a row.
-  [[nodiscard]] nlohmann::ordered_json json() const;
+  [[nodiscard]] Json json() const;
 
  private:
   /// Headings and rows as text shows them.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/json.hpp"
 #include "base/sheet.hpp"
 #include "base/text.hpp"
 
@@ -99,10 +100,10 @@ std::string Table::markdown() const {
   return sheet.markdown();
 }
 
-nlohmann::ordered_json Table::json() const {
-  auto made = nlohmann::ordered_json::array();
+Json Table::json() const {
+  auto made = Json::array();
   for (const auto& row : rows_) {
-    auto object = nlohmann::ordered_json::object();
+    auto object = Json::object();
     for (std::size_t i = 0; i < row.size(); ++i) {
       auto& value = object[columns_[i].key];
       if (const auto* words = std::get_if<std::string>(&row[i]))

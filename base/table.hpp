@@ -1,11 +1,12 @@
 #pragma once
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
+
+#include "base/json.hpp"
 
 namespace drycut {
 
@@ -50,7 +51,7 @@ class Table {
   [[nodiscard]] std::string csv() const;
   [[nodiscard]] std::string markdown() const;
   /// An object a row by the columns' keys; what is none is null.
-  [[nodiscard]] nlohmann::ordered_json json() const;
+  [[nodiscard]] Json json() const;
 
  private:
   std::vector<Column> columns_;

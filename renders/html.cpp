@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 
+#include "base/json.hpp"
 #include "base/text.hpp"
 #include "renders/text.hpp"
 
@@ -25,10 +25,10 @@ std::string html_text(std::string_view text) {
   return escaped;
 }
 
-std::string safe_in_script(const nlohmann::ordered_json& json) {
+std::string safe_in_script(const Json& json) {
   // Signs that could end the script element stand in strings only, and are escaped there.
   std::string text;
-  for (const char c : json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) {
+  for (const char c : json_text(json)) {
     if (c == '<' || c == '>' || c == '&')
       text += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
     else

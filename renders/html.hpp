@@ -3,6 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/json.hpp"
+
 namespace drycut::renders {
 
 /// `text` with everything escaped that means something in HTML, in text and in quoted attributes; newlines
@@ -10,7 +12,7 @@ namespace drycut::renders {
 std::string html_text(std::string_view text);
 
 /// `json` for a script element, which nothing in it can end; what is no UTF-8 is replaced.
-std::string safe_in_script(const nlohmann::ordered_json& json);
+std::string safe_in_script(const Json& json);
 
 /// A path as the address of a link: what is no letter, digit or one of -._~/ is percent-encoded (RFC 3986).
 std::string link_address(std::string_view path);

@@ -7,10 +7,10 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "base/embedded.hpp"
+#include "base/json.hpp"
 #include "renders/gltf.hpp"
 #include "renders/gltf_track.hpp"
 #include "renders/html.hpp"
@@ -18,8 +18,6 @@
 
 namespace drycut::renders {
 namespace {
-
-using nlohmann::ordered_json;
 
 /// In zlib's format, which browsers take as "deflate".
 std::string deflated(const std::string& bytes) {
@@ -35,8 +33,8 @@ std::string deflated(const std::string& bytes) {
 
 /// Whole numbers of `unit`, each as its difference from the one before it in the same column.
 template <std::size_t columns, typename Numbers>
-ordered_json steps(const Track& track, double unit, const Numbers& numbers) {
-  auto list = ordered_json::array();
+Json steps(const Track& track, double unit, const Numbers& numbers) {
+  auto list = Json::array();
   std::array<std::int64_t, columns> last{};
   bool moves = false;
   for (std::size_t row = 0; row < track.size(); ++row) {
@@ -58,7 +56,7 @@ constexpr double place_unit = 1e-5;  // [m]
 constexpr double turn_unit = 1e-5;   // of a quaternion's numbers
 constexpr double scale_unit = 1e-5;
 
-ordered_json track_json(const Track& track) {
+Json track_json(const Track& track) {
   using Time = Eigen::Matrix<double, 1, 1>;
   return {{"times", steps<1>(track, time_unit, [](const TrackKey& key) { return Time(key.time_s); })},
           {"places", steps<3>(track, place_unit, [](const TrackKey& key) { return key.placement.position; })},
@@ -67,11 +65,11 @@ ordered_json track_json(const Track& track) {
 }
 
 std::string motion(const MachineView& view) {
-  auto tracks = ordered_json::array();
+  auto tracks = Json::array();
   for (const auto& track : view.tracks) tracks.push_back(track_json(track));
-  const ordered_json all = {
+  const Json all = {
       {"parts", view.parts}, {"from", view.from_s}, {"until", view.until_s}, {"tracks", std::move(tracks)}};
-  return all.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return json_text(all);
 }
 
 std::string packed(const char* id, const std::string& bytes) {

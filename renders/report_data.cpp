@@ -5,10 +5,10 @@
 #include <bit>
 #include <cstring>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "base/embedded.hpp"
+#include "base/json.hpp"
 #include "renders/decimate.hpp"
 #include "renders/html.hpp"
 #include "renders/palette.hpp"
@@ -28,7 +28,7 @@ std::string map_figure(const ReportMap& map, std::size_t number) {
 
 std::string live_maps(const std::vector<ReportMap>& maps) {
   if (maps.empty()) return "";
-  auto all = nlohmann::ordered_json::array();
+  auto all = Json::array();
   for (const ReportMap& shown : maps) {
     const PlotArea area = map_area(shown.map);
     const double width = shown.map.width;
@@ -51,8 +51,6 @@ std::string live_maps(const std::vector<ReportMap>& maps) {
 
 namespace {
 
-using nlohmann::ordered_json;
-
 static_assert(std::endian::native == std::endian::little, "the columns are little-endian");
 
 template <typename Number>
@@ -71,8 +69,8 @@ class DataColumns {
   std::size_t x(const std::vector<double>& numbers) { return index(numbers, true); }
   std::size_t y(const std::vector<double>& numbers) { return index(numbers, false); }
 
-  [[nodiscard]] ordered_json json() const {
-    auto list = ordered_json::array();
+  [[nodiscard]] Json json() const {
+    auto list = Json::array();
     for (const auto& [numbers, wide] : columns_)
       list.push_back({{"type", wide ? "f8" : "f4"},
                       {"base64", base64(wide ? bytes_of<double>(*numbers) : bytes_of<float>(*numbers))}});
@@ -97,18 +95,18 @@ class DataColumns {
 
 /// Of each item and its number, an object.
 template <typename Item, typename Object>
-ordered_json list_of(const std::vector<Item>& items, const Object& object) {
-  auto list = ordered_json::array();
+Json list_of(const std::vector<Item>& items, const Object& object) {
+  auto list = Json::array();
   for (std::size_t i = 0; i < items.size(); ++i) list.push_back(object(items[i], i));
   return list;
 }
 
 /// By day and by night.
-ordered_json tone_json(const Tone& tone) {
+Json tone_json(const Tone& tone) {
   return {fmt::format("#{:06x}", tone.light), fmt::format("#{:06x}", tone.dark)};
 }
 
-ordered_json look_json(const PlotLook& look) {
+Json look_json(const PlotLook& look) {
   return {
       {"tone", tone_json(look.tone)}, {"opacity", look.opacity}, {"size", look.size}, {"dash", look.dash}};
 }
@@ -118,19 +116,19 @@ std::string_view style_name(Curve::Style style) {
   return style == Curve::Style::steps ? "steps" : "line";
 }
 
-ordered_json panel_json(const Panel& panel, DataColumns& columns) {
-  const auto curve = [&](const Curve& one, std::size_t i) -> ordered_json {
+Json panel_json(const Panel& panel, DataColumns& columns) {
+  const auto curve = [&](const Curve& one, std::size_t i) -> Json {
     return {{"label", one_line(one.label)},       {"style", style_name(one.style)}, {"faint", one.faint},
             {"look", look_json(look_of(one, i))}, {"x", columns.x(one.x)},          {"y", columns.y(one.y)}};
   };
-  const auto band = [](const Band& one, std::size_t i) -> ordered_json {
+  const auto band = [](const Band& one, std::size_t i) -> Json {
     return {{"label", one_line(one.label)},
             {"look", look_json(look_of(one, i))},
             {"low", std::min(one.low, one.high)},
             {"high", std::max(one.low, one.high)}};
   };
-  const auto lane = [&](const Lane& one, std::size_t i) -> ordered_json {
-    auto states = ordered_json::array();  // none: it is high or low
+  const auto lane = [&](const Lane& one, std::size_t i) -> Json {
+    auto states = Json::array();  // none: it is high or low
     if (!is_digital(one))
       for (const auto& [value, tone] : state_tones(one)) states.push_back({value, tone_json(tone)});
     return {{"label", one_line(one.label)},
@@ -139,21 +137,21 @@ ordered_json panel_json(const Panel& panel, DataColumns& columns) {
             {"x", columns.x(one.x)},
             {"y", columns.y(one.y)}};
   };
-  auto range = ordered_json::array();
+  auto range = Json::array();
   if (panel.y_range) range = {panel.y_range->first, panel.y_range->second};
   return {{"title", one_line(panel.title)},      {"yLabel", one_line(panel.y_label)},
           {"least", std::move(range)},           {"curves", list_of(panel.curves, curve)},
           {"bands", list_of(panel.bands, band)}, {"lanes", list_of(panel.lanes, lane)}};
 }
 
-ordered_json plot_json(const Plot& plot, DataColumns& columns) {
-  const auto mark = [](const Mark& one, std::size_t /*i*/) -> ordered_json {
+Json plot_json(const Plot& plot, DataColumns& columns) {
+  const auto mark = [](const Mark& one, std::size_t /*i*/) -> Json {
     return {{"x", one.x}, {"label", one_line(one.label)}, {"strong", one.strong}};
   };
-  const auto zone = [](const Zone& one, std::size_t i) -> ordered_json {
+  const auto zone = [](const Zone& one, std::size_t i) -> Json {
     return {{"from", one.from}, {"to", one.to}, {"look", look_json(look_of(one, i))}};
   };
-  ordered_json second;
+  Json second;
   if (plot.second_x) second = {{"label", one_line(plot.second_x->label)}, {"factor", plot.second_x->factor}};
   const auto [low, high] = laid_out(plot).x_range;
   const bool points = std::any_of(plot.panels.begin(), plot.panels.end(), [](const Panel& panel) {
@@ -186,7 +184,7 @@ bool can_be_live(const Plot& plot) {
 
 std::string plot_data(const std::vector<Plot>& plots) {
   DataColumns columns;
-  auto list = list_of(plots, [&](const Plot& plot, std::size_t /*i*/) -> ordered_json {
+  auto list = list_of(plots, [&](const Plot& plot, std::size_t /*i*/) -> Json {
     return can_be_live(plot) ? plot_json(plot, columns) : nullptr;
   });
   return safe_in_script({{"plots", std::move(list)}, {"columns", columns.json()}});

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "base/embedded.hpp"
+#include "base/json.hpp"
 #include "renders/html.hpp"
 
 namespace drycut::renders {
@@ -79,14 +79,14 @@ std::string matrix_figure(const ReportMatrix& matrix, std::size_t number) {
 
 std::string live_matrices(const std::vector<ReportMatrix>& matrices) {
   if (matrices.empty()) return "";
-  auto all = nlohmann::ordered_json::array();
+  auto all = Json::array();
   for (const ReportMatrix& matrix : matrices) {
     // Texts come again and again.
     std::map<std::string, std::size_t> known;
-    auto texts = nlohmann::ordered_json::array();
-    auto cells = nlohmann::ordered_json::array();
+    auto texts = Json::array();
+    auto cells = Json::array();
     for (const auto& cell : matrix.cells) {
-      auto own = nlohmann::ordered_json::array();
+      auto own = Json::array();
       for (const auto& text : cell) {
         const auto [at, fresh] = known.emplace(text, texts.size());
         if (fresh) texts.push_back(text);
@@ -94,7 +94,7 @@ std::string live_matrices(const std::vector<ReportMatrix>& matrices) {
       }
       cells.push_back(std::move(own));
     }
-    auto headings = nlohmann::ordered_json::array();
+    auto headings = Json::array();
     for (const auto& heading : matrix.headings) headings.push_back(std::string(heading));
     all.push_back({{"columns", matrix.columns.size()},
                    {"rows", matrix.rows.size()},

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/json.hpp"
 #include "base/plain_text.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/fingerprint.hpp"
@@ -105,7 +105,7 @@ std::string github_text(const std::vector<Annotation>& annotations) {
 }
 
 std::string gitlab_text(const std::vector<Annotation>& annotations) {
-  auto json = nlohmann::ordered_json::array();
+  auto json = Json::array();
   std::map<std::uint64_t, int> twins;
   for (const auto& [kind, place, title, message, lasting] : annotations) {
     loop::Fingerprint own;
@@ -119,7 +119,7 @@ std::string gitlab_text(const std::vector<Annotation>& annotations) {
                     {"severity", severity_of(kind)},
                     {"location", {{"path", place.file}, {"lines", {{"begin", place.line}}}}}});
   }
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 void check_annotate(const std::string& whom, Problems& problems) {

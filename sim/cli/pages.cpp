@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 
+#include "base/json.hpp"
 #include "base/problem.hpp"
 #include "base/text.hpp"
 #include "sim/cli/commands.hpp"
@@ -17,10 +18,8 @@ namespace drycut::sim::cli {
 
 namespace {
 
-using nlohmann::ordered_json;
-
-ordered_json json_of(const Page& page) {
-  ordered_json json = {{"name", page.name}, {"summary", page.summary}};
+Json json_of(const Page& page) {
+  Json json = {{"name", page.name}, {"summary", page.summary}};
   for (const auto& sheet : page.sheets)
     if (auto rows = sheet.json(); !sheet.key().empty() && !rows.empty()) json[sheet.key()] = std::move(rows);
   if (!page.aliases.empty()) json["aliases"] = page.aliases;
@@ -113,13 +112,13 @@ int show(const PageKind& kind, const std::vector<Page>& pages, const std::string
     const auto page = std::ranges::find_if(pages, [&](const auto& p) { return same_word(p.name, name); });
     if (page == pages.end()) return unknown(kind, name, pages);
     if (json)
-      fmt::print("{}\n", json_of(*page).dump(2));
+      fmt::print("{}\n", json_text(json_of(*page), 2));
     else
       print(*page);
   } else if (json) {
-    auto all = ordered_json::array();
+    auto all = Json::array();
     for (const auto& page : pages) all.push_back(json_of(page));
-    fmt::print("{}\n", all.dump(2));
+    fmt::print("{}\n", json_text(all, 2));
   } else if (!overview.empty()) {
     for (const auto& sheet : overview) fmt::print("{}", sheet.text(output_width()));
   } else {

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "base/json.hpp"
 #include "base/sheet.hpp"
 
 namespace drycut::sim::cli {
@@ -12,9 +13,9 @@ struct Page {
   std::string summary;
   std::string preamble;  ///< lines of text before the tables; "" = none
   std::vector<Sheet>
-      sheets;  ///< in their order; readings of ours, where a manual leaves it open, are the last
-  nlohmann::ordered_json aliases = {};  ///< other spellings and what they stand for, for JSON alone
-  bool listed = true;                   ///< in the short list of all; else another page names it
+      sheets;          ///< in their order; readings of ours, where a manual leaves it open, are the last
+  Json aliases = {};   ///< other spellings and what they stand for, for JSON alone
+  bool listed = true;  ///< in the short list of all; else another page names it
 };
 
 /// What a list of pages is of, for messages: {"drycut plants", "plant type"}.

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "base/json.hpp"
 #include "plants/plant.hpp"
 #include "sim/cli/pages.hpp"
 #include "sim/scenario/parameter_text.hpp"
@@ -93,7 +94,7 @@ std::string strong_text(const plants::Fault& fault) {
 
 /// In text "length [mm], force [N]".
 Sheet::Cell values_cell(const plants::EventType& event) {
-  Sheet::Cell cell(nlohmann::ordered_json::array(), "");
+  Sheet::Cell cell(Json::array(), "");
   for (const auto& [name, unit] : event.values) {
     cell.value.push_back({{"name", name}, {"unit", unit}});
     cell.text += fmt::format("{}{}{}", cell.text.empty() ? "" : ", ", name,

@@ -5,6 +5,7 @@
 #include <array>
 #include <iterator>
 
+#include "base/json.hpp"
 #include "base/text.hpp"
 #include "devices/device.hpp"
 #include "devices/qmove/catalogue.hpp"
@@ -15,8 +16,6 @@
 namespace drycut::sim::cli {
 
 namespace {
-
-using nlohmann::ordered_json;
 
 std::string condition_text(const devices::DeviceType& type, const devices::Condition& condition) {
   std::vector<std::string> needed;
@@ -46,7 +45,7 @@ const devices::ManualReading* reading_of(const devices::DeviceType& type, std::s
 Sheet::Cell reading_cell(const devices::DeviceType& type, std::string_view row) {
   const auto* reading = reading_of(type, row);
   if (reading == nullptr) return nullptr;
-  return ordered_json{{"text", reading->text}, {"manual", reading->manual}};
+  return Json{{"text", reading->text}, {"manual", reading->manual}};
 }
 
 Sheet::Cell meaning_cell(const devices::DeviceType& type, std::string_view row, std::string_view meaning) {

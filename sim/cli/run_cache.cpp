@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/json.hpp"
 #include "base/text.hpp"
 #include "sim/loop/fingerprint.hpp"
 #include "sim/record/json.hpp"
@@ -20,9 +21,6 @@ namespace drycut::sim::cli {
 namespace fs = std::filesystem;
 
 namespace {
-
-using nlohmann::json;
-using record::Json;
 
 constexpr auto* entry_file = "entry.json";
 
@@ -55,8 +53,8 @@ fs::path program_in_path(const char* name) {
 }
 
 /// What the report takes from the machine that it is made on.
-json helpers() {
-  json files;
+Json helpers() {
+  Json files;
   const fs::path scripts = "/usr/share/javascript";
   for (const auto& file :
        {scripts / "dygraphs/dygraph.min.js", scripts / "dygraphs/dygraph.min.css",
@@ -83,7 +81,7 @@ std::optional<Json> sound_entry(const fs::path& entry, const std::string& inputs
   if (!text) return {};
   const auto end = text->find('\n');  // of the first line: the fingerprint of the others
   if (end == std::string::npos || text->substr(0, end) != fingerprint_of(text->substr(end + 1))) return {};
-  auto json = Json::parse(text->substr(end + 1));
+  auto json = json_from(text->substr(end + 1));
   if (json.at("inputs") != inputs) return {};
   for (const auto& [name, fingerprint] : json.at("files").items()) {
     const bool is_inside = !name.starts_with('/') && name.find("..") == std::string::npos;
@@ -106,7 +104,7 @@ bool is_begun(const fs::path& folder) {
 std::string inputs_of_run(const scenario::Scenario& scenario, const FileSet& files, const RunKind& kind) {
   loop::Fingerprint program;
   program.add_program();
-  json inputs = {{"program", digits(program.value())},
+  Json inputs = {{"program", digits(program.value())},
                  {"name", kind.name},
                  {"pictures", kind.pictures},
                  {"gltf", kind.gltf},
@@ -126,7 +124,7 @@ std::string inputs_of_run(const scenario::Scenario& scenario, const FileSet& fil
         inputs["meshes"][beside.path().string()] = fingerprint_of_file(beside.path());
   }
   if (kind.pictures) inputs["helpers"] = helpers();
-  return inputs.dump();
+  return json_text(inputs);
 }
 
 RunCache::RunCache(fs::path folder, Problems& problems, std::uintmax_t most)
@@ -154,7 +152,7 @@ std::optional<CachedRun> RunCache::take(const std::string& inputs, OutputFolder&
     std::error_code ignored;
     fs::last_write_time(entry / entry_file, fs::file_time_type::clock::now(), ignored);
     return run;
-  } catch (const nlohmann::json::exception&) {
+  } catch (const Json::exception&) {
     return {};
   } catch (const fs::filesystem_error&) {  // another process made room just now
     return {};
@@ -173,7 +171,7 @@ void RunCache::keep(const std::string& inputs, const OutputFolder& from, const C
     fs::copy_file(from.path() / name, copy, fs::copy_options::overwrite_existing);
     json["files"][name] = fingerprint_of_file(copy);
   }
-  const auto text = record::json_text(json, 2) + "\n";
+  const auto text = json_text(json, 2) + "\n";
   write_file(begun / entry_file, fingerprint_of(text) + "\n" + text);
   fs::remove_all(entry);            // a damaged one
   fs::rename(begun, entry, error);  // unless another process has kept the same

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 
+#include "base/json.hpp"
 #include "base/text.hpp"
 #include "sim/cams/study.hpp"
 #include "sim/cli/pages.hpp"
@@ -17,23 +18,22 @@ namespace drycut::sim::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using scenario::Archive;
 using scenario::Form;
 using scenario::Key;
 
 /// What a value may be, in words, by its JSON Schema: "a whole number, 1 to 10000".
 std::string value_in_words(const Json& schema) {
-  if (schema == Json::parse(scenario::switch_schema)) return "on or off";
-  if (schema == Json::parse(scenario::quantity_schema)) return "a number with its unit";
-  if (schema == Json::parse(scenario::number_schema)) return "a number";
-  if (schema == Json::parse(scenario::pair_schema)) return "two numbers: [A, B]";
+  if (schema == json_from(scenario::switch_schema)) return "on or off";
+  if (schema == json_from(scenario::quantity_schema)) return "a number with its unit";
+  if (schema == json_from(scenario::number_schema)) return "a number";
+  if (schema == json_from(scenario::pair_schema)) return "two numbers: [A, B]";
   if (const auto words = schema.find("enum"); words != schema.end())
     return listed(words->get<std::vector<std::string>>());
   const auto type = schema.value("type", Json());
   if (type == "array") {
     const auto item = value_in_words(schema["items"]);
-    return schema.contains("minItems") ? fmt::format("a list of {}: {}", schema["minItems"].dump(), item)
+    return schema.contains("minItems") ? fmt::format("a list of {}: {}", json_text(schema["minItems"]), item)
                                        : fmt::format("a list: {}", item);
   }
   if (type == "object") return fmt::format("a map: {}", value_in_words(schema["additionalProperties"]));
@@ -41,11 +41,11 @@ std::string value_in_words(const Json& schema) {
   if (!schema.contains("minimum")) return "a text";
   const auto most = schema.value("maximum", std::numeric_limits<int>::max());
   return most == std::numeric_limits<int>::max()
-             ? fmt::format("a whole number from {}", schema["minimum"].dump())
-             : fmt::format("a whole number, {} to {}", schema["minimum"].dump(), most);
+             ? fmt::format("a whole number from {}", json_text(schema["minimum"]))
+             : fmt::format("a whole number, {} to {}", json_text(schema["minimum"]), most);
 }
 
-std::string value_in_words(const Form& form) { return value_in_words(Json::parse(form.schema())); }
+std::string value_in_words(const Form& form) { return value_in_words(json_from(form.schema())); }
 
 /// The keys of one map of the file.
 struct KeyMap {

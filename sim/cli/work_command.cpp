@@ -6,7 +6,6 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "sim/cli/commands.hpp"
@@ -20,10 +19,8 @@ namespace drycut::sim::cli {
 
 namespace {
 
-using nlohmann::json;
-
 /// A line at once: a kill loses only what is under way.
-void say(const json& line) { std::cout << line.dump() << '\n' << std::flush; }
+void say(const Json& line) { std::cout << json_text(line) << '\n' << std::flush; }
 
 /// Answers the items on standard input, a line each:
 ///   {"item": 3, "ask": ...}                            in
@@ -51,7 +48,7 @@ int work(const std::filesystem::path& file) {
                       : bundle.kind == "fault" ? studies::fault_answerer(bundle.question)
                                                : studies::point_answerer(bundle.question);
   for (std::string line; std::getline(std::cin, line);) {
-    const auto item = json::parse(line);
+    const auto item = json_from(line);
     say({{"item", item.at("item")}});
     const auto begin = std::chrono::steady_clock::now();
     const auto text = answer(item.at("ask").get<std::string>());

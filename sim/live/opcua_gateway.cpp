@@ -15,10 +15,10 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 
+#include "base/json.hpp"
 #include "base/plain_text.hpp"
 #include "renders/process.hpp"
 #include "sim/live/port.hpp"
@@ -92,11 +92,10 @@ OpcuaGateway::OpcuaGateway(const Options& options) {
     throw std::runtime_error(fmt::format("cannot start {}: {}", node(), std::strerror(started.error)));
   }
   // Not as arguments: those are seen by everybody on this machine.
-  const auto told = nlohmann::json({{"line", options.line},
-                                    {"address", options.address},
-                                    {"port", options.port},
-                                    {"token", options.token}})
-                        .dump() +
+  const auto told = json_text({{"line", options.line},
+                               {"address", options.address},
+                               {"port", options.port},
+                               {"token", options.token}}) +
                     "\n";
   if (::send(socket_, told.data(), told.size(), MSG_NOSIGNAL) < 0) kill(child_, SIGKILL);  // listen() says so
   thread_ = std::thread([this] { listen(); });

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
+#include "base/json.hpp"
 #include "sim/record/json.hpp"
 #include "sim/scenario/archive.hpp"
 
@@ -15,23 +15,19 @@ namespace drycut::sim::live {
 
 namespace {
 
-using nlohmann::ordered_json;
-
 /// As many digits as a picture needs.
 double rounded(double number, double unit) {
   return std::isfinite(number) ? std::round(number / unit) * unit : 0;
 }
 
-using record::json_text;
-
-ordered_json list_of(const Problems& problems) {
-  auto list = ordered_json::array();
+Json list_of(const Problems& problems) {
+  auto list = Json::array();
   for (const auto& problem : problems)
     list.push_back({{"code", problem.code.text()}, {"what", problem.what}, {"remedy", problem.remedy}});
   return list;
 }
 
-ordered_json range_json(const devices::ValueRange& range) {
+Json range_json(const devices::ValueRange& range) {
   return {{"low", range.low}, {"high", range.high}, {"whole", range.whole}};
 }
 
@@ -40,7 +36,7 @@ class RequestParser {
  public:
   explicit RequestParser(Problems& problems) : problems_(problems) {}
 
-  std::optional<decltype(Request::what)> read(const ordered_json& message) {
+  std::optional<decltype(Request::what)> read(const Json& message) {
     if (message.contains("act")) return read_act(message["act"]);
     if (message.contains("run")) return read_switch(message["run"]);
     if (message.contains("advance")) return read_advance(message["advance"]);
@@ -62,19 +58,19 @@ class RequestParser {
   }
 
  private:
-  std::optional<decltype(Request::what)> read_act(const ordered_json& act) {
+  std::optional<decltype(Request::what)> read_act(const Json& act) {
     auto text = json_text(act);
     if (text.size() <= most_of_act) return Act{std::move(text)};
     refuse("live.message"_code, fmt::format("an act of {} bytes", text.size()),
            fmt::format("{} at most; make several of it", most_of_act));
     return {};
   }
-  std::optional<decltype(Request::what)> read_switch(const ordered_json& on) {
+  std::optional<decltype(Request::what)> read_switch(const Json& on) {
     if (on.is_boolean()) return Go{on.get<bool>()};
     refuse("live.message"_code, "run is true or false", "{\"run\": true}");
     return {};
   }
-  std::optional<decltype(Request::what)> read_advance(const ordered_json& by) {
+  std::optional<decltype(Request::what)> read_advance(const Json& by) {
     scenario::Findings findings({"message"});
     if (by.is_string()) {
       const auto time = scenario::read_time({by.get<std::string>(), {1, 1, 0}, {}}, "advance",
@@ -84,12 +80,12 @@ class RequestParser {
     refuse("live.message"_code, "advance is a time of an hour at most", R"({"advance": "1 ms"})");
     return {};
   }
-  std::optional<decltype(Request::what)> read_until(const ordered_json& event) {
+  std::optional<decltype(Request::what)> read_until(const Json& event) {
     if (event.is_string()) return UntilEvent{event.get<std::string>()};
     refuse("live.message"_code, "until is an event's name", R"({"until": "cut"}, "" for any)");
     return {};
   }
-  std::optional<decltype(Request::what)> read_pace(const ordered_json& pace) {
+  std::optional<decltype(Request::what)> read_pace(const Json& pace) {
     if (pace == "max") return Pace{0};
     if (pace.is_number() && pace.get<double>() >= least_pace && pace.get<double>() <= most_pace)
       return Pace{pace.get<double>()};
@@ -97,7 +93,7 @@ class RequestParser {
            fmt::format("pace is a number from {} to {}, or \"max\"", least_pace, most_pace), "{\"pace\": 1}");
     return {};
   }
-  std::optional<decltype(Request::what)> read_sample(const ordered_json& message) {
+  std::optional<decltype(Request::what)> read_sample(const Json& message) {
     Sample sample;
     if (!read_names(message, "sample", sample.names)) return {};
     const auto sampled = sample.names.size();
@@ -106,7 +102,7 @@ class RequestParser {
     if (!read_programs(message, sample.programs)) return {};
     return sample;
   }
-  bool read_programs(const ordered_json& message, bool& programs) {
+  bool read_programs(const Json& message, bool& programs) {
     if (!message.contains("programs")) return true;
     if (message["programs"].is_boolean()) {
       programs = message["programs"].get<bool>();
@@ -115,7 +111,7 @@ class RequestParser {
     refuse("live.message"_code, "programs is true or false", R"({"watch": [], "programs": true})");
     return false;
   }
-  std::optional<decltype(Request::what)> read_look(const ordered_json& message) {
+  std::optional<decltype(Request::what)> read_look(const Json& message) {
     Look look;
     if (!read_past(message["look"], "look", look.time) || !read_names(message, "read", look.names) ||
         !read_programs(message, look.programs))
@@ -125,13 +121,13 @@ class RequestParser {
            fmt::format("{} at most", most_looked_at));
     return {};
   }
-  std::optional<decltype(Request::what)> read_go_on(const ordered_json& from) {
+  std::optional<decltype(Request::what)> read_go_on(const Json& from) {
     GoOn on;
     if (!read_past(from, "go_on", on.from)) return {};
     return on;
   }
   /// A time that the run has behind it.
-  bool read_past(const ordered_json& text, const char* key, Time& time) {
+  bool read_past(const Json& text, const char* key, Time& time) {
     scenario::Findings findings({"message"});
     if (text.is_string()) {
       const auto read = scenario::read_time({text.get<std::string>(), {1, 1, 0}, {}}, key,
@@ -145,16 +141,16 @@ class RequestParser {
            fmt::format(R"({{"{}": "12.5 s"}})", key));
     return false;
   }
-  std::optional<decltype(Request::what)> read_values(const ordered_json& message) {
+  std::optional<decltype(Request::what)> read_values(const Json& message) {
     Read read;
     if (!read_names(message, "read", read.names)) return {};
     return read;
   }
   /// Adds the names under `key`, if there are any.
-  bool read_names(const ordered_json& message, const char* key, std::vector<std::string>& names) {
+  bool read_names(const Json& message, const char* key, std::vector<std::string>& names) {
     if (!message.contains(key)) return true;
     const auto& list = message[key];
-    const auto is_name = [](const ordered_json& item) { return item.is_string(); };
+    const auto is_name = [](const Json& item) { return item.is_string(); };
     if (!list.is_array() || !std::all_of(list.begin(), list.end(), is_name)) {
       refuse("live.message"_code, fmt::format("{} is a list of channels", key),
              fmt::format(R"({{"{}": ["web.speed"]}})", key));
@@ -171,15 +167,15 @@ class RequestParser {
 };
 
 /// [["length", 800.1, "mm"], ["number", 3, ""]]
-ordered_json numbers_json(const record::RecordedEvent& event) {
-  auto list = ordered_json::array();
+Json numbers_json(const record::RecordedEvent& event) {
+  auto list = Json::array();
   for (const auto& [name, number, unit] : event.values)
-    list.push_back({name, std::isfinite(number) ? ordered_json(number) : ordered_json(), unit});
+    list.push_back({name, std::isfinite(number) ? Json(number) : Json(), unit});
   return list;
 }
 
-ordered_json events_json(const std::vector<record::RecordedEvent>& events) {
-  auto list = ordered_json::array();
+Json events_json(const std::vector<record::RecordedEvent>& events) {
+  auto list = Json::array();
   for (const auto& event : events)
     list.push_back({{"time", event.at_seconds()},
                     {"source", event.source},
@@ -190,10 +186,10 @@ ordered_json events_json(const std::vector<record::RecordedEvent>& events) {
   return list;
 }
 
-ordered_json poses_json(const std::vector<plants::PartPose>& poses) {
+Json poses_json(const std::vector<plants::PartPose>& poses) {
   constexpr double length = 1e-5;
   constexpr double turn = 1e-5;
-  auto numbers = ordered_json::array();
+  auto numbers = Json::array();
   for (const auto& [pose, visible, scale] : poses) {
     for (const double x : pose.position) numbers.push_back(rounded(x, length));
     for (const double x : pose.rotation) numbers.push_back(rounded(x, turn));
@@ -202,8 +198,8 @@ ordered_json poses_json(const std::vector<plants::PartPose>& poses) {
   return numbers;
 }
 
-ordered_json program_json(const devices::ProgramText& program) {
-  auto values = ordered_json::object();
+Json program_json(const devices::ProgramText& program) {
+  auto values = Json::object();
   for (const auto& [line, names] : program.values) values[std::to_string(line)] = names;
   return {{"name", program.name},
           {"file", program.file},
@@ -212,8 +208,8 @@ ordered_json program_json(const devices::ProgramText& program) {
           {"values", std::move(values)}};
 }
 
-ordered_json positions_json(const devices::ProgramPositions& positions) {
-  auto tasks = ordered_json::array();
+Json positions_json(const devices::ProgramPositions& positions) {
+  auto tasks = Json::array();
   for (const auto& task : positions.tasks)
     tasks.push_back({{"name", task.name},
                      {"program", task.program},
@@ -223,15 +219,15 @@ ordered_json positions_json(const devices::ProgramPositions& positions) {
   return {{"tasks", tasks}, {"scanned", positions.scanned}};
 }
 
-ordered_json channel_json(const LineDescription::Channel& channel) {
-  ordered_json one = {{"name", channel.name}, {"unit", channel.unit}, {"writable", channel.writable}};
+Json channel_json(const LineDescription::Channel& channel) {
+  Json one = {{"name", channel.name}, {"unit", channel.unit}, {"writable", channel.writable}};
   if (channel.range) one["range"] = range_json(*channel.range);
   return one;
 }
 
-ordered_json opcua_json(const scenario::OpcuaSection& opcua) {
+Json opcua_json(const scenario::OpcuaSection& opcua) {
   const auto& [machine, packml, machinery, cutters] = opcua;
-  auto lengths = ordered_json::object();
+  auto lengths = Json::object();
   for (const auto& cutter : cutters) lengths[cutter.plant.text] = cutter.length.text;
   return {{"manufacturer", machine.manufacturer},
           {"model", machine.model},
@@ -248,7 +244,7 @@ ordered_json opcua_json(const scenario::OpcuaSection& opcua) {
 
 std::optional<Request> parse_request(std::string_view message, Asker asker, double& id, Problems& problems) {
   RequestParser parser(problems);
-  const auto json = ordered_json::parse(message, nullptr, false);
+  const auto json = json_or_null(message);
   id = 0;
   if (!json.is_object()) {
     parser.refuse("live.message"_code, "the message is no JSON object", "{\"run\": true}");
@@ -261,27 +257,27 @@ std::optional<Request> parse_request(std::string_view message, Asker asker, doub
 }
 
 std::string description_json(const LineDescription& line) {
-  auto targets = ordered_json::array();
+  auto targets = Json::array();
   for (const auto& target : line.targets) {
-    ordered_json one = {
+    Json one = {
         {"name", target.name}, {"unit", target.unit}, {"panel", target.of_panel}, {"used", target.used}};
     if (target.push) one["push"] = *target.push;
     if (target.range) one["range"] = range_json(*target.range);
     targets.push_back(std::move(one));
   }
-  auto faults = ordered_json::array();
+  auto faults = Json::array();
   for (const auto& fault : line.faults)
     faults.push_back({{"component", fault.component},
                       {"name", fault.name},
                       {"unit", fault.unit},
                       {"meaning", fault.meaning},
                       {"range", range_json(fault.range)}});
-  auto channels = ordered_json::array();
+  auto channels = Json::array();
   for (const auto& channel : line.channels) channels.push_back(channel_json(channel));
-  auto plants = ordered_json::array();
+  auto plants = Json::array();
   for (const auto& plant : line.plants)
     plants.push_back({{"name", plant.name}, {"type", plant.type}, {"web", plant.web}, {"cuts", plant.cuts}});
-  auto programs = ordered_json::array();
+  auto programs = Json::array();
   for (const auto& program : line.programs) programs.push_back(program_json(program));
   return json_text({{"line",
                      {{"process", line.process},
@@ -305,7 +301,7 @@ std::string description_json(const LineDescription& line) {
 
 std::string news_json(const News& news) {
   const auto& kept = news.punctuality;
-  ordered_json json = {
+  Json json = {
       {"run", news.run},
       {"time", seconds(news.time)},
       {"running", news.running},
@@ -351,7 +347,7 @@ std::string samples_json(const News::Samples& samples, const Sample& wanted) {
   };
   const auto sampled = columns.size() - wanted.watched;
   const auto last = samples.times.size() - 1;
-  auto names = ordered_json::array();
+  auto names = Json::array();
   for (std::size_t item = 0; item < sampled; ++item) names.push_back(wanted.names[item]);
   text = R"({"samples":{"names":)" + json_text(names) + R"(,"times":[)";
   if (sampled > 0)
@@ -383,10 +379,9 @@ std::string answer_json(double id, const Problems& problems) {
 
 namespace {
 
-ordered_json numbers_of(const std::vector<double>& values) {
-  auto list = ordered_json::array();
-  for (const double value : values)
-    list.push_back(std::isfinite(value) ? ordered_json(value) : ordered_json());
+Json numbers_of(const std::vector<double>& values) {
+  auto list = Json::array();
+  for (const double value : values) list.push_back(std::isfinite(value) ? Json(value) : Json());
   return list;
 }
 
@@ -398,15 +393,15 @@ std::string values_json(double id, const Problems& problems, const std::vector<d
 
 std::string seen_json(double id, const Problems& problems, const Seen& seen) {
   if (!problems.empty()) return answer_json(id, problems);
-  ordered_json past = {{"run", seen.run},
-                       {"time", seconds(seen.time)},
-                       {"poses", poses_json(seen.poses)},
-                       {"values", numbers_of(seen.values)},
-                       {"lamps", numbers_of(seen.lamps)},
-                       {"read", numbers_of(seen.read)}};
+  Json past = {{"run", seen.run},
+               {"time", seconds(seen.time)},
+               {"poses", poses_json(seen.poses)},
+               {"values", numbers_of(seen.values)},
+               {"lamps", numbers_of(seen.lamps)},
+               {"read", numbers_of(seen.read)}};
   if (seen.programs) past["programs"] = positions_json(*seen.programs);
   past["outcome"] = record::json_of(seen.outcome);
-  return json_text({{"done", id}, {"problems", ordered_json::array()}, {"past", std::move(past)}});
+  return json_text({{"done", id}, {"problems", Json::array()}, {"past", std::move(past)}});
 }
 
 }  // namespace drycut::sim::live

@@ -1,15 +1,13 @@
 #pragma once
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <type_traits>
 
+#include "base/json.hpp"
 #include "sim/record/visit.hpp"
 
 namespace drycut::sim::record {
-
-using Json = nlohmann::ordered_json;
 
 template <typename T>
 inline constexpr bool is_path = std::is_same_v<T, std::filesystem::path>;
@@ -74,7 +72,7 @@ struct JsonReader {
   }
 };
 
-/// Back again. Throws nlohmann::json::exception where the JSON is of another kind.
+/// Back again. Throws Json::exception where the JSON is of another kind.
 template <typename T>
 void take_json(const Json& json, T& value) {
   if constexpr (Visited<T>) {
@@ -101,11 +99,6 @@ void take_json(const Json& json, T& value) {
   } else {
     value = json.get<T>();
   }
-}
-
-/// Any text, also one that is no UTF-8.
-inline std::string json_text(const Json& json, int indent = -1) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace drycut::sim::record

@@ -9,8 +9,9 @@
 #include <functional>
 #include <iterator>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "base/json.hpp"
 
 namespace drycut::sim::record {
 
@@ -55,8 +56,6 @@ std::uint32_t check_sum(std::string_view bytes, std::uint32_t before = 0) {
       crc32_z(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
 }
 
-using Json = nlohmann::ordered_json;
-
 Json number_schema(const std::string& unit) {
   return {{"type", "number"}, {"description", unit.empty() ? "-" : unit}};
 }
@@ -67,17 +66,17 @@ std::string log_schema() {
   Json levels = Json::array();
   for (const auto* level : {"UNKNOWN", "DEBUG", "INFO", "WARNING", "ERROR", "FATAL"})
     levels.push_back({{"title", level}, {"const", levels.size()}});
-  return Json{{"title", "foxglove.Log"},
-              {"type", "object"},
-              {"properties",
-               {{"timestamp",
-                 {{"type", "object"}, {"title", "time"}, {"properties", {{"sec", whole}, {"nsec", whole}}}}},
-                {"level", {{"title", "foxglove.LogLevel"}, {"oneOf", levels}}},
-                {"message", {{"type", "string"}}},
-                {"name", {{"type", "string"}}},
-                {"file", {{"type", "string"}}},
-                {"line", whole}}}}
-      .dump();
+  return json_text(
+      {{"title", "foxglove.Log"},
+       {"type", "object"},
+       {"properties",
+        {{"timestamp",
+          {{"type", "object"}, {"title", "time"}, {"properties", {{"sec", whole}, {"nsec", whole}}}}},
+         {"level", {{"title", "foxglove.LogLevel"}, {"oneOf", levels}}},
+         {"message", {{"type", "string"}}},
+         {"name", {{"type", "string"}}},
+         {"file", {{"type", "string"}}},
+         {"line", whole}}}});
 }
 
 int log_level(Severity severity) {
@@ -132,7 +131,7 @@ McapFile::McapFile(const Recording& recording, const std::filesystem::path& file
     json["title"] = "drycut." + source.name;
     // A source that is called as the log is.
     const auto topic = "/" + source.name + (source.name == "events" ? "_" : "");
-    source_topics_.push_back(add_topic(topic, "drycut." + source.name, json.dump()));
+    source_topics_.push_back(add_topic(topic, "drycut." + source.name, json_text(json)));
   }
 }
 
@@ -214,7 +213,7 @@ void McapFile::append_json(const Node& node, std::string& json) {
   char before = '{';
   for (const auto& inner : node.inside) {
     json += before;
-    json += Json(inner.name).dump();
+    json += json_text(Json(inner.name));
     json += ':';
     append_json(inner, json);
     before = ',';
@@ -234,13 +233,12 @@ void McapFile::happened(const RecordedEvent& event) {
   const Time time = std::llround(event.at_seconds() * static_cast<double>(second));
   const auto words = values_text(event);
   add_message(log_, time,
-              Json{{"timestamp", {{"sec", time / second}, {"nsec", time % second}}},
-                   {"level", log_level(event.severity)},
-                   {"message", words.empty() ? event.event : event.event + ": " + words},
-                   {"name", event.source},
-                   {"file", ""},
-                   {"line", 0}}
-                  .dump());
+              json_text({{"timestamp", {{"sec", time / second}, {"nsec", time % second}}},
+                         {"level", log_level(event.severity)},
+                         {"message", words.empty() ? event.event : event.event + ": " + words},
+                         {"name", event.source},
+                         {"file", ""},
+                         {"line", 0}}));
   if (event.values.empty()) return;
   const auto topic = fmt::format("/{}/{}", event.source, event.event);
   auto found = event_topics_.find(topic);
@@ -249,11 +247,11 @@ void McapFile::happened(const RecordedEvent& event) {
     for (const auto& value : event.values) properties[value.name] = number_schema(value.unit);
     const auto name = fmt::format("drycut.{}.{}", event.source, event.event);
     const Json described = {{"type", "object"}, {"properties", properties}, {"title", name}};
-    found = event_topics_.emplace(topic, add_topic(topic, name, described.dump())).first;
+    found = event_topics_.emplace(topic, add_topic(topic, name, json_text(described))).first;
   }
   std::string json;
   for (const auto& value : event.values) {
-    json += fmt::format("{}{}:", json.empty() ? "{" : ",", Json(value.name).dump());
+    json += fmt::format("{}{}:", json.empty() ? "{" : ",", json_text(Json(value.name)));
     append_number(json, without_noise(value.number));
   }
   add_message(found->second, time, json + "}");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/json.hpp"
 #include "base/text.hpp"
 #include "sim/file.hpp"
 #include "sim/record/json.hpp"
@@ -20,7 +21,7 @@ Json json_in(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return {};
   const auto text = read_file(file, ignored);
-  auto json = text ? Json::parse(*text, nullptr, false) : Json();
+  auto json = text ? json_or_null(*text) : Json();
   return json.is_object() ? std::move(json) : Json();
 }
 
@@ -99,7 +100,7 @@ std::optional<Verdict> read_verdict(const std::filesystem::path& folder) {
     auto verdict = verdict_of(outcome);
     verdict.drycut = json.at("drycut").get<std::string>();
     return verdict;
-  } catch (const nlohmann::json::exception&) {
+  } catch (const Json::exception&) {
     return {};
   }
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/json.hpp"
 #include "base/plain_text.hpp"
 #include "base/text.hpp"
 #include "sim/file.hpp"
@@ -125,7 +126,7 @@ std::string margin_text(const record::CheckResult& check) {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-std::string told_of(const record::Json& visited, const std::vector<std::string_view>& keys) {
+std::string told_of(const Json& visited, const std::vector<std::string_view>& keys) {
   std::vector<std::string> parts;
   for (const auto key : keys) {
     const auto& value = visited.at(std::string(key));
@@ -134,7 +135,7 @@ std::string told_of(const record::Json& visited, const std::vector<std::string_v
     std::ranges::replace(name, '_', ' ');
     const auto text = value.is_string()         ? value.get<std::string>()
                       : value.is_number_float() ? fmt::format("{:.6g}", value.get<double>())
-                                                : record::json_text(value);
+                                                : json_text(value);
     parts.push_back(value == true ? name : name + " " + text);
   }
   return fmt::format("{}", fmt::join(parts, "; "));
@@ -173,7 +174,7 @@ record::Outcome outcome_to_come() {
 }
 
 void write_checks(const record::Outcome& outcome, const std::filesystem::path& file) {
-  record::Json json = {{"drycut", DRYCUT_VERSION}};
+  Json json = {{"drycut", DRYCUT_VERSION}};
   json.update(record::json_of(outcome));
   if (const auto& half = outcome.half_step)
     for (std::size_t i = 0; i < std::min(outcome.checks.size(), half->checks.size()); ++i) {
@@ -182,7 +183,7 @@ void write_checks(const record::Outcome& outcome, const std::filesystem::path& f
                                         {"margin", record::json_of(other.margin)},
                                         {"moved", record::json_of(studies::moved(outcome.checks[i], other))}};
     }
-  write_file(file, record::json_text(json, 2) + "\n");
+  write_file(file, json_text(json, 2) + "\n");
 }
 
 std::string scenario_text(const scenario::Scenario& scenario) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/json.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/record/json.hpp"
 #include "sim/record/verdict.hpp"
@@ -85,7 +86,7 @@ void write_junit(const std::vector<RunResult>& results, const std::filesystem::p
 std::string margin_text(const record::CheckResult& check);
 /// Members of a visited value (record::json_of) as they stand: "cuts 15; late by 0.25"; what is none is left
 /// out.
-std::string told_of(const record::Json& visited, const std::vector<std::string_view>& keys);
+std::string told_of(const Json& visited, const std::vector<std::string_view>& keys);
 
 /// The check of a run with --strict that has warnings: it fails.
 record::CheckResult no_warnings(const record::Outcome& outcome);

@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
+#include "base/json.hpp"
 #include "sim/scenario/archive.hpp"
 
 namespace drycut::sim::scenario {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Collects the keys of one map. What it visits is filled with defaults and thrown away.
 class SchemaWriter final : public Archive {
@@ -19,7 +16,7 @@ class SchemaWriter final : public Archive {
   explicit SchemaWriter(bool whole = true) : whole_(whole) {}
 
   // A value, or a text with variables.
-  void value(const Key& key, const Form& form) override { put(key, or_computed(Json::parse(form.schema()))); }
+  void value(const Key& key, const Form& form) override { put(key, or_computed(json_from(form.schema()))); }
 
   void section(const Key& key, const Visit& visit) override { put(key, inner(visit)); }
 
@@ -48,7 +45,7 @@ class SchemaWriter final : public Archive {
         level = &group["properties"];
         rest.remove_prefix(dot + 1);
       }
-      auto& one = (*level)[std::string(rest)] = or_computed(Json::parse(row.form.schema()));
+      auto& one = (*level)[std::string(rest)] = or_computed(json_from(row.form.schema()));
       one["description"] = row.meaning();
     }
     if (!table.open.empty()) properties_[table.open] = {{"type", "object"}};
@@ -84,9 +81,9 @@ class SchemaWriter final : public Archive {
     put(key, std::move(one));
   }
 
-  void alone(const Form& form) override { single_ = Json::parse(form.schema()); }
+  void alone(const Form& form) override { single_ = json_from(form.schema()); }
   bool instead(bool, const Form& form) override {
-    alternative_ = or_computed(Json::parse(form.schema()));
+    alternative_ = or_computed(json_from(form.schema()));
     return false;
   }
   void require(std::string_view key, std::string_view) override {
@@ -180,7 +177,7 @@ std::string json_schema(const std::function<void(Archive&)>& comparison,
                         {{"if", {{"required", {"file"}}}},
                          {"then", SchemaWriter::of(recording, true)},
                          {"else", of(scenario)}}}};
-  return schema.dump(1);
+  return json_text(schema, 1);
 }
 
 }  // namespace drycut::sim::scenario

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/json.hpp"
 #include "base/text.hpp"
 #include "sim/record/hdf5_file.hpp"
 #include "sim/record/json.hpp"
@@ -85,7 +86,7 @@ void write_record(const record::Record& record, RecordFormat format, const fs::p
     case RecordFormat::mcap: {
       auto about = record.about;
       if (!record.outcome.checks.empty())
-        about.emplace_back("outcome", record::json_text(record::json_of(record.outcome)));
+        about.emplace_back("outcome", json_text(record::json_of(record.outcome)));
       told(record::McapFile(channels.recording, part.path(), about));
       break;
     }

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/json.hpp"
 #include "base/problem.hpp"
 #include "sim/record/json.hpp"
 
@@ -34,7 +35,7 @@ class KeptLines {
 template <typename Question>
 std::shared_ptr<const Question> question_in(const std::string& text) {
   auto question = std::make_shared<Question>();
-  record::take_json(record::Json::parse(text), *question);
+  record::take_json(json_from(text), *question);
   Problems problems;
   prepare(*question, problems);
   if (!problems.empty()) throw std::runtime_error(to_string(problems.front()));

@@ -22,7 +22,7 @@ struct Index : CommandTest {
     folder.file(name, text);
   }
   void verdict(const std::string& name, const record::Verdict& verdict) const {
-    write(name + "/verdict.json", record::json_text(record::json_of(verdict)));
+    write(name + "/verdict.json", json_text(record::json_of(verdict)));
   }
   /// The folder of a run as drycut run leaves it, whose checks ended so.
   void run(const std::string& name, const std::vector<bool>& checks, bool pictures = true) const {

@@ -1,13 +1,10 @@
 #include "sim/fmi/line/carried_line.hpp"
 
-#include <nlohmann/json.hpp>
-
+#include "base/json.hpp"
 #include "sim/fmi/line/built_line.hpp"
 #include "sim/scenario/units.hpp"
 
 namespace drycut::sim::fmi {
-
-using Json = nlohmann::json;
 
 std::string line_bytes(const CarriedLine& line) {
   Json files = Json::object();

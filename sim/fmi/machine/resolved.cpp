@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <span>
 
+#include "base/json.hpp"
 #include "base/state_archive.hpp"
 
 namespace drycut::sim::fmi {
-
-using Json = nlohmann::ordered_json;
 
 std::string machine_text(const ResolvedMachine& machine) {
   Json json = {{"made_by", machine.made_by}, {"step_ns", machine.step}, {"seed", machine.seed}};
@@ -20,11 +18,11 @@ std::string machine_text(const ResolvedMachine& machine) {
       std::visit([&, &key = name](const auto& given) { values[key] = given; }, value);
     json["plants"].push_back({{"name", plant.name}, {"type", plant.type}, {"parameters", std::move(values)}});
   }
-  return json.dump(1) + "\n";
+  return json_text(json, 1) + "\n";
 }
 
 ResolvedMachine read_machine(std::string_view text) {
-  const auto json = Json::parse(text);
+  const auto json = json_from(text);
   ResolvedMachine machine{json.at("made_by"), json.at("step_ns"), json.at("seed")};
   for (const auto& [unit, scale] : json.at("units").items()) machine.units[unit] = {scale.at(0), scale.at(1)};
   for (const auto& plant : json.at("plants")) {

@@ -218,7 +218,7 @@ Json read_rows(hid_t file, const hdf5::OutcomeTable& table) {
       if (form.is_string())
         value = rows.text(row, i);
       else if (fields[i].text_size > 0)
-        value = Json::parse(rows.text(row, i));
+        value = json_from(rows.text(row, i));
       else if (form.is_boolean())
         value = rows.number(row, i) != 0;
       else if (!std::isnan(rows.number(row, i)))

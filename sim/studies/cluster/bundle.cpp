@@ -6,7 +6,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "sim/loop/fingerprint.hpp"
@@ -14,8 +13,6 @@
 namespace drycut::sim::cluster {
 
 namespace {
-
-using nlohmann::json;
 
 /// This program, to the byte.
 std::string program() {
@@ -46,13 +43,13 @@ std::string this_machine() {
 }  // namespace
 
 std::string bundle_of(const std::string& kind, const std::string& question, const FileSet& files) {
-  auto staged = json::object();
+  auto staged = Json::object();
   for (const auto& [name, file] : files.files)
-    staged[name] = {static_cast<int>(file.state), json::binary({file.bytes.begin(), file.bytes.end()})};
-  const json bundle = {{"program", program()}, {"arithmetic", arithmetic()},
+    staged[name] = {static_cast<int>(file.state), Json::binary({file.bytes.begin(), file.bytes.end()})};
+  const Json bundle = {{"program", program()}, {"arithmetic", arithmetic()},
                        {"kind", kind},         {"question", question},
                        {"files", staged},      {"folders", files.folders}};
-  const auto bytes = json::to_cbor(bundle);
+  const auto bytes = Json::to_cbor(bundle);
   return {bytes.begin(), bytes.end()};
 }
 
@@ -63,7 +60,7 @@ std::string name_of_bundle(std::string_view bundle) {
 }
 
 Bundle read_bundle(std::string_view bytes, FileSet& files) try {
-  const auto all = json::from_cbor(bytes);
+  const auto all = Json::from_cbor(bytes);
   for (const auto& [name, file] : all.at("files").items()) {
     const auto& content = file.at(1).get_binary();
     files.files[name] = {static_cast<FileSet::State>(file.at(0).get<int>()),
@@ -82,7 +79,7 @@ Bundle read_bundle(std::string_view bytes, FileSet& files) try {
         "would not be the same bytes as here",
         this_machine());
   return bundle;
-} catch (const json::exception& error) {
+} catch (const Json::exception& error) {
   throw std::runtime_error(fmt::format("it is no bundle of work: {}", error.what()));
 }
 

@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 
@@ -25,7 +24,6 @@ namespace drycut::sim::cluster {
 
 namespace {
 
-using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 constexpr int no_dask = 77;  // dask.py's exit status where Python has no module distributed
@@ -54,8 +52,8 @@ class Client {
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 
-  void say(const json& message) {
-    const auto text = message.dump() + "\n";
+  void say(const Json& message) {
+    const auto text = json_text(message) + "\n";
     for (std::size_t sent = 0; sent < text.size();) {
       const auto size = send(socket_, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
       if (size >= 0) {
@@ -69,14 +67,14 @@ class Client {
   }
 
   /// What it has said, after `look_ms` at most; nothing if it has ended.
-  std::optional<std::vector<json>> hear() {
+  std::optional<std::vector<Json>> hear() {
     InterruptWatch::check();
     const bool there = receive(look_ms);
     InterruptWatch::check();
-    std::vector<json> messages;
+    std::vector<Json> messages;
     std::size_t begin = 0;
     for (auto end = heard_.find('\n'); end != std::string::npos; end = heard_.find('\n', begin)) {
-      messages.push_back(json::parse(heard_.substr(begin, end - begin)));
+      messages.push_back(json_from(heard_.substr(begin, end - begin)));
       begin = end + 1;
     }
     heard_.erase(0, begin);

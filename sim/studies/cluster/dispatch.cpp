@@ -6,9 +6,9 @@
 #include <cmath>
 #include <deque>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "base/json.hpp"
 #include "sim/interrupt.hpp"
 #include "sim/parallel.hpp"
 #include "sim/studies/cluster/bundle.hpp"
@@ -62,9 +62,9 @@ class Dispatch {
       if (items.empty()) break;
       Chunk chunk{engine_.chunks++, ""};
       for (const auto i : items) {
-        auto item = nlohmann::json{{"item", i}};
+        auto item = Json{{"item", i}};
         item["ask"] = open_.at(i).text;
-        chunk.items += item.dump() + "\n";
+        chunk.items += json_text(item) + "\n";
       }
       out_.emplace(chunk.number, Sent{std::move(items)});
       chunks.push_back(std::move(chunk));
@@ -126,8 +126,8 @@ class Dispatch {
   // What becomes of them.
 
   void hear(Sent& chunk, const std::string& line) {
-    const auto said = nlohmann::json::parse(line, nullptr, false);
-    if (said.is_discarded()) return;  // cut short by a kill: what it was to say is missing, and goes again
+    const auto said = json_or_null(line);
+    if (said.is_null()) return;  // cut short by a kill: what it was to say is missing, and goes again
     if (said.contains("refused")) throw std::runtime_error(said.at("refused").get<std::string>());
     if (!said.contains("item")) return;
     const auto item = said.at("item").get<std::size_t>();

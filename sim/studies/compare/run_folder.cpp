@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/json.hpp"
 #include "devices/plcopen/axis.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/known_events.hpp"
@@ -109,17 +110,17 @@ void place_of(const std::string& text, std::size_t byte, int& line, int& column)
 void read_checks_json(const std::string& text, const std::string& file, ComparedRun& run,
                       Problems& problems) {
   try {
-    const auto json = record::Json::parse(text);
+    const auto json = json_from(text);
     run.version = json.at("drycut").get<std::string>();
     static_cast<void>(json.at("passed"));
     static_cast<void>(json.at("checks"));
     record::take_json(json, run.outcome);
-  } catch (const nlohmann::json::parse_error& error) {
+  } catch (const Json::parse_error& error) {
     int line = 1;
     int column = 1;
     place_of(text, error.byte == 0 ? 0 : error.byte - 1, line, column);
     problems.push_back({"record.damaged"_code, file, line, column, "this is no JSON", run_again});
-  } catch (const nlohmann::json::exception& error) {
+  } catch (const Json::exception& error) {
     const std::string what = error.what();
     const auto bracket = what.find("] ");
     problems.push_back({"record.damaged"_code, file, 1, 1,

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/json.hpp"
 #include "base/text.hpp"
 #include "sim/loop/files_read.hpp"
 #include "sim/loop/fingerprint.hpp"
@@ -70,7 +71,7 @@ struct CellAsk {
 
 FaultCell cell_in(std::string_view text) {
   FaultCell cell;
-  record::take_json(record::Json::parse(text), cell);
+  record::take_json(json_from(text), cell);
   return cell;
 }
 
@@ -79,7 +80,7 @@ std::string fingerprint(const FaultQuestion& question) {
   loop::Fingerprint hash;
   hash.add_program();
   hash.add(*question.scenario);
-  hash.add(record::json_text(record::json_of(question)));
+  hash.add(json_text(record::json_of(question)));
   for (const auto& moment : question.when) hash.add(fmt::format("{} {}", moment.at, moment.until));
   return fmt::format("# drycut faults, study {:016x}\n", hash.value());
 }
@@ -125,8 +126,8 @@ FaultMatrix try_faults(const FaultQuestion& question, const std::filesystem::pat
       return {};
     }
     const CellAsk asked{i / moments, i % moments};
-    return cluster::Ask{record::json_text(record::json_of(asked)), [&benches, asked] {
-                          return record::json_text(record::json_of(benches.cell(asked.fault, asked.when)));
+    return cluster::Ask{json_text(record::json_of(asked)), [&benches, asked] {
+                          return json_text(record::json_of(benches.cell(asked.fault, asked.when)));
                         }};
   };
   const auto take = [&](std::size_t i, const cluster::WorkerAnswer& answer) {
@@ -143,7 +144,7 @@ FaultMatrix try_faults(const FaultQuestion& question, const std::filesystem::pat
     }
     progress(++done, count);
   };
-  workers.run({"fault", record::json_text(record::json_of(question)), count, ask, take});
+  workers.run({"fault", json_text(record::json_of(question)), count, ask, take});
   return matrix;
 }
 
@@ -263,8 +264,8 @@ std::function<std::string(const std::string&)> fault_answerer(const std::string&
   const auto benches = std::make_shared<Benches>(*question);
   return [question, benches](const std::string& ask) {
     CellAsk asked;
-    record::take_json(record::Json::parse(ask), asked);
-    return record::json_text(record::json_of(benches->cell(asked.fault, asked.when)));
+    record::take_json(json_from(ask), asked);
+    return json_text(record::json_of(benches->cell(asked.fault, asked.when)));
   };
 }
 

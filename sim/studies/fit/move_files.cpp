@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "base/json.hpp"
 #include "base/output_file.hpp"
 #include "base/text.hpp"
 #include "sim/studies/fit/move_programs.hpp"
@@ -46,7 +46,7 @@ std::string machine_text(const FitPlan& plan, const FitMove& move, const std::fi
   const auto base = fs::relative(fs::absolute(plan.question.file), fs::absolute(folder));
   std::string text =
       fmt::format("# The machine of {} alone, where the move begins.\nextends: {}\n",
-                  plan.question.file.filename().string(), nlohmann::json(base.generic_string()).dump());
+                  plan.question.file.filename().string(), json_text(Json(base.generic_string())));
   const auto read = [&](const std::string& trial) {
     Problems problems;
     auto scenario = scenario::read_scenario_text(trial, folder / "machine.yaml", {}, problems);
@@ -61,7 +61,7 @@ std::string machine_text(const FitPlan& plan, const FitMove& move, const std::fi
       text += line;
   }
   // Numbers of --set are those of the machine that was asked for.
-  nlohmann::json tree = nlohmann::json::object();
+  Json tree = Json::object();
   for (const auto& one : plan.question.set) {
     if (!one.path.starts_with("plants.") && !one.path.starts_with("variables.") &&
         !one.path.starts_with("scene."))
@@ -86,7 +86,7 @@ std::string machine_text(const FitPlan& plan, const FitMove& move, const std::fi
     plants[move.axis.plant]["place"] = "90 m";
   }
   if (plants.empty()) tree.erase("plants");
-  for (const auto& [key, value] : tree.items()) text += fmt::format("{}: {}\n", key, value.dump());
+  for (const auto& [key, value] : tree.items()) text += fmt::format("{}: {}\n", key, json_text(value));
   return text;
 }
 
@@ -125,9 +125,9 @@ std::string scenario_text(const FitMove& move, const MoveProgram& program) {
       "s}}\n",
       axis.plant, program.maker, program.controller, length);
   if (!program.plants.empty()) {
-    nlohmann::json plants;
+    Json plants;
     for (const auto& [row, value] : program.plants) plants[axis.plant][row] = value;
-    text += fmt::format("plants: {}\n", plants.dump());
+    text += fmt::format("plants: {}\n", json_text(plants));
   }
   text += program.sections;
   text += fmt::format("timeline:\n  - {{at: {:.6g} s, set: {{panel.start: 1}}}}\n", begin);

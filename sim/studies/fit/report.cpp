@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/json.hpp"
 #include "base/output_file.hpp"
 #include "base/plain_text.hpp"
 #include "base/text.hpp"
@@ -192,7 +193,7 @@ std::string fitted_text(const FitPlan& plan, const FitFound& found, const std::f
   for (const auto& source : plan.sources)
     text += fmt::format("# From {}: {} rows of {}, FNV-1a {:016x}\n", source.file.filename().string(),
                         source.rows, source.from.filename().string(), source.checksum);
-  text += fmt::format("extends: {}\n", nlohmann::json(scenario.generic_string()).dump());
+  text += fmt::format("extends: {}\n", json_text(Json(scenario.generic_string())));
   std::string entries;
   std::vector<std::string> open;
   std::string limits;
@@ -215,14 +216,14 @@ std::string fitted_text(const FitPlan& plan, const FitFound& found, const std::f
     };
     entries += fmt::format(" {}  # before {:.5g}\n", quantity(*value.value), value.before);
     limits += fmt::format("  {}: {{low: {}, high: {}, from: {}}}\n", value.path, quantity(*value.low),
-                          quantity(*value.high), nlohmann::json(sources_text(plan)).dump());
+                          quantity(*value.high), json_text(Json(sources_text(plan))));
     open = keys;
   }
   return text + entries + (limits.empty() ? "" : "fitted:\n" + limits);
 }
 
 int write_fit(const FitPlan& plan, const FitFound& found, OutputFolder& folder, bool pictures) {
-  write_file(folder.add(fit_file), record::json_of(found).dump(2) + "\n");
+  write_file(folder.add(fit_file), json_text(record::json_of(found), 2) + "\n");
   write_file(folder.add(fitted_file), fitted_text(plan, found, folder.path()));
   if (pictures) report::write_report(page(plan, found), plots_of(plan, found), folder);
   const auto verdict = verdict_of(plan, found);

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <utility>
 
+#include "base/json.hpp"
 #include "sim/studies/override_json.hpp"
 
 namespace drycut::sim::studies {
@@ -53,7 +54,7 @@ std::vector<PointRow> PointStore::rows(const PointQuestion& question, const std:
       twins.push_back(i);
       return {};
     }
-    return cluster::Ask{record::json_text(record::json_of(points[i])),
+    return cluster::Ask{json_text(record::json_of(points[i])),
                         [&question, point] { return row_text(run_point(question, *point)); }};
   };
   const auto take = [&](std::size_t i, const cluster::WorkerAnswer& answer) {
@@ -76,7 +77,7 @@ std::vector<PointRow> PointStore::rows(const PointQuestion& question, const std:
     ++(rows[i].verdict == PointRow::Verdict::refused ? refused_ : simulated_);
     progress(++done, points.size());
   };
-  workers_.run({"point", record::json_text(record::json_of(question)), points.size(), ask, take});
+  workers_.run({"point", json_text(record::json_of(question)), points.size(), ask, take});
   for (const auto i : twins) {
     rows[i] = rows[asked.at(keys[i])];
     progress(++done, points.size());
@@ -88,7 +89,7 @@ std::function<std::string(const std::string&)> point_answerer(const std::string&
   const auto question = question_in<PointQuestion>(text);
   return [question](const std::string& ask) {
     Overrides overrides;
-    record::take_json(record::Json::parse(ask), overrides);
+    record::take_json(json_from(ask), overrides);
     return row_text(run_point(*question, read_point(*question, overrides)));
   };
 }

@@ -1,3 +1,4 @@
+#include "base/json.hpp"
 #include "sim/studies/tune/parameter.hpp"
 
 #include <fmt/format.h>
@@ -27,9 +28,9 @@ std::optional<FitFound> read_fit(const std::string& file, const std::string& opt
   FitFound found;
   found.format = 0;
   try {
-    record::take_json(record::Json::parse(*text), found);
+    record::take_json(json_from(*text), found);
     if (found.format == known_format && std::ranges::all_of(found.parameters, is_sound)) return found;
-  } catch (const record::Json::exception&) {  // told below
+  } catch (const Json::exception&) {  // told below
   }
   problems.push_back({"study.argument"_code, option, 1, 1, fmt::format("{} is no result of a fit", file),
                       "the fit.json of drycut fit, or PATH=LO..HI UNIT"});

@@ -11,6 +11,7 @@
 #include <span>
 #include <tuple>
 
+#include "base/json.hpp"
 #include "base/text.hpp"
 #include "sim/loop/files_read.hpp"
 #include "sim/loop/fingerprint.hpp"
@@ -188,8 +189,8 @@ std::vector<std::size_t> Trials::run(const std::string& phase, const std::vector
     TrialAsk asked{fixed_, std::isfinite(to_beat) ? std::optional(to_beat) : std::nullopt};
     for (auto& override : overrides_of(parameters_, trials_[open[i]].point))
       asked.overrides.push_back(std::move(override));
-    return std::optional(cluster::Ask{record::json_text(record::json_of(asked)),
-                                      [this, asked] { return answer_of(study_, asked); }});
+    return std::optional(
+        cluster::Ask{json_text(record::json_of(asked)), [this, asked] { return answer_of(study_, asked); }});
   };
   const auto take = [&](std::size_t i, const cluster::WorkerAnswer& answer) {
     auto& trial = trials_[open[i]];
@@ -209,7 +210,7 @@ std::vector<std::size_t> Trials::run(const std::string& phase, const std::vector
     }
     if (progress_) progress_(runs_done);
   };
-  workers_.run({"trial", record::json_text(record::json_of(study_)), open.size(), ask, take});
+  workers_.run({"trial", json_text(record::json_of(study_)), open.size(), ask, take});
   return indices;
 }
 
@@ -236,7 +237,7 @@ std::function<std::string(const std::string&)> trial_answerer(const std::string&
   const auto study = question_in<Study>(text);
   return [study](const std::string& ask) {
     TrialAsk asked;
-    record::take_json(record::Json::parse(ask), asked);
+    record::take_json(json_from(ask), asked);
     return answer_of(*study, asked);
   };
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/json.hpp"
 #include "base/output_file.hpp"
 #include "base/text.hpp"
 #include "sim/record/json.hpp"
@@ -248,7 +249,7 @@ Table difference_table(const WhyFound& found) {
 int write_why(const WhyFound& found, OutputFolder& folder, bool pictures) {
   auto json = record::json_of(found);
   json["sentences"] = why_sentences(found);
-  write_file(folder.add(why_file), record::json_text(json, 2) + "\n");
+  write_file(folder.add(why_file), json_text(json, 2) + "\n");
   auto verdict = verdict_of(found);
   const int status = verdict.exit;
   if (pictures) {
