@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cassert>
-#include <deque>
 #include <stdexcept>
 #include <vector>
 
@@ -64,9 +63,9 @@ struct SlideBody {
 class GuidedWorld : public btDiscreteDynamicsWorld {
  public:
   using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
-  std::deque<ShaftBody> shafts;
-  std::deque<SlideBody> slides;
-  std::deque<SlideBody> slow_slides;
+  std::vector<std::unique_ptr<ShaftBody>> shafts;
+  std::vector<std::unique_ptr<SlideBody>> slides;
+  std::vector<std::unique_ptr<SlideBody>> slow_slides;
   bool slow_too = false;
   const std::string* failed = nullptr;  // body that left the range of the integrator
   double failed_speed = 0;
@@ -80,17 +79,17 @@ class GuidedWorld : public btDiscreteDynamicsWorld {
   void internalSingleStepSimulation(btScalar h) override {
     // All forces first: Bullet reads in other pieces what was written, which takes long when it is written
     // just before.
-    for (ShaftBody& s : shafts) load(s);
-    for (SlideBody& s : slides)
-      if (s.state.awake) load(s);
-    for (ShaftBody& s : shafts) turn(s, h);
-    for (SlideBody& s : slides)
-      if (s.state.awake) move(s, h);
+    for (const auto& s : shafts) load(*s);
+    for (const auto& s : slides)
+      if (s->state.awake) load(*s);
+    for (const auto& s : shafts) turn(*s, h);
+    for (const auto& s : slides)
+      if (s->state.awake) move(*s, h);
     if (slow_too)
-      for (SlideBody& s : slow_slides) {
-        if (!s.state.awake) continue;
-        load(s);
-        move(s, h * World::slow_steps);
+      for (const auto& s : slow_slides) {
+        if (!s->state.awake) continue;
+        load(*s);
+        move(*s, h * World::slow_steps);
       }
   }
 
@@ -212,7 +211,7 @@ World::~World() = default;
 Shaft& World::add_shaft(const ShaftDefinition& definition) {
   assert(definition.inertia > 0);
   const double j = definition.inertia;
-  ShaftBody& s = bodies_->world.shafts.emplace_back();
+  ShaftBody& s = *bodies_->world.shafts.emplace_back(std::make_unique<ShaftBody>());
   s.name = definition.name;
   s.body = bodies_->make_body(1, btVector3(j, j, j));
   s.body->setLinearFactor(btVector3(0, 0, 0));
@@ -227,8 +226,8 @@ Shaft& World::add_shaft(const ShaftDefinition& definition) {
 
 Slide& World::add_slide(const SlideDefinition& definition) {
   assert(definition.mass > 0);
-  std::deque<SlideBody>& list = definition.slow ? bodies_->world.slow_slides : bodies_->world.slides;
-  SlideBody& s = list.emplace_back();
+  auto& list = definition.slow ? bodies_->world.slow_slides : bodies_->world.slides;
+  SlideBody& s = *list.emplace_back(std::make_unique<SlideBody>());
   s.name = definition.name;
   s.axis = btVector3(definition.axis[0], definition.axis[1], definition.axis[2]);
   s.weight = definition.gravity ? definition.mass * -units::gravity * definition.axis[1] : 0;
@@ -243,11 +242,11 @@ Slide& World::add_slide(const SlideDefinition& definition) {
 void World::set_mass(Slide& slide, double mass) {
   assert(mass > 0);
   for (auto* list : {&bodies_->world.slides, &bodies_->world.slow_slides})
-    for (SlideBody& s : *list) {
-      if (&s.state != &slide) continue;
-      s.weight *= mass / s.state.mass;
-      s.state.mass = mass;
-      set_mass_of(*s.body, mass);
+    for (const auto& s : *list) {
+      if (&s->state != &slide) continue;
+      s->weight *= mass / s->state.mass;
+      s->state.mass = mass;
+      set_mass_of(*s->body, mass);
       return;
     }
   throw std::invalid_argument("World::set_mass: a slide of another world");
@@ -255,10 +254,10 @@ void World::set_mass(Slide& slide, double mass) {
 
 void World::set_inertia(Shaft& shaft, double inertia) {
   assert(inertia > 0);
-  for (ShaftBody& s : bodies_->world.shafts) {
-    if (&s.state != &shaft) continue;
+  for (const auto& s : bodies_->world.shafts) {
+    if (&s->state != &shaft) continue;
     shaft.inertia = inertia;
-    set_inertia_of(*s.body, inertia);
+    set_inertia_of(*s->body, inertia);
     return;
   }
   throw std::invalid_argument("World::set_inertia: a shaft of another world");
@@ -290,7 +289,7 @@ void World::visit(StateArchive& archive) {
   GuidedWorld& world = bodies_->world;
   int number = 0;  // two knives have bodies of the same names
   const auto visit_all = [&](auto& bodies) {
-    for (auto& body : bodies) archive.named(fmt::format("{} {}", ++number, body.name), body);
+    for (auto& body : bodies) archive.named(fmt::format("{} {}", ++number, body->name), *body);
   };
   visit_all(world.shafts);
   visit_all(world.slides);
@@ -308,15 +307,15 @@ Random World::random(std::string_view source) {
 }
 
 Pose World::pose(const Shaft& shaft) const {
-  for (ShaftBody& s : bodies_->world.shafts)
-    if (&s.state == &shaft) return pose_of(s);
+  for (const auto& s : bodies_->world.shafts)
+    if (&s->state == &shaft) return pose_of(*s);
   throw std::invalid_argument("World::pose: a shaft of another world");
 }
 
 Pose World::pose(const Slide& slide) const {
   for (auto* list : {&bodies_->world.slides, &bodies_->world.slow_slides})
-    for (SlideBody& s : *list)
-      if (&s.state == &slide) return pose_of(s);
+    for (const auto& s : *list)
+      if (&s->state == &slide) return pose_of(*s);
   throw std::invalid_argument("World::pose: a slide of another world");
 }
 
