@@ -58,6 +58,7 @@ Component::Component(const std::filesystem::path& resources, std::string_view to
                     "two FMUs",
                     token, token_));
   source_ = source_of(text, resources);
+  h_ = seconds(source_->step());
   machine_ = source_->build({});
 }
 
@@ -160,23 +161,28 @@ void Component::reset() {
   phase_ = Phase::instantiated;
 }
 
-Component::Reached Component::step(double at, double size, bool early) {
-  require(Phase::stepping, "step");
-  const double h = seconds(source_->step());
-  if (!(std::abs(at - time()) < h / 2))
-    throw Refusal(fmt::format("a step from {:.9g} s is asked for, and it is {:.9g} s", at, time()));
-  const double steps = std::round(size / h);
+std::int64_t Component::steps_in(double size) const {
+  if (size == h_) return 1;  // most importers go by one
+  const double steps = std::round(size / h_);
   // The difference of two times has lost digits.
-  if (!(std::abs(size / h - steps) < 1e-6 * std::max(1.0, steps)) || steps < 1 || steps > 1e15)
+  if (!(std::abs(size / h_ - steps) < 1e-6 * std::max(1.0, steps)) || steps < 1 || steps > 1e15)
     throw Refusal(fmt::format(
-        "a communication step of {:.12g} s is no whole multiple of the machine's step of {:g} s", size, h));
+        "a communication step of {:.12g} s is no whole multiple of the machine's step of {:g} s", size, h_));
+  return static_cast<std::int64_t>(steps);
+}
+
+bool Component::step(double at, double size, bool early) {
+  require(Phase::stepping, "step");
+  if (!(std::abs(at - time()) < h_ / 2))
+    throw Refusal(fmt::format("a step from {:.9g} s is asked for, and it is {:.9g} s", at, time()));
+  auto left = steps_in(size);
   if (!machine_->failure().empty()) throw Refusal(machine_->failure());
-  for (auto left = static_cast<std::int64_t>(steps); left > 0; --left) {
+  for (; left > 0; --left) {
     machine_->step();
     if (!machine_->failure().empty()) throw std::runtime_error(machine_->failure());
-    if (early && left > 1 && machine_->had_event()) return {time(), true};
+    if (early && left > 1 && machine_->had_event()) return true;
   }
-  return {time(), false};
+  return false;
 }
 
 StateArchive::Bytes Component::save() {

@@ -41,12 +41,9 @@ class Component {
   void terminate();
   void reset();
 
-  struct Reached {
-    double time;  ///< [s]
-    bool early;   ///< an event of the machine ended it before the end of the communication step
-  };
-  /// Steps from `at` by `size` [s], a whole number of the scene's steps. `early`: an event may end it.
-  Reached step(double at, double size, bool early);
+  /// Steps from `at` by `size` [s], a whole number of the scene's steps. `early`: an event of the machine may
+  /// end it before; true if one did.
+  bool step(double at, double size, bool early);
   /// [s], of the importer
   [[nodiscard]] double time() const { return start_ + seconds(machine_->time()); }
 
@@ -60,11 +57,14 @@ class Component {
 
   [[nodiscard]] const FmiVariable& variable(std::uint32_t reference, Type type, Type or_type) const;
   void require(Phase phase, std::string_view what) const;
+  /// Of a communication step [s]. Throws a Refusal where it is no whole multiple.
+  [[nodiscard]] std::int64_t steps_in(double size) const;
   void rebuild();
   void apply(std::uint32_t reference, const FmiValue& value);
 
   std::string token_;
   std::unique_ptr<FmiSource> source_;
+  double h_ = 0;  // a step of the scene [s]
   Phase phase_ = Phase::instantiated;
   double start_ = 0;
   FmiModel::Given parameters_ = {};  // in place of the resolved ones

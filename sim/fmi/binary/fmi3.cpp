@@ -146,9 +146,8 @@ DRYCUT_FMI FmiStatus fmi3DoStep(void* handle, double at, double size, bool /*no 
   return guarded(handle, [&](Component& component) {
     *event_handling = *terminate = *early = false;
     *reached = component.time();
-    const auto end = component.step(at, size, static_cast<Instance*>(handle)->early);
-    *early = end.early;
-    *reached = end.time;
+    *early = component.step(at, size, static_cast<Instance*>(handle)->early);
+    *reached = component.time();
   });
 }
 
