@@ -169,8 +169,7 @@ class RequestParser {
 /// [["length", 800.1, "mm"], ["number", 3, ""]]
 Json numbers_json(const record::RecordedEvent& event) {
   auto list = Json::array();
-  for (const auto& [name, number, unit] : event.values)
-    list.push_back({name, std::isfinite(number) ? Json(number) : Json(), unit});
+  for (const auto& [name, number, unit] : event.values) list.push_back({name, record::json_of(number), unit});
   return list;
 }
 
@@ -377,18 +376,8 @@ std::string answer_json(double id, const Problems& problems) {
   return json_text({{"done", id}, {"problems", list_of(problems)}});
 }
 
-namespace {
-
-Json numbers_of(const std::vector<double>& values) {
-  auto list = Json::array();
-  for (const double value : values) list.push_back(std::isfinite(value) ? Json(value) : Json());
-  return list;
-}
-
-}  // namespace
-
 std::string values_json(double id, const Problems& problems, const std::vector<double>& values) {
-  return json_text({{"done", id}, {"problems", list_of(problems)}, {"values", numbers_of(values)}});
+  return json_text({{"done", id}, {"problems", list_of(problems)}, {"values", record::json_of(values)}});
 }
 
 std::string seen_json(double id, const Problems& problems, const Seen& seen) {
@@ -396,9 +385,9 @@ std::string seen_json(double id, const Problems& problems, const Seen& seen) {
   Json past = {{"run", seen.run},
                {"time", seconds(seen.time)},
                {"poses", poses_json(seen.poses)},
-               {"values", numbers_of(seen.values)},
-               {"lamps", numbers_of(seen.lamps)},
-               {"read", numbers_of(seen.read)}};
+               {"values", record::json_of(seen.values)},
+               {"lamps", record::json_of(seen.lamps)},
+               {"read", record::json_of(seen.read)}};
   if (seen.programs) past["programs"] = positions_json(*seen.programs);
   past["outcome"] = record::json_of(seen.outcome);
   return json_text({{"done", id}, {"problems", Json::array()}, {"past", std::move(past)}});

@@ -1,16 +1,15 @@
 #pragma once
+#include "base/json.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::scenario {
 
 // An override as JSON: ["plants.web.speed", "80 m/min"].
 
-template <typename Json>
-void to_json(Json& json, const Override& override) {
+inline void to_json(Json& json, const Override& override) {
   json = Json::array({override.path, override.value});
 }
-template <typename Json>
-void from_json(const Json& json, Override& override) {
+inline void from_json(const Json& json, Override& override) {
   json.at(0).get_to(override.path);
   json.at(1).get_to(override.value);
 }
